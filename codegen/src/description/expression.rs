@@ -1,0 +1,251 @@
+//! Values: arithmetic on decimal literals and names.
+
+use proc_macro2::{Delimiter, Ident, Literal, Span, TokenStream};
+use syn::ext::IdentExt as _;
+use syn::parse::ParseStream;
+use syn::{Token, token};
+
+use super::list::{Fault, expected, parse_all};
+use crate::exact::{ExactError, Rational};
+use crate::report::{Diagnostic, Message};
+
+/// A value as written.
+#[derive(Debug, Clone)]
+pub struct Expression {
+    /// Its tokens; the first of them where the compiler does not join spans.
+    pub span: Span,
+    /// What it says.
+    pub kind: ExpressionKind,
+}
+
+/// The kinds of [`Expression`].
+#[derive(Debug, Clone)]
+pub enum ExpressionKind {
+    /// A decimal literal, exactly.
+    Number(Rational),
+    /// A parameter of the model.
+    Name(Ident),
+    /// A sum; a difference has [`Negative`](Self::Negative) members.
+    Sum(Vec<Expression>),
+    /// The product of all factors, divided by all divisors.
+    Product {
+        /// At least one.
+        factors: Vec<Expression>,
+        /// None without a `/`.
+        divisors: Vec<Expression>,
+    },
+    /// A power with a literal exponent.
+    Power(Box<Expression>, i32),
+    /// The opposite.
+    Negative(Box<Expression>),
+}
+
+impl Expression {
+    /// Parses an expression and stops where it ends.
+    pub(super) fn parse(input: ParseStream<'_>) -> Result<Self, Fault> {
+        let start = input.span();
+        let mut members = vec![Self::term(input, minus(input), start)?];
+        loop {
+            let sign = input.span();
+            let negative = if input.peek(Token![+]) {
+                punctuation::<Token![+]>(input)?;
+                false
+            } else if input.peek(Token![-]) {
+                punctuation::<Token![-]>(input)?;
+                true
+            } else {
+                break;
+            };
+            members.push(Self::term(input, negative, sign)?);
+        }
+        Ok(single(members).unwrap_or_else(|members| Self {
+            span: spanning(start, &members),
+            kind: ExpressionKind::Sum(members),
+        }))
+    }
+
+    /// Parses a product, or its opposite with the minus at `sign`.
+    fn term(input: ParseStream<'_>, negative: bool, sign: Span) -> Result<Self, Fault> {
+        let start = input.span();
+        let mut factors = vec![Self::power(input)?];
+        let mut divisors = Vec::new();
+        let mut last = factors.first().map_or(start, |factor| factor.span);
+        loop {
+            let side = if input.peek(Token![*]) {
+                punctuation::<Token![*]>(input)?;
+                &mut factors
+            } else if input.peek(Token![/]) {
+                punctuation::<Token![/]>(input)?;
+                &mut divisors
+            } else {
+                break;
+            };
+            let sign = input.span();
+            let negative = minus(input);
+            let factor = Self::power(input)?.signed(negative, sign);
+            last = factor.span;
+            side.push(factor);
+        }
+        let term = match single(factors) {
+            Ok(only) if divisors.is_empty() => only,
+            factors => Self {
+                span: start.join(last).unwrap_or(start),
+                kind: ExpressionKind::Product {
+                    factors: factors.map_or_else(|several| several, |only| vec![only]),
+                    divisors,
+                },
+            },
+        };
+        Ok(term.signed(negative, sign))
+    }
+
+    /// Parses a primary and its exponent.
+    fn power(input: ParseStream<'_>) -> Result<Self, Fault> {
+        let base = Self::primary(input)?;
+        if !input.peek(Token![^]) {
+            return Ok(base);
+        }
+        punctuation::<Token![^]>(input)?;
+        let start = input.span();
+        let exponent = if input.peek(token::Paren) {
+            parse_all(parenthesised(input)?, exponent)
+                .map_err(|_| Diagnostic::new(start, Message::Exponent))?
+        } else {
+            exponent(input)?
+        };
+        if input.peek(Token![^]) {
+            return Err(Diagnostic::new(input.span(), Message::ChainedPower).into());
+        }
+        Ok(Self {
+            span: base.span.join(start).unwrap_or(base.span),
+            kind: ExpressionKind::Power(Box::new(base), exponent),
+        })
+    }
+
+    /// Parses a literal, a name or an expression in parentheses.
+    fn primary(input: ParseStream<'_>) -> Result<Self, Fault> {
+        let span = input.span();
+        // A fragment that `macro_rules!` passed on keeps together as if it
+        // stood in parentheses.
+        if let Some(tokens) = invisible_group(input) {
+            return parse_all((tokens, span), Self::parse);
+        }
+        if input.peek(token::Paren) {
+            return parse_all(parenthesised(input)?, Self::parse);
+        }
+        if input.peek(syn::Lit) {
+            let value = number(input)?;
+            let kind = ExpressionKind::Number(value);
+            return Ok(Self { span, kind });
+        }
+        if input.peek(syn::Ident::peek_any) {
+            let name = Ident::parse_any(input).map_err(|_| expected(input, Self::WHAT))?;
+            if input.peek(token::Paren) {
+                let name = name.to_string();
+                return Err(Diagnostic::new(span, Message::FunctionCall { name }).into());
+            }
+            let kind = ExpressionKind::Name(name);
+            return Ok(Self { span, kind });
+        }
+        Err(expected(input, Self::WHAT))
+    }
+
+    /// How a value is called where one is missing.
+    const WHAT: &'static str = "a number or the name of a parameter";
+
+    /// The opposite if `negative`, by a minus at `sign`.
+    fn signed(self, negative: bool, sign: Span) -> Self {
+        if !negative {
+            return self;
+        }
+        Self {
+            span: sign.join(self.span).unwrap_or(sign),
+            kind: ExpressionKind::Negative(Box::new(self)),
+        }
+    }
+}
+
+/// The only member, or all of them.
+fn single(mut members: Vec<Expression>) -> Result<Expression, Vec<Expression>> {
+    match (members.pop(), members.is_empty()) {
+        (Some(only), true) => Ok(only),
+        (last, _) => {
+            members.extend(last);
+            Err(members)
+        }
+    }
+}
+
+/// The place from `start` to the end of the last member.
+fn spanning(start: Span, members: &[Expression]) -> Span {
+    members
+        .last()
+        .and_then(|last| start.join(last.span))
+        .unwrap_or(start)
+}
+
+/// Takes a punctuation mark that was peeked at.
+fn punctuation<T: syn::parse::Parse>(input: ParseStream<'_>) -> Result<(), Fault> {
+    match input.parse::<T>() {
+        Ok(_) => Ok(()),
+        Err(_) => Err(expected(input, Expression::WHAT)),
+    }
+}
+
+/// Takes a minus where there is one.
+fn minus(input: ParseStream<'_>) -> bool {
+    input.peek(Token![-]) && input.parse::<Token![-]>().is_ok()
+}
+
+/// The tokens in parentheses and the place where they end.
+fn parenthesised(input: ParseStream<'_>) -> Result<(TokenStream, Span), Fault> {
+    input
+        .step(|cursor| match cursor.group(Delimiter::Parenthesis) {
+            Some((inside, span, rest)) => Ok(((inside.token_stream(), span.close()), rest)),
+            None => Err(cursor.error("")),
+        })
+        .map_err(|_| expected(input, "`(`"))
+}
+
+/// The tokens of a group without delimiters, where one comes next.
+fn invisible_group(input: ParseStream<'_>) -> Option<TokenStream> {
+    input
+        .step(|cursor| match cursor.group(Delimiter::None) {
+            Some((inside, _, rest)) => Ok((inside.token_stream(), rest)),
+            None => Err(cursor.error("")),
+        })
+        .ok()
+}
+
+/// Parses a decimal literal.
+pub(super) fn number(input: ParseStream<'_>) -> Result<Rational, Fault> {
+    let span = input.span();
+    let text = literal(input, Expression::WHAT)?;
+    Rational::parse_decimal(&text).map_err(|error| {
+        let message = match error {
+            ExactError::Exponent => Message::NumberRange,
+            ExactError::TooLong => Message::NumberLength,
+            ExactError::Malformed | ExactError::DivisionByZero => Message::NotDecimal { text },
+        };
+        Diagnostic::new(span, message).into()
+    })
+}
+
+/// The text of a literal.
+pub(super) fn literal(input: ParseStream<'_>, what: &'static str) -> Result<String, Fault> {
+    // Takes `true` too, which is a literal to syn and a name to the compiler.
+    input
+        .parse::<Literal>()
+        .map(|literal| literal.to_string())
+        .map_err(|_| expected(input, what))
+}
+
+/// Parses an exponent: a whole number with an optional minus.
+fn exponent(input: ParseStream<'_>) -> Result<i32, Fault> {
+    let span = input.span();
+    let negative = minus(input);
+    let fault = || Fault::from(Diagnostic::new(span, Message::Exponent));
+    let text = literal(input, "a whole number").map_err(|_| fault())?;
+    let magnitude: i32 = text.replace('_', "").parse().map_err(|_| fault())?;
+    Ok(if negative { -magnitude } else { magnitude })
+}

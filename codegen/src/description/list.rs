@@ -1,0 +1,153 @@
+//! Reading lists, and what stands between their members, past mistakes.
+
+use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
+use syn::Token;
+use syn::ext::IdentExt as _;
+use syn::parse::{ParseStream, Parser as _};
+
+use crate::report::{Diagnostic, Message, Report};
+
+/// What could be read of a list.
+pub(super) struct List<T> {
+    /// The members that could be read.
+    pub(super) members: Vec<T>,
+    /// Whether there was another one.
+    pub(super) damaged: bool,
+}
+
+impl<T> Default for List<T> {
+    fn default() -> Self {
+        Self {
+            members: Vec::new(),
+            damaged: false,
+        }
+    }
+}
+
+/// Reads members with commas between them, and after a mistake goes on behind
+/// the next comma.
+pub(super) fn list<T>(
+    (tokens, end): (TokenStream, Span),
+    report: &mut Report,
+    mut member: impl FnMut(ParseStream<'_>, &mut Report) -> Result<T, Fault>,
+) -> List<T> {
+    let mut found = List::default();
+    let read = |input: ParseStream<'_>| {
+        while !input.is_empty() {
+            let outcome = member(input, report).and_then(|member| {
+                if input.is_empty() || input.peek(Token![,]) {
+                    Ok(member)
+                } else {
+                    Err(expected(input, "`,`"))
+                }
+            });
+            match outcome {
+                Ok(member) => found.members.push(member),
+                Err(fault) => {
+                    found.damaged = true;
+                    report.push(fault.placed(end));
+                }
+            }
+            while !input.is_empty() && !input.peek(Token![,]) {
+                input.parse::<TokenTree>()?;
+            }
+            if !input.is_empty() {
+                input.parse::<Token![,]>()?;
+            }
+        }
+        Ok(())
+    };
+    if let Err(error) = read.parse2(tokens) {
+        found.damaged = true;
+        report.error(error.span(), Message::Expected { what: "`,`" });
+    }
+    found
+}
+
+/// Parses all of `tokens`, which end at `end`.
+pub(super) fn parse_all<T>(
+    (tokens, end): (TokenStream, Span),
+    parse: impl FnOnce(ParseStream<'_>) -> Result<T, Fault>,
+) -> Result<T, Fault> {
+    let mut outcome = None;
+    let read = |input: ParseStream<'_>| {
+        let parsed = parse(input).and_then(|value| {
+            if input.is_empty() {
+                Ok(value)
+            } else {
+                Err(expected(input, "an operator or `)`"))
+            }
+        });
+        outcome = Some(parsed);
+        // What is wrong is in `outcome`; syn is not to add to it.
+        input.parse::<TokenStream>().map(|_| ())
+    };
+    match (read.parse2(tokens), outcome) {
+        (Ok(()), Some(outcome)) => outcome.map_err(|fault| fault.placed(end).into()),
+        _ => Err(Fault::AtEnd("a value").placed(end).into()),
+    }
+}
+
+/// The tokens in the given delimiters, and the place where they end.
+pub(super) fn group(
+    input: ParseStream<'_>,
+    delimiter: Delimiter,
+    what: &'static str,
+) -> Result<(TokenStream, Span), Fault> {
+    input
+        .step(|cursor| match cursor.group(delimiter) {
+            Some((inside, span, rest)) => Ok(((inside.token_stream(), span.close()), rest)),
+            None => Err(cursor.error("")),
+        })
+        .map_err(|_| expected(input, what))
+}
+
+/// A name; keywords are refused later, with a message of their own.
+pub(super) fn identifier(input: ParseStream<'_>, what: &'static str) -> Result<Ident, Fault> {
+    Ident::parse_any(input).map_err(|_| expected(input, what))
+}
+
+/// Takes a punctuation mark.
+pub(super) fn take<T: syn::parse::Parse>(
+    input: ParseStream<'_>,
+    what: &'static str,
+) -> Result<(), Fault> {
+    match input.parse::<T>() {
+        Ok(_) => Ok(()),
+        Err(_) => Err(expected(input, what)),
+    }
+}
+
+/// The next token is not `what` it should be.
+pub(super) fn expected(input: ParseStream<'_>, what: &'static str) -> Fault {
+    if input.is_empty() {
+        Fault::AtEnd(what)
+    } else {
+        Diagnostic::new(input.span(), Message::Expected { what }).into()
+    }
+}
+
+/// Why a member of a list could not be read.
+pub(super) enum Fault {
+    /// The list ended where this should have followed. Only who opened the list
+    /// knows the place.
+    AtEnd(&'static str),
+    /// Something is wrong at a known place.
+    Found(Diagnostic),
+}
+
+impl Fault {
+    /// The error, where the list ends at `end`.
+    fn placed(self, end: Span) -> Diagnostic {
+        match self {
+            Self::AtEnd(what) => Diagnostic::new(end, Message::Ended { what }),
+            Self::Found(diagnostic) => diagnostic,
+        }
+    }
+}
+
+impl From<Diagnostic> for Fault {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self::Found(diagnostic)
+    }
+}

@@ -1,0 +1,141 @@
+//! What the user wrote: the grammar of the attribute, with source positions.
+//!
+//! ```text
+//! attribute   = [ entry { "," entry } [ "," ] ]
+//! entry       = "crate" "=" path
+//!             | "gravity" "=" expression
+//!             | "emit" "(" [ request { "," request } [ "," ] ] ")"
+//!             | link
+//! link        = name [ ":" shape ] "(" [ property { "," property } [ "," ] ] ")"
+//!               [ "[" [ link { "," link } [ "," ] ] "]" ] [ "*" integer ]
+//! property    = name "=" value
+//! value       = expression | "(" expression "," expression ")"
+//! request     = name [ "(" [ form { "," form } [ "," ] ] ")" ]
+//! form        = name [ "=" integer ]
+//!
+//! expression  = [ "-" ] term { ( "+" | "-" ) term }
+//! term        = power { ( "*" | "/" ) [ "-" ] power }
+//! power       = primary [ "^" ( [ "-" ] integer | "(" [ "-" ] integer ")" ) ]
+//! primary     = decimal | name | "(" expression ")"
+//! ```
+//!
+//! `^` binds tighter than `*` and than a leading minus: `-a * b^2` is
+//! `-(a * (b^2))`. A `decimal` is read exactly; a `name` is a parameter of the
+//! model, the same name being the same parameter everywhere. A pair is a point
+//! of a link, `(along, lateral)`; a single value there means `(along, 0)`. Which
+//! properties and requests there are, and what they mean, is the business of
+//! [`scene`](crate::scene); this module knows their shape only.
+
+mod expression;
+mod list;
+mod parse;
+mod text;
+
+use proc_macro2::{Ident, Span, TokenStream};
+
+pub use expression::{Expression, ExpressionKind};
+pub use parse::parse;
+
+/// An attribute and the struct it stands on.
+#[derive(Debug, Clone)]
+pub struct Description {
+    /// The struct.
+    pub item: StructItem,
+    /// The value of `crate = ...`.
+    pub crate_path: Option<syn::Path>,
+    /// `gravity = ...`, m/s².
+    pub gravity: Option<Property>,
+    /// The links at the top level; a right description has one.
+    pub roots: Vec<Node>,
+    /// What `emit(...)` asks for.
+    pub requests: Vec<Request>,
+    /// Whether part of it was unreadable, which is reported already: what is
+    /// missing may have stood there.
+    pub damaged: bool,
+}
+
+/// The struct under the attribute: what survives of it in the expansion.
+#[derive(Debug, Clone)]
+pub struct StructItem {
+    /// Its other attributes, doc comments included.
+    pub attrs: Vec<syn::Attribute>,
+    /// Its visibility.
+    pub vis: syn::Visibility,
+    /// Its name.
+    pub ident: Ident,
+    /// The item as it was given, to be repeated where nothing else can be
+    /// emitted.
+    pub tokens: TokenStream,
+}
+
+/// A link, or a rule for several.
+#[derive(Debug, Clone)]
+pub struct Node {
+    /// Its name.
+    pub name: Ident,
+    /// What follows the colon: a shape, or `generations`.
+    pub shape: Option<Ident>,
+    /// What the parentheses hold.
+    pub properties: Vec<Property>,
+    /// What the brackets hold.
+    pub children: Vec<Node>,
+    /// What follows the `*`.
+    pub copies: Option<Multiplicity>,
+    /// Whether part of it was unreadable, which is reported already: what is
+    /// missing may have stood there.
+    pub damaged: bool,
+}
+
+impl Node {
+    /// Whether this link or one below it was unreadable in part.
+    pub fn is_damaged(&self) -> bool {
+        self.damaged || self.children.iter().any(Node::is_damaged)
+    }
+}
+
+/// The number of copies of a link.
+#[derive(Debug, Clone, Copy)]
+pub struct Multiplicity {
+    /// The number; `u32::MAX` for all larger ones.
+    pub count: u32,
+    /// Its place.
+    pub span: Span,
+}
+
+/// A name and its value.
+#[derive(Debug, Clone)]
+pub struct Property {
+    /// The name.
+    pub name: Ident,
+    /// The value.
+    pub value: Value,
+}
+
+/// The value of a property.
+#[derive(Debug, Clone)]
+pub enum Value {
+    /// A single value.
+    Single(Expression),
+    /// A point, `(along, lateral)`.
+    Pair(Expression, Expression),
+}
+
+/// Something to emit.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// Its name.
+    pub name: Ident,
+    /// What its parentheses hold; `None` without parentheses.
+    pub forms: Option<Vec<Form>>,
+    /// Whether some of the forms were unreadable, which is reported already.
+    pub damaged: bool,
+}
+
+/// A form of a requested output.
+#[derive(Debug, Clone)]
+pub struct Form {
+    /// Its name.
+    pub name: Ident,
+    /// What follows the `=`.
+    pub value: Option<Multiplicity>,
+}

@@ -1,0 +1,273 @@
+//! Tokens to [`Description`].
+//!
+//! A mistake costs the list member it stands in: reading goes on after the next
+//! comma of the same list, so that one missing `=` does not hide what follows.
+
+use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
+use syn::parse::ParseStream;
+use syn::{Token, token};
+
+use super::expression::literal;
+use super::list::{Fault, List, expected, group, identifier, list, parse_all, take};
+use super::{
+    Description, Expression, Form, Multiplicity, Node, Property, Request, StructItem, Value,
+};
+use crate::report::{Diagnostic, Message, Report};
+
+/// Deepest nesting of brackets and parentheses. A chain of more links is what
+/// `generations` is for.
+const MAX_NESTING: usize = 64;
+
+/// Reads an attribute and the struct that it stands on.
+///
+/// `attribute` holds the tokens between the parentheses of the attribute,
+/// `item` all tokens of the item under it. Mistakes go to `report`; what could
+/// be read is returned all the same, and `None` only where the item is no
+/// struct.
+pub fn parse(
+    attribute: TokenStream,
+    item: TokenStream,
+    report: &mut Report,
+) -> Option<Description> {
+    let entries = if let Some(span) = deepest(&attribute) {
+        report.error(span, Message::Nesting { limit: MAX_NESTING });
+        List {
+            members: Vec::new(),
+            damaged: true,
+        }
+    } else {
+        // The last token stands where the attribute ends.
+        let last = attribute.clone().into_iter().last();
+        let end = last.map_or_else(Span::call_site, |last| last.span());
+        list((attribute, end), report, entry)
+    };
+    let mut description = Description {
+        item: parse_item(item, report)?,
+        crate_path: None,
+        gravity: None,
+        roots: Vec::new(),
+        requests: Vec::new(),
+        damaged: entries.damaged,
+    };
+    let mut emits = 0;
+    for entry in entries.members {
+        match entry {
+            Entry::Crate(name, path) => {
+                if description.crate_path.replace(path).is_some() {
+                    report.error(name.span(), Message::duplicate_property(&name));
+                }
+            }
+            Entry::Gravity(property) => {
+                let span = property.name.span();
+                let message = Message::duplicate_property(&property.name);
+                if description.gravity.replace(property).is_some() {
+                    report.error(span, message);
+                }
+            }
+            Entry::Emit(name, requests) => {
+                emits += 1;
+                if emits > 1 {
+                    report.error(name.span(), Message::duplicate_property(&name));
+                }
+                description.requests.extend(requests);
+            }
+            Entry::Link(node) => description.roots.push(node),
+        }
+    }
+    Some(description)
+}
+
+/// A token below [`MAX_NESTING`] groups, if there is one. Looks without
+/// recursion, so that parsing afterwards may recurse.
+fn deepest(tokens: &TokenStream) -> Option<Span> {
+    let mut open = vec![tokens.clone().into_iter()];
+    while let Some(level) = open.last_mut() {
+        match level.next() {
+            Some(TokenTree::Group(group)) if open.len() > MAX_NESTING => return Some(group.span()),
+            Some(TokenTree::Group(group)) => open.push(group.stream().into_iter()),
+            Some(_) => {}
+            None => {
+                open.pop();
+            }
+        }
+    }
+    None
+}
+
+/// Reads the struct.
+fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
+    if deepest(&tokens).is_some() {
+        report.error(Span::call_site(), Message::NotAStruct);
+        return None;
+    }
+    let first = tokens.clone().into_iter().next();
+    let Ok(item) = syn::parse2::<syn::ItemStruct>(tokens.clone()) else {
+        let span = first.map_or_else(Span::call_site, |token| token.span());
+        report.error(span, Message::NotAStruct);
+        return None;
+    };
+    let name = item.ident.to_string();
+    if !item.fields.is_empty() {
+        report.error(
+            item.ident.span(),
+            Message::StructFields { name: name.clone() },
+        );
+    }
+    if !item.generics.params.is_empty() || item.generics.where_clause.is_some() {
+        report.error(item.ident.span(), Message::StructGenerics { name });
+    }
+    Some(StructItem {
+        attrs: item.attrs,
+        vis: item.vis,
+        ident: item.ident,
+        tokens,
+    })
+}
+
+/// A member of the attribute.
+enum Entry {
+    Crate(Ident, syn::Path),
+    Gravity(Property),
+    Emit(Ident, Vec<Request>),
+    Link(Node),
+}
+
+fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
+    let name = identifier(input, "a link, `gravity`, `emit` or `crate`")?;
+    if input.peek(Token![=]) {
+        return assignment(name, input);
+    }
+    if name == "emit" {
+        let requests = group(input, Delimiter::Parenthesis, "`(` and what to emit")?;
+        return Ok(Entry::Emit(name, list(requests, report, request).members));
+    }
+    if name == "gravity" || name == "crate" {
+        return Err(expected(input, "`=` and a value"));
+    }
+    node(name, input, report).map(Entry::Link)
+}
+
+/// `crate = path` or `gravity = value`, after the name.
+fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Entry, Fault> {
+    if name == "crate" {
+        take::<Token![=]>(input, "`=`")?;
+        let path = syn::Path::parse_mod_style(input)
+            .map_err(|_| expected(input, "the path of a crate, as in `::branched_pendulum`"))?;
+        return Ok(Entry::Crate(name, path));
+    }
+    if name == "gravity" {
+        return property_value(name, input).map(Entry::Gravity);
+    }
+    let message = Message::unknown_entry(name.to_string());
+    Err(Diagnostic::new(name.span(), message).into())
+}
+
+/// A link, after its name.
+fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node, Fault> {
+    let shape = if input.peek(Token![:]) {
+        take::<Token![:]>(input, "`:`")?;
+        Some(identifier(input, "a shape, as in `rod`")?)
+    } else {
+        None
+    };
+    let properties = group(
+        input,
+        Delimiter::Parenthesis,
+        "`(` and the properties of the link",
+    )?;
+    let properties = list(properties, report, property);
+    let children = if input.peek(token::Bracket) {
+        let children = group(input, Delimiter::Bracket, "`[` and the children")?;
+        list(children, report, |input, report| {
+            let name = identifier(input, "a link, as in `child(mass = 0.1, ...)`")?;
+            node(name, input, report)
+        })
+    } else {
+        List::default()
+    };
+    let copies = if input.peek(Token![*]) {
+        take::<Token![*]>(input, "`*`")?;
+        Some(whole_number(input, "a whole number, the number of copies")?)
+    } else {
+        None
+    };
+    Ok(Node {
+        name,
+        shape,
+        damaged: properties.damaged || children.damaged,
+        properties: properties.members,
+        children: children.members,
+        copies,
+    })
+}
+
+fn property(input: ParseStream<'_>, _: &mut Report) -> Result<Property, Fault> {
+    let name = identifier(input, "a property, as in `mass = 0.1`")?;
+    property_value(name, input)
+}
+
+/// A property, after its name.
+fn property_value(name: Ident, input: ParseStream<'_>) -> Result<Property, Fault> {
+    take::<Token![=]>(input, "`=` and a value")?;
+    let value = match pair(input) {
+        Some(pair) => parse_all(pair, |input| {
+            let along = Expression::parse(input)?;
+            take::<Token![,]>(input, "`,`")?;
+            let lateral = Expression::parse(input)?;
+            Ok(Value::Pair(along, lateral))
+        })?,
+        None => Value::Single(Expression::parse(input)?),
+    };
+    Ok(Property { name, value })
+}
+
+/// Takes parentheses with a comma in them.
+fn pair(input: ParseStream<'_>) -> Option<(TokenStream, Span)> {
+    let is_comma = |token: TokenTree| matches!(token, TokenTree::Punct(p) if p.as_char() == ',');
+    input
+        .step(|cursor| match cursor.group(Delimiter::Parenthesis) {
+            Some((inside, span, rest)) if inside.token_stream().into_iter().any(is_comma) => {
+                Ok(((inside.token_stream(), span.close()), rest))
+            }
+            _ => Err(cursor.error("")),
+        })
+        .ok()
+}
+
+fn request(input: ParseStream<'_>, report: &mut Report) -> Result<Request, Fault> {
+    let name = identifier(input, "an output, as in `energies`")?;
+    let forms = if input.peek(token::Paren) {
+        let forms = group(input, Delimiter::Parenthesis, "`(`")?;
+        Some(list(forms, report, form))
+    } else {
+        None
+    };
+    Ok(Request {
+        name,
+        damaged: forms.as_ref().is_some_and(|forms| forms.damaged),
+        forms: forms.map(|forms| forms.members),
+    })
+}
+
+fn form(input: ParseStream<'_>, _: &mut Report) -> Result<Form, Fault> {
+    let name = identifier(input, "`angle = 1`, `amplitude = 2` or `exact`")?;
+    let value = if input.peek(Token![=]) {
+        take::<Token![=]>(input, "`=`")?;
+        Some(whole_number(input, "a whole number, the order")?)
+    } else {
+        None
+    };
+    Ok(Form { name, value })
+}
+
+/// A whole number; all beyond `u32` count as `u32::MAX`.
+fn whole_number(input: ParseStream<'_>, what: &'static str) -> Result<Multiplicity, Fault> {
+    let span = input.span();
+    let fault = || Diagnostic::new(span, Message::Expected { what }).into();
+    let digits = literal(input, what)?.replace('_', "");
+    if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Err(fault());
+    }
+    let count = digits.parse().unwrap_or(u32::MAX);
+    Ok(Multiplicity { count, span })
+}

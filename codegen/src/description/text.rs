@@ -1,0 +1,133 @@
+//! A description as text, in the attribute's own notation, one link a line.
+
+use std::fmt::{self, Display, Formatter};
+
+use quote::ToTokens as _;
+
+use super::{Description, Expression, ExpressionKind, Form, Node, Property, Request, Value};
+
+impl Display for Description {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "description of {}", self.item.ident)?;
+        if let Some(path) = &self.crate_path {
+            writeln!(f, "crate = {}", path.to_token_stream())?;
+        }
+        if let Some(gravity) = &self.gravity {
+            writeln!(f, "{gravity}")?;
+        }
+        for root in &self.roots {
+            node(root, 0, f)?;
+        }
+        if !self.requests.is_empty() {
+            write!(f, "emit(")?;
+            separated(&self.requests, f)?;
+            writeln!(f, ")")?;
+        }
+        Ok(())
+    }
+}
+
+/// Writes a link and, indented, what hangs from it.
+fn node(node: &Node, depth: usize, f: &mut Formatter<'_>) -> fmt::Result {
+    write!(f, "{:indent$}{}", "", node.name, indent = 4 * depth)?;
+    if let Some(shape) = &node.shape {
+        write!(f, ": {shape}")?;
+    }
+    write!(f, "(")?;
+    separated(&node.properties, f)?;
+    write!(f, ")")?;
+    if let Some(copies) = node.copies {
+        write!(f, " * {}", copies.count)?;
+    }
+    writeln!(f)?;
+    for child in &node.children {
+        self::node(child, depth + 1, f)?;
+    }
+    Ok(())
+}
+
+/// Writes members with commas between them.
+fn separated<T: Display>(members: &[T], f: &mut Formatter<'_>) -> fmt::Result {
+    for (i, member) in members.iter().enumerate() {
+        let comma = if i > 0 { ", " } else { "" };
+        write!(f, "{comma}{member}")?;
+    }
+    Ok(())
+}
+
+impl Display for Property {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match &self.value {
+            Value::Single(value) => write!(f, "{} = {value}", self.name),
+            Value::Pair(along, lateral) => write!(f, "{} = ({along}, {lateral})", self.name),
+        }
+    }
+}
+
+impl Display for Request {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.name)?;
+        if let Some(forms) = &self.forms {
+            write!(f, "(")?;
+            separated(forms, f)?;
+            write!(f, ")")?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for Form {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self.value {
+            Some(value) => write!(f, "{} = {}", self.name, value.count),
+            None => write!(f, "{}", self.name),
+        }
+    }
+}
+
+impl Display for Expression {
+    /// Every operator but the outermost in parentheses, so that the text shows
+    /// how the tokens were understood.
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match &self.kind {
+            ExpressionKind::Number(value) => write!(f, "{value}"),
+            ExpressionKind::Name(name) => write!(f, "{name}"),
+            ExpressionKind::Sum(members) => joined(members, " + ", f),
+            ExpressionKind::Product { factors, divisors } => {
+                joined(factors, " * ", f)?;
+                for divisor in divisors {
+                    write!(f, " / ")?;
+                    operand(divisor, f)?;
+                }
+                Ok(())
+            }
+            ExpressionKind::Power(base, exponent) => {
+                operand(base, f)?;
+                write!(f, "^{exponent}")
+            }
+            ExpressionKind::Negative(value) => {
+                write!(f, "-")?;
+                operand(value, f)
+            }
+        }
+    }
+}
+
+/// Writes operands with an operator between them.
+fn joined(operands: &[Expression], operator: &str, f: &mut Formatter<'_>) -> fmt::Result {
+    for (i, value) in operands.iter().enumerate() {
+        if i > 0 {
+            f.write_str(operator)?;
+        }
+        operand(value, f)?;
+    }
+    Ok(())
+}
+
+/// Writes an operand, in parentheses unless it is a number or a name.
+fn operand(value: &Expression, f: &mut Formatter<'_>) -> fmt::Result {
+    match value.kind {
+        ExpressionKind::Number(_) | ExpressionKind::Name(_) => write!(f, "{value}"),
+        _ => write!(f, "({value})"),
+    }
+}

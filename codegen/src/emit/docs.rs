@@ -1,0 +1,351 @@
+//! Rustdoc of the emitted items: meaning, units, formulas, cost, source.
+
+use super::Emission;
+use crate::mechanics::expression::Expr;
+use crate::mechanics::{self, Frame, Transfer, WrittenOut};
+use crate::program::{Entry, Purpose};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// Formulas of more rows than this are shown up to here.
+const ROWS: usize = 8;
+/// A formula longer than this is left to `expand --stage mechanics`.
+const LONGEST_FORMULA: usize = 600;
+
+/// A formula: left side and right side.
+struct Formula {
+    left: String,
+    left_latex: String,
+    right: Expr,
+}
+
+impl Emission<'_> {
+    pub(super) fn text(&self, expr: &Expr) -> String {
+        mechanics::text(expr, &self.mechanics.symbols)
+    }
+
+    pub(super) fn model_docs(&self) -> TokenStream {
+        let scene = self.scene;
+        let links: Vec<&str> = scene.links.iter().map(|link| link.name.as_str()).collect();
+        let mut lines = vec![
+            String::new(),
+            format!(
+                "A planar tree of {} rigid links; angles are absolute, from the downward vertical, in the order",
+                links.len()
+            ),
+            wrapped_names(&links),
+            "SI units throughout, angles in radians.".into(),
+        ];
+        if let Some(frame) = &self.mechanics.symmetric {
+            let names: Vec<&str> = frame
+                .coordinates
+                .iter()
+                .map(|&id| self.mechanics.symbols.get(id).code.as_str())
+                .collect();
+            lines.push(String::new());
+            lines.push("Symmetric coordinates, in the order".into());
+            lines.push(wrapped_names(&names));
+            lines.push("with the weights of the links' angles that `from_symmetric` shows.".into());
+        }
+        if !scene.requests.energies && scene.requests.transfer.is_none() {
+            lines.push(String::new());
+            lines.push("More can be asked for with `emit(…)` in the attribute.".into());
+        }
+        doc_lines(&lines)
+    }
+
+    pub(super) fn entry_docs(&self, entry: &Entry) -> TokenStream {
+        let mut lines = self.meaning(entry.purpose);
+        let formulas = self.formulas(entry.purpose);
+        self.show(&formulas, &mut lines);
+        lines.push(String::new());
+        lines.push(format!(
+            "Cost: {}.",
+            self.program.operations(&entry.outputs)
+        ));
+        doc_lines(&lines)
+    }
+
+    fn meaning(&self, purpose: Purpose) -> Vec<String> {
+        let difference = |number: usize| {
+            let coordinate = self.mechanics.transfers[number].coordinate;
+            self.mechanics.coordinates[coordinate].name.clone()
+        };
+        let lines: Vec<String> = match purpose {
+            Purpose::Accelerations => vec![
+                "Angular accelerations [rad/s²] at angles `theta` [rad] and angular velocities `omega` [rad/s].".into(),
+                String::new(),
+                "Solves the Euler–Lagrange equations M(θ) θ̈ + b(θ, ω) = 0 by elimination along the tree (Featherstone, Rigid Body Dynamics Algorithms, 2008, §6.5).".into(),
+            ],
+            Purpose::KineticEnergy => vec!["Kinetic energy K = ½ ωᵀ M(θ) ω [J].".into()],
+            Purpose::PotentialEnergy => {
+                vec!["Potential energy U [J], zero where all angles are zero.".into()]
+            }
+            Purpose::AbsoluteMomenta => {
+                vec!["Generalized momenta p = M(θ) ω [kg m²/s] that belong to the absolute angles.".into()]
+            }
+            Purpose::AbsoluteVelocities => {
+                vec!["Angular velocities ω [rad/s] that belong to the momenta: solves M(θ) ω = p.".into()]
+            }
+            Purpose::MassMatrix => vec![
+                "Mass matrix M(θ) [kg m²] by rows. Zero between links of different branches.".into(),
+                String::new(),
+                "With `stiffness_matrix` at an equilibrium, the linear modes solve K v = (2πf)² M v.".into(),
+            ],
+            Purpose::StiffnessMatrix => {
+                vec!["Stiffness matrix ∂²U/∂θ∂θ [J] by rows.".into()]
+            }
+            Purpose::ToSymmetric => vec![
+                "Symmetric coordinates of absolute angles, or the velocities of the ones from those of the others.".into(),
+            ],
+            Purpose::FromSymmetric => vec![
+                "Absolute angles from symmetric coordinates, or angular velocities from their velocities.".into(),
+            ],
+            Purpose::SymmetricAccelerations => vec![
+                "Second time derivatives [rad/s²] of the symmetric coordinates at `coordinates` [rad] and `rates` [rad/s].".into(),
+                String::new(),
+                "Solves M̃(q) q̈ + b̃(q, q̇) = 0. A difference that is zero with its rate stays exactly zero.".into(),
+            ],
+            Purpose::SymmetricMomenta => {
+                vec!["Generalized momenta p = M̃(q) q̇ [kg m²/s] in symmetric coordinates (paper, Eq. 7).".into()]
+            }
+            Purpose::SymmetricVelocities => {
+                vec!["Velocities q̇ [rad/s] of the symmetric coordinates: solves M̃(q) q̇ = p.".into()]
+            }
+            Purpose::Hamiltonian => {
+                vec!["Energy H = ½ pᵀ M̃⁻¹ p + U [J] in symmetric coordinates and momenta.".into()]
+            }
+            Purpose::SubHamiltonian(n) => vec![
+                format!("Energy H_d [J] of the antiphase coordinate `{}` by itself: the sub-Hamiltonian whose growth W explains (paper, Eq. 9; for more than two copies, Parseval's share of the potential energy).", difference(n)),
+            ],
+            Purpose::AngleTransfer(n) => vec![
+                format!("Energy transfer W [W] into `{}` to first order in the difference angles, momenta untouched: W_K and W_P as published (paper, Eqs. 14–16).", difference(n)),
+                String::new(),
+                "Of first order in the angles only: for an oscillation, where momenta are as small as angles, two of four terms of the leading order are missing; `transfer_amplitude_2` has all four. Remainder O(θ_d) in W_K, O(θ_d³) in W_P.".into(),
+            ],
+            Purpose::AmplitudeTransfer(n) => vec![
+                format!("Energy transfer W [W] into `{}` to second order in the amplitude of the differences: the complete quadratic form in them and their momenta. Remainder O(ε⁴).", difference(n)),
+            ],
+            Purpose::QuadraticForm(n) => vec![
+                format!("Coefficients [a_pp, a_pq, a_qq] of the quadratic form W ≈ a_pp p² + a_pq p θ + a_qq θ² for `{}`, at the in-phase state given; the difference's own coordinate and momentum are not read.", difference(n)),
+            ],
+            Purpose::ExactTransfer(n) => vec![
+                format!("Energy transfer W = dH_d/dt [W] into `{}` without truncation, from coordinates and momenta: the velocities are solved for, no inverse is expanded. Conservative part; friction's power comes on top.", difference(n)),
+            ],
+            Purpose::ExactTransferFromRates(n) => vec![
+                format!("Energy transfer W = dH_d/dt [W] into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; friction's power comes on top.", difference(n)),
+            ],
+            Purpose::FrictionPower(n) => vec![
+                format!("Power [W] of joint friction on H_d of `{}`.", difference(n)),
+            ],
+        };
+        lines
+    }
+
+    fn formulas(&self, purpose: Purpose) -> Vec<Formula> {
+        let mechanics = self.mechanics;
+        let absolute = &mechanics.absolute;
+        let symmetric = mechanics.symmetric.as_ref();
+        let simple = |left: &str, right: &Expr| {
+            vec![Formula {
+                left: left.to_owned(),
+                left_latex: left.to_owned(),
+                right: right.clone(),
+            }]
+        };
+        match purpose {
+            Purpose::Accelerations => self.equations(absolute),
+            Purpose::KineticEnergy => simple("K", &absolute.kinetic),
+            Purpose::PotentialEnergy => simple("U", &absolute.potential),
+            Purpose::AbsoluteMomenta => self.rows(&absolute.momenta, &absolute.momentum),
+            Purpose::SymmetricAccelerations => symmetric
+                .map(|frame| self.equations(frame))
+                .unwrap_or_default(),
+            Purpose::SymmetricMomenta => symmetric
+                .map(|frame| self.rows(&frame.momenta, &frame.momentum))
+                .unwrap_or_default(),
+            Purpose::SubHamiltonian(n) => {
+                let energy = &mechanics.transfers[n].energy;
+                let sum = Expr::Sum(vec![energy.kinetic.clone(), energy.potential.clone()]);
+                simple("H_d", &sum)
+            }
+            Purpose::AngleTransfer(n) => self.transfer(&mechanics.transfers[n], |t| &t.angle),
+            Purpose::AmplitudeTransfer(n) => {
+                self.transfer(&mechanics.transfers[n], |t| &t.amplitude)
+            }
+            Purpose::ExactTransfer(n) | Purpose::ExactTransferFromRates(n) => {
+                self.transfer(&mechanics.transfers[n], |t| &t.exact)
+            }
+            Purpose::QuadraticForm(n) => match &mechanics.transfers[n].quadratic_form {
+                Some(form) => ["a_pp", "a_pq", "a_qq"]
+                    .iter()
+                    .zip(form)
+                    .map(|(name, expr)| Formula {
+                        left: (*name).to_owned(),
+                        left_latex: format!("a_{{{}}}", &name[2..]),
+                        right: expr.clone(),
+                    })
+                    .chain(self.written_out())
+                    .collect(),
+                None => Vec::new(),
+            },
+            Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
+            Purpose::AbsoluteVelocities
+            | Purpose::MassMatrix
+            | Purpose::StiffnessMatrix
+            | Purpose::ToSymmetric
+            | Purpose::FromSymmetric
+            | Purpose::SymmetricVelocities
+            | Purpose::Hamiltonian => Vec::new(),
+        }
+    }
+
+    fn rows(&self, symbols: &[mechanics::expression::SymbolId], exprs: &[Expr]) -> Vec<Formula> {
+        symbols
+            .iter()
+            .zip(exprs)
+            .map(|(&id, expr)| {
+                let symbol = self.mechanics.symbols.get(id);
+                Formula {
+                    left: symbol.text.clone(),
+                    left_latex: symbol.latex.clone(),
+                    right: expr.clone(),
+                }
+            })
+            .collect()
+    }
+
+    /// Entries of M below the diagonal and on it, and the rows of b.
+    fn equations(&self, frame: &Frame) -> Vec<Formula> {
+        let name = |index: usize| {
+            let code = &self.mechanics.symbols.get(frame.coordinates[index]).code;
+            code.strip_prefix("theta_").unwrap_or(code).to_owned()
+        };
+        let tex = |name: &str| name.replace('_', "\\_");
+        let mut formulas: Vec<Formula> = frame
+            .mass
+            .iter()
+            .map(|entry| {
+                let (row, column) = (name(entry.row), name(entry.column));
+                Formula {
+                    left: format!("M[{row}, {column}]"),
+                    left_latex: format!(
+                        "M_{{\\mathrm{{{},{}}}}}",
+                        tex(&row),
+                        tex(&column)
+                    ),
+                    right: entry.value.clone(),
+                }
+            })
+            .collect();
+        formulas.extend(frame.bias.iter().enumerate().map(|(index, bias)| Formula {
+            left: format!("b[{}]", name(index)),
+            left_latex: format!("b_{{\\mathrm{{{}}}}}", tex(&name(index))),
+            right: bias.clone(),
+        }));
+        formulas
+    }
+
+    fn transfer(
+        &self,
+        transfer: &Transfer,
+        form: fn(&Transfer) -> &Option<mechanics::Parts>,
+    ) -> Vec<Formula> {
+        let Some(parts) = form(transfer) else {
+            return Vec::new();
+        };
+        let named = |name: &str, expr: &Expr| Formula {
+            left: name.to_owned(),
+            left_latex: format!("W_{{{}}}", &name[2..]),
+            right: expr.clone(),
+        };
+        let mut formulas = vec![
+            named("W_K", &parts.kinetic),
+            named("W_P", &parts.potential),
+        ];
+        let mut truncated = false;
+        parts.kinetic.for_each_symbol(&mut |id| {
+            truncated |= self.mechanics.symbols.get(id).role
+                == mechanics::expression::Role::Derived;
+        });
+        if truncated {
+            formulas.extend(self.written_out());
+        }
+        formulas
+    }
+
+    /// w and D, where they are written out.
+    fn written_out(&self) -> Vec<Formula> {
+        let Some(expansion) = &self.mechanics.expansion else {
+            return Vec::new();
+        };
+        let Some(WrittenOut {
+            determinant,
+            determinant_value,
+            velocities,
+            ..
+        }) = &expansion.written_out
+        else {
+            return Vec::new();
+        };
+        let mut formulas = self.rows(&expansion.velocities, velocities);
+        formulas.extend(self.rows(&[*determinant], std::slice::from_ref(determinant_value)));
+        formulas
+    }
+
+    /// Formulas as a text block and, folded away, as LaTeX.
+    fn show(&self, formulas: &[Formula], lines: &mut Vec<String>) {
+        let texts: Vec<String> = formulas
+            .iter()
+            .map(|f| format!("{} = {}", f.left, self.text(&f.right)))
+            .collect();
+        if texts.is_empty() || texts.iter().any(|text| text.len() > LONGEST_FORMULA) {
+            return;
+        }
+        let shown = texts.len().min(ROWS);
+        lines.push(String::new());
+        lines.push("```text".into());
+        lines.extend(texts[..shown].iter().cloned());
+        if shown < texts.len() {
+            lines.push(format!("… and {} more", texts.len() - shown));
+        }
+        lines.push("```".into());
+        lines.push(String::new());
+        lines.push("<details><summary>LaTeX</summary>".into());
+        lines.push(String::new());
+        lines.push("```latex".into());
+        lines.extend(formulas[..shown].iter().map(|f| {
+            let right = mechanics::latex(&f.right, &self.mechanics.symbols);
+            format!("{} = {right}", f.left_latex)
+        }));
+        lines.push("```".into());
+        lines.push("</details>".into());
+    }
+}
+
+fn wrapped_names(names: &[&str]) -> String {
+    const MOST: usize = 16;
+    let listed: Vec<String> = names
+        .iter()
+        .take(MOST)
+        .map(|name| format!("`{name}`"))
+        .collect();
+    let rest = names.len().saturating_sub(MOST);
+    if rest > 0 {
+        format!("{}, … ({rest} more).", listed.join(", "))
+    } else {
+        format!("{}.", listed.join(", "))
+    }
+}
+
+fn doc_lines(lines: &[String]) -> TokenStream {
+    let lines = lines.iter().map(|line| {
+        let line = if line.is_empty() {
+            String::new()
+        } else {
+            format!(" {line}")
+        };
+        quote!(#[doc = #line])
+    });
+    quote!(#(#lines)*)
+}

@@ -1,0 +1,224 @@
+//! One function for each entry point.
+
+use super::Emission;
+use super::names::Locals;
+use crate::exact::Rational;
+use crate::program::{Argument, Entry, Op, Shape, ValueId};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+
+fn ident(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}
+
+/// How tightly a written expression binds.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Binding {
+    Sum,
+    Product,
+    Prefix,
+    Atom,
+}
+
+impl Emission<'_> {
+    pub(super) fn function(&self, entry: &Entry) -> TokenStream {
+        let docs = self.entry_docs(entry);
+        let name = ident(&entry.name);
+        let arguments = entry.arguments.iter().map(|&argument| {
+            let name = ident(argument.name());
+            let size = self.argument_size(argument);
+            quote!(#name: &[T; #size])
+        });
+        let result = self.result_type(entry);
+        let body = self.body(entry);
+        quote! {
+            #docs
+            #[inline]
+            pub fn #name(&self, #(#arguments),*) -> #result {
+                #body
+            }
+        }
+    }
+
+    /// Links and coordinates are equally many.
+    fn argument_size(&self, _argument: Argument) -> Literal {
+        Literal::usize_unsuffixed(self.scene.links.len())
+    }
+
+    pub(super) fn result_type(&self, entry: &Entry) -> TokenStream {
+        let length = Literal::usize_unsuffixed(entry.outputs.len());
+        let runtime = self.runtime();
+        match entry.shape {
+            Shape::Scalar => quote!(T),
+            Shape::Vector => quote!([T; #length]),
+            Shape::Matrix(size) => {
+                let size = Literal::usize_unsuffixed(size);
+                quote!([[T; #size]; #size])
+            }
+            Shape::Transfer => quote!(#runtime::Transfer<T>),
+        }
+    }
+
+    fn body(&self, entry: &Entry) -> TokenStream {
+        let needed = self.program.needed(&entry.outputs);
+        let locals = self.locals(entry, &needed);
+        let inputs = entry
+            .arguments
+            .iter()
+            .map(|&argument| self.take_apart(argument, &needed, &locals));
+        let mut lines = Vec::new();
+        let mut paired = Vec::new();
+        for &id in &needed {
+            let angle = match *self.op(id) {
+                Op::Sin(angle) | Op::Cos(angle) => angle,
+                Op::Input(..) | Op::Constant(_) => continue,
+                _ => {
+                    if let Some(name) = locals.names.get(&id) {
+                        let name = ident(name);
+                        let (value, _) = self.definition(id, &locals);
+                        lines.push(quote!(let #name = #value;));
+                    }
+                    continue;
+                }
+            };
+            if !paired.contains(&angle) {
+                paired.push(angle);
+                lines.push(self.sin_cos(angle, &needed, &locals));
+            }
+        }
+        let outputs = self.outputs(entry, &locals);
+        quote! {
+            #(#inputs)*
+            #(#lines)*
+            #outputs
+        }
+    }
+
+    /// `let [theta_parent, _, theta_child_2] = *theta;`
+    fn take_apart(&self, argument: Argument, needed: &[ValueId], locals: &Locals) -> TokenStream {
+        let array = ident(argument.name());
+        let mut any = false;
+        let elements: Vec<TokenStream> = (0..self.scene.links.len())
+            .map(|index| {
+                let name = needed
+                    .iter()
+                    .find(|id| *self.op(**id) == Op::Input(argument, index))
+                    .and_then(|id| locals.names.get(id));
+                match name {
+                    Some(name) => {
+                        any = true;
+                        let name = ident(name);
+                        quote!(#name)
+                    }
+                    None => quote!(_),
+                }
+            })
+            .collect();
+        if any {
+            quote!(let [#(#elements),*] = *#array;)
+        } else {
+            quote!(let _ = #array;)
+        }
+    }
+
+    /// `let (sin_parent, cos_parent) = theta_parent.sin_cos();`
+    fn sin_cos(&self, angle: ValueId, needed: &[ValueId], locals: &Locals) -> TokenStream {
+        let name = |op: Op| {
+            needed
+                .iter()
+                .find(|id| *self.op(**id) == op)
+                .and_then(|id| locals.names.get(id))
+                .map_or_else(|| quote!(_), |name| {
+                    let name = ident(name);
+                    quote!(#name)
+                })
+        };
+        let sin = name(Op::Sin(angle));
+        let cos = name(Op::Cos(angle));
+        let angle = self.bound(angle, locals, Binding::Atom);
+        quote!(let (#sin, #cos) = #angle.sin_cos();)
+    }
+
+    fn outputs(&self, entry: &Entry, locals: &Locals) -> TokenStream {
+        let values: Vec<TokenStream> = entry
+            .outputs
+            .iter()
+            .map(|&id| self.bound(id, locals, Binding::Sum))
+            .collect();
+        let runtime = self.runtime();
+        match entry.shape {
+            Shape::Scalar => quote!(#(#values)*),
+            Shape::Vector => quote!([#(#values),*]),
+            Shape::Matrix(size) => {
+                let rows = values.chunks(size).map(|row| quote!([#(#row),*]));
+                quote!([#(#rows),*])
+            }
+            Shape::Transfer => {
+                let (kinetic, potential) = (&values[0], &values[1]);
+                quote!(#runtime::Transfer { kinetic: #kinetic, potential: #potential })
+            }
+        }
+    }
+
+    /// A value where it is used: its name, or its definition in parentheses if
+    /// that binds less tightly than its place asks for.
+    fn bound(&self, id: ValueId, locals: &Locals, place: Binding) -> TokenStream {
+        if let Some(name) = locals.names.get(&id) {
+            let name = ident(name);
+            return quote!(#name);
+        }
+        let (value, binding) = self.definition(id, locals);
+        if binding < place {
+            quote!((#value))
+        } else {
+            value
+        }
+    }
+
+    /// A value's definition. Sums and products associate to the left, so that
+    /// only right operands need parentheses.
+    fn definition(&self, id: ValueId, locals: &Locals) -> (TokenStream, Binding) {
+        let at = |id: ValueId, place: Binding| self.bound(id, locals, place);
+        match *self.op(id) {
+            Op::Constant(constant) => {
+                let field = format_ident!("{}", self.program.setup.get(constant).name);
+                (quote!(self.#field), Binding::Atom)
+            }
+            Op::Number(ref number) => (number_tokens(number), Binding::Atom),
+            Op::Neg(a) => {
+                let a = at(a, Binding::Atom);
+                (quote!(-#a), Binding::Prefix)
+            }
+            Op::Add(a, b) => {
+                let (a, b) = (at(a, Binding::Sum), at(b, Binding::Product));
+                (quote!(#a + #b), Binding::Sum)
+            }
+            Op::Sub(a, b) => {
+                let (a, b) = (at(a, Binding::Sum), at(b, Binding::Product));
+                (quote!(#a - #b), Binding::Sum)
+            }
+            Op::Mul(a, b) => {
+                let (a, b) = (at(a, Binding::Product), at(b, Binding::Prefix));
+                (quote!(#a * #b), Binding::Product)
+            }
+            Op::Div(a, b) => {
+                let (a, b) = (at(a, Binding::Product), at(b, Binding::Prefix));
+                (quote!(#a / #b), Binding::Product)
+            }
+            Op::Input(..) | Op::Sin(_) | Op::Cos(_) => {
+                unreachable!("inputs, sines and cosines are always named")
+            }
+        }
+    }
+}
+
+/// `T::from_f64(2.0)`.
+pub(super) fn number_tokens(number: &Rational) -> TokenStream {
+    let value = number.to_f64();
+    let size = Literal::f64_unsuffixed(value.abs());
+    if value.is_sign_negative() {
+        quote!(T::from_f64(-#size))
+    } else {
+        quote!(T::from_f64(#size))
+    }
+}

@@ -1,0 +1,114 @@
+//! Program to tokens: the model type, its constructors, one function for each
+//! entry point, the runtime's traits, and the docs that carry the formulas.
+
+mod docs;
+mod function;
+mod model;
+mod names;
+mod stub;
+mod traits;
+
+pub use stub::stub;
+
+use crate::description::StructItem;
+use crate::mechanics::Mechanics;
+use crate::program::{ConstantId, Op, Program, ValueId};
+use crate::scene::Scene;
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+use std::collections::BTreeSet;
+
+/// Everything that emission reads.
+pub(crate) struct Emission<'a> {
+    pub(crate) item: &'a StructItem,
+    pub(crate) scene: &'a Scene,
+    pub(crate) mechanics: &'a Mechanics,
+    pub(crate) program: &'a Program,
+}
+
+/// The tokens that stand where the attributed struct stood.
+///
+/// The same input gives the same tokens. Linear in the program's length.
+pub fn emit(
+    item: &StructItem,
+    scene: &Scene,
+    mechanics: &Mechanics,
+    program: &Program,
+) -> TokenStream {
+    let emission = Emission {
+        item,
+        scene,
+        mechanics,
+        program,
+    };
+    let model = emission.model();
+    let functions = program.entries.iter().map(|entry| emission.function(entry));
+    let accessors = emission.accessors();
+    let traits = emission.traits();
+    let runtime = emission.runtime();
+    let name = &item.ident;
+    quote! {
+        #model
+
+        impl<T: #runtime::Scalar> #name<T> {
+            #accessors
+            #(#functions)*
+        }
+
+        #traits
+    }
+}
+
+impl Emission<'_> {
+    /// The path of the runtime crate.
+    fn runtime(&self) -> TokenStream {
+        runtime_path(&self.scene.crate_path)
+    }
+
+    /// The constants that the model stores: those that functions read, and the
+    /// named ones behind them, in order.
+    fn stored_constants(&self) -> Vec<ConstantId> {
+        let mut stored = BTreeSet::new();
+        for entry in &self.program.entries {
+            for value in self.program.needed(&entry.outputs) {
+                if let Op::Constant(id) = self.program.definition(value).op {
+                    stored.insert(id);
+                }
+            }
+        }
+        for id in stored.clone() {
+            self.named_behind(id, &mut stored);
+        }
+        stored.into_iter().collect()
+    }
+
+    fn named_behind(&self, id: ConstantId, stored: &mut BTreeSet<ConstantId>) {
+        let definition = self.program.setup.get(id);
+        if let crate::program::ConstantOp::Named(..) = definition.op {
+            stored.insert(id);
+            return;
+        }
+        for operand in definition.op.operands() {
+            self.named_behind(operand, stored);
+        }
+    }
+
+    fn field(&self, id: ConstantId) -> Ident {
+        format_ident!("{}", self.program.setup.get(id).name)
+    }
+
+    fn op(&self, id: ValueId) -> &Op {
+        &self.program.definition(id).op
+    }
+}
+
+/// The tokens of `::branched_pendulum` or of what `crate = …` says.
+pub fn runtime_path(path: &crate::scene::CratePath) -> TokenStream {
+    let mut segments = path.segments.iter().map(|segment| {
+        // `crate`, `self` and `super` are paths too, but no raw identifiers.
+        Ident::new(segment, Span::call_site())
+    });
+    let first = segments.next();
+    let lead = path.global.then(|| quote!(::));
+    quote!(#lead #first #(:: #segments)*)
+}

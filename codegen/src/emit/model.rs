@@ -1,0 +1,307 @@
+//! The model type: constants, constructors, accessors.
+
+use super::Emission;
+use super::function::number_tokens;
+use crate::program::{ConstantId, ConstantOp};
+use crate::scene::{Quantity, Sign};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+use std::collections::BTreeMap;
+
+/// Traits that the model derives where its author does not.
+const DERIVED: [&str; 4] = ["Clone", "Copy", "Debug", "PartialEq"];
+
+impl Emission<'_> {
+    pub(super) fn model(&self) -> TokenStream {
+        let (attrs, vis, name) = (&self.item.attrs, &self.item.vis, &self.item.ident);
+        let docs = self.model_docs();
+        let derives = self.missing_derives();
+        let fields = self.stored_constants().into_iter().map(|id| {
+            let field = self.field(id);
+            quote!(#field: T)
+        });
+        let constructors = if self.scene.parameters.is_empty() {
+            self.literal_constructors()
+        } else {
+            self.parameter_constructors()
+        };
+        quote! {
+            #(#attrs)*
+            #docs
+            #derives
+            #vis struct #name<T = f64> {
+                #(#fields),*
+            }
+
+            #constructors
+        }
+    }
+
+    fn missing_derives(&self) -> TokenStream {
+        let written: String = self
+            .item
+            .attrs
+            .iter()
+            .filter(|attribute| attribute.path().is_ident("derive"))
+            .map(|attribute| quote!(#attribute).to_string())
+            .collect();
+        let words: Vec<&str> = written
+            .split(|c: char| !c.is_alphanumeric() && c != '_')
+            .collect();
+        let missing = DERIVED
+            .iter()
+            .filter(|name| !words.contains(*name))
+            .map(|name| {
+                let name = Ident::new(name, Span::call_site());
+                match name.to_string().as_str() {
+                    "Clone" => quote!(::core::clone::Clone),
+                    "Copy" => quote!(::core::marker::Copy),
+                    "Debug" => quote!(::core::fmt::Debug),
+                    _ => quote!(::core::cmp::PartialEq),
+                }
+            });
+        quote!(#[derive(#(#missing),*)])
+    }
+
+    /// `let` lines for all stored constants, and the struct literal.
+    fn constants(&self) -> TokenStream {
+        let stored = self.stored_constants();
+        let mut known = BTreeMap::new();
+        let mut lines = Vec::new();
+        for &id in &stored {
+            let field = self.field(id);
+            let value = self.constant_value(id, &known);
+            lines.push(quote!(let #field = #value;));
+            known.insert(id, field);
+        }
+        let fields = stored.iter().map(|&id| self.field(id));
+        quote! {
+            #(#lines)*
+            Self { #(#fields),* }
+        }
+    }
+
+    fn constant_value(&self, id: ConstantId, known: &BTreeMap<ConstantId, Ident>) -> TokenStream {
+        let definition = self.program.setup.get(id);
+        if let Some(exact) = &definition.exact {
+            return number_tokens(exact);
+        }
+        let at = |operand: ConstantId| match known.get(&operand) {
+            Some(name) => quote!(#name),
+            None => {
+                let value = self.constant_value(operand, known);
+                match self.program.setup.get(operand).op {
+                    ConstantOp::Parameter(_) | ConstantOp::Number(_) => value,
+                    _ => quote!((#value)),
+                }
+            }
+        };
+        match definition.op {
+            ConstantOp::Number(ref number) => number_tokens(number),
+            ConstantOp::Parameter(index) => {
+                let name = format_ident!("{}", self.scene.parameters[index].name);
+                quote!(parameters.#name)
+            }
+            ConstantOp::Named(_, formed) => match known.get(&formed) {
+                Some(name) => quote!(#name),
+                None => self.constant_value(formed, known),
+            },
+            ConstantOp::Product(ref number, ref powers) => {
+                let mut above = vec![number_tokens(number)];
+                let mut below = Vec::new();
+                for &(id, power) in powers {
+                    let side = if power > 0 { &mut above } else { &mut below };
+                    side.extend(vec![at(id); power.unsigned_abs() as usize]);
+                }
+                // Multiplying by one changes no bit.
+                if number.is_one() && above.len() > 1 {
+                    above.remove(0);
+                }
+                let above = quote!(#(#above)**);
+                match below.as_slice() {
+                    [] => above,
+                    [divisor] => quote!(#above / #divisor),
+                    divisors => quote!(#above / (#(#divisors)**)),
+                }
+            }
+            ConstantOp::Add(a, b) => {
+                let (a, b) = (at(a), at(b));
+                quote!(#a + #b)
+            }
+            ConstantOp::Sub(a, b) => {
+                let (a, b) = (at(a), at(b));
+                quote!(#a - #b)
+            }
+        }
+    }
+
+    fn literal_constructors(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let constants = self.constants();
+        quote! {
+            impl #name<f64> {
+                /// The model in double precision, its constants rounded once
+                /// from their exact values. `Default` builds it for other
+                /// scalars.
+                #[must_use]
+                pub fn new() -> Self {
+                    <Self as ::core::default::Default>::default()
+                }
+            }
+
+            impl<T: #runtime::Scalar> ::core::default::Default for #name<T> {
+                fn default() -> Self {
+                    #constants
+                }
+            }
+        }
+    }
+
+    fn parameter_constructors(&self) -> TokenStream {
+        let (vis, name, runtime) = (&self.item.vis, &self.item.ident, self.runtime());
+        let parameters = format_ident!("{}Parameters", name);
+        let fields = self.scene.parameters.iter().map(|parameter| {
+            let field = format_ident!("{}", parameter.name);
+            let doc = format!(" {}", parameter.doc);
+            quote! {
+                #[doc = #doc]
+                #vis #field: T
+            }
+        });
+        let docs = format!(" Parameters of [`{name}`]. SI units.");
+        let finite = self.scene.parameters.iter().map(|parameter| {
+            let field = format_ident!("{}", parameter.name);
+            let what = format!("parameter `{}`", parameter.name);
+            self.refusal(&what, &quote!(parameters.#field), Sign::Any)
+        });
+        let signs = self.scene.requirements.iter().map(|requirement| {
+            let value = self.quantity(&requirement.quantity);
+            self.refusal(&requirement.what, &value, requirement.sign)
+        });
+        let constants = self.constants();
+        quote! {
+            #[doc = #docs]
+            #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
+            #vis struct #parameters<T = f64> {
+                #(#fields),*
+            }
+
+            impl #name<f64> {
+                /// The model for the given parameters, in double precision.
+                ///
+                /// # Errors
+                /// A parameter that is not finite, or one that makes a mass,
+                /// an inertia or a friction coefficient impossible.
+                pub fn new(
+                    parameters: #parameters<f64>,
+                ) -> ::core::result::Result<Self, #runtime::ParameterError> {
+                    #(#finite)*
+                    #(#signs)*
+                    ::core::result::Result::Ok(Self::from_parameters(parameters))
+                }
+            }
+
+            impl<T: #runtime::Scalar> #name<T> {
+                /// The model for the given parameters, taken as they are:
+                /// other scalars than `f64` have no order by which masses
+                /// could be checked.
+                #[must_use]
+                pub fn from_parameters(parameters: #parameters<T>) -> Self {
+                    #constants
+                }
+            }
+        }
+    }
+
+    /// Returns an error unless the value meets the condition; a NaN never does.
+    fn refusal(&self, what: &str, value: &TokenStream, sign: Sign) -> TokenStream {
+        let runtime = self.runtime();
+        let (condition, requirement) = match sign {
+            Sign::Any => (quote!(value.is_finite()), "finite"),
+            Sign::NonNegative => (
+                quote!(value.is_finite() && value >= 0.0),
+                "zero or positive",
+            ),
+            Sign::Positive => (quote!(value.is_finite() && value > 0.0), "positive"),
+        };
+        quote! {
+            let value: f64 = #value;
+            if !(#condition) {
+                return ::core::result::Result::Err(
+                    #runtime::ParameterError::new(#what, value, #requirement),
+                );
+            }
+        }
+    }
+
+    fn quantity(&self, quantity: &Quantity) -> TokenStream {
+        let fold = |parts: &[Quantity], operator: TokenStream| {
+            let mut parts = parts.iter().map(|part| self.quantity(part));
+            let first = parts.next();
+            let rest = parts.map(|part| quote!(#operator #part));
+            quote!((#first #(#rest)*))
+        };
+        match quantity {
+            Quantity::Exact(number) => {
+                let value = Literal::f64_unsuffixed(number.to_f64().abs());
+                if number.is_negative() {
+                    quote!((-#value))
+                } else {
+                    quote!(#value)
+                }
+            }
+            Quantity::Parameter(id) => {
+                let field = format_ident!("{}", self.scene.parameters[id.0].name);
+                quote!(parameters.#field)
+            }
+            Quantity::Sum(parts) => fold(parts, quote!(+)),
+            Quantity::Product(parts) => fold(parts, quote!(*)),
+            Quantity::Quotient(a, b) => {
+                let (a, b) = (self.quantity(a), self.quantity(b));
+                quote!((#a / #b))
+            }
+            Quantity::Power(base, exponent) => {
+                let base = self.quantity(base);
+                let factors = vec![base; exponent.unsigned_abs() as usize];
+                if *exponent < 0 {
+                    quote!((1.0 / (#(#factors)**)))
+                } else {
+                    quote!((#(#factors)**))
+                }
+            }
+            Quantity::Negative(value) => {
+                let value = self.quantity(value);
+                quote!((-#value))
+            }
+        }
+    }
+
+    /// One reading function for each named constant.
+    pub(super) fn accessors(&self) -> TokenStream {
+        let accessors = self.stored_constants().into_iter().filter_map(|id| {
+            let definition = self.program.setup.get(id);
+            let ConstantOp::Named(index, _) = definition.op else {
+                return None;
+            };
+            let constant = &self.mechanics.constants[index];
+            let symbol = self.mechanics.symbols.get(constant.symbol);
+            let doc = format!(
+                " {} = {}: {} [{}].",
+                symbol.text,
+                self.text(&constant.value),
+                constant.meaning,
+                constant.unit
+            );
+            let name = self.field(id);
+            Some(quote! {
+                #[doc = #doc]
+                #[inline]
+                #[must_use]
+                pub fn #name(&self) -> T {
+                    self.#name
+                }
+            })
+        });
+        quote!(#(#accessors)*)
+    }
+}

@@ -1,0 +1,136 @@
+//! Names of the local values of an emitted function.
+
+use super::Emission;
+use crate::program::{Argument, Entry, Op, ValueId};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Longer generated names say less than a number.
+const LONGEST_NAME: usize = 48;
+
+/// Which values of a function get a `let`, and what they are called.
+pub(super) struct Locals {
+    pub(super) names: BTreeMap<ValueId, String>,
+    used: BTreeSet<String>,
+}
+
+impl Emission<'_> {
+    /// Names every input, every named value and every value used more than
+    /// once; all others are written in place.
+    pub(super) fn locals(&self, entry: &Entry, needed: &[ValueId]) -> Locals {
+        let mut uses: BTreeMap<ValueId, usize> = BTreeMap::new();
+        for &id in needed {
+            for operand in self.op(id).operands() {
+                *uses.entry(operand).or_default() += 1;
+            }
+        }
+        for &output in &entry.outputs {
+            *uses.entry(output).or_default() += 1;
+        }
+        let mut locals = Locals {
+            names: BTreeMap::new(),
+            used: entry
+                .arguments
+                .iter()
+                .map(|argument| argument.name().to_owned())
+                .collect(),
+        };
+        for &id in needed {
+            let definition = self.program.definition(id);
+            let several = uses.get(&id).is_some_and(|count| *count > 1);
+            let wanted = match (&definition.op, &definition.name) {
+                (Op::Constant(_), _) => continue,
+                (Op::Input(argument, index), _) => Some(self.input_name(*argument, *index)),
+                (Op::Number(_), _) => None,
+                (Op::Sin(_) | Op::Cos(_), Some(name)) => Some(name.clone()),
+                (_, Some(name)) => Some(name.clone()),
+                (_, None) if several => self.describe(id, &locals),
+                (_, None) => continue,
+            };
+            let number = matches!(definition.op, Op::Number(_));
+            if number && !several {
+                continue;
+            }
+            let wanted = match wanted {
+                Some(name) => name,
+                None if number => self.describe(id, &locals).unwrap_or_default(),
+                None => String::new(),
+            };
+            locals.claim(id, wanted);
+        }
+        locals
+    }
+
+    /// `theta_parent`, `omega_m`, `p_d`.
+    pub(super) fn input_name(&self, argument: Argument, index: usize) -> String {
+        let mechanics = self.mechanics;
+        let symbols = match argument {
+            Argument::Theta | Argument::Absolute => &mechanics.absolute.coordinates,
+            Argument::Omega => &mechanics.absolute.velocities,
+            Argument::AbsoluteMomenta => &mechanics.absolute.momenta,
+            Argument::Coordinates | Argument::Symmetric => match &mechanics.symmetric {
+                Some(frame) => &frame.coordinates,
+                None => &mechanics.absolute.coordinates,
+            },
+            Argument::Rates => match &mechanics.symmetric {
+                Some(frame) => &frame.velocities,
+                None => &mechanics.absolute.velocities,
+            },
+            Argument::Momenta => match &mechanics.symmetric {
+                Some(frame) => &frame.momenta,
+                None => &mechanics.absolute.momenta,
+            },
+        };
+        let code = &mechanics.symbols.get(symbols[index]).code;
+        match argument {
+            // The transform serves angles and velocities alike.
+            Argument::Absolute | Argument::Symmetric => code.replacen("theta_", "value_", 1),
+            _ => code.clone(),
+        }
+    }
+
+    /// A name that says how the value is formed, if its operands have names.
+    fn describe(&self, id: ValueId, locals: &Locals) -> Option<String> {
+        let name = |operand: ValueId| match self.op(operand) {
+            Op::Constant(constant) => Some(self.program.setup.get(*constant).name.clone()),
+            _ => locals.names.get(&operand).cloned(),
+        };
+        let described = match self.op(id) {
+            Op::Number(number) => match number.to_string().as_str() {
+                "0" => "zero".to_owned(),
+                "1" => "one".to_owned(),
+                "2" => "two".to_owned(),
+                "3" => "three".to_owned(),
+                "4" => "four".to_owned(),
+                "0.5" => "half".to_owned(),
+                _ => "number".to_owned(),
+            },
+            Op::Neg(a) => format!("minus_{}", name(*a)?),
+            Op::Add(a, b) => format!("{}_plus_{}", name(*a)?, name(*b)?),
+            Op::Sub(a, b) => format!("{}_minus_{}", name(*a)?, name(*b)?),
+            Op::Mul(a, b) if a == b => format!("{}_squared", name(*a)?),
+            Op::Mul(a, b) => format!("{}_times_{}", name(*a)?, name(*b)?),
+            Op::Div(a, b) => format!("{}_over_{}", name(*a)?, name(*b)?),
+            Op::Sin(a) => format!("sin_{}", name(*a)?),
+            Op::Cos(a) => format!("cos_{}", name(*a)?),
+            Op::Input(..) | Op::Constant(_) => return None,
+        };
+        (described.len() <= LONGEST_NAME).then_some(described)
+    }
+}
+
+impl Locals {
+    fn claim(&mut self, id: ValueId, wanted: String) {
+        let wanted = if wanted.is_empty() {
+            "shared".to_owned()
+        } else {
+            wanted
+        };
+        let mut name = wanted.clone();
+        let mut number = 2;
+        while !self.used.insert(name.clone()) {
+            name = format!("{wanted}_{number}");
+            number += 1;
+        }
+        self.names.insert(id, name);
+    }
+}

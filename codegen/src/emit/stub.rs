@@ -1,0 +1,105 @@
+//! What stands in for the model when the description is wrong: the type and
+//! its methods without meaning, so that an editor shows the description's
+//! errors and no others.
+
+use crate::description::StructItem;
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::quote;
+
+/// Methods from two arrays to one.
+const MAPS: [&str; 8] = [
+    "accelerations",
+    "momenta",
+    "velocities",
+    "symmetric_accelerations",
+    "symmetric_momenta",
+    "symmetric_velocities",
+    "transfer_quadratic_form",
+    "hamiltonian_rates",
+];
+/// Methods from one array to one.
+const TRANSFORMS: [&str; 2] = ["to_symmetric", "from_symmetric"];
+/// Methods from one array to a matrix.
+const MATRICES: [&str; 2] = ["mass_matrix", "stiffness_matrix"];
+/// Methods from two arrays to a number.
+const NUMBERS: [&str; 4] = [
+    "kinetic_energy",
+    "hamiltonian",
+    "antiphase_energy",
+    "antiphase_friction_power",
+];
+/// Methods from two arrays to a transfer.
+const TRANSFERS: [&str; 4] = [
+    "transfer_angle_1",
+    "transfer_amplitude_2",
+    "transfer_exact",
+    "transfer_exact_from_rates",
+];
+
+/// The type and its documented methods as stubs. They are never run: the
+/// errors beside them keep the crate from compiling.
+pub fn stub(item: &StructItem, runtime: &TokenStream) -> TokenStream {
+    let (attrs, vis, name) = (&item.attrs, &item.vis, &item.ident);
+    let idents = |names: &[&str]| -> Vec<Ident> {
+        names
+            .iter()
+            .map(|name| Ident::new(name, Span::call_site()))
+            .collect()
+    };
+    let (maps, transforms, matrices) = (idents(&MAPS), idents(&TRANSFORMS), idents(&MATRICES));
+    let (numbers, transfers) = (idents(&NUMBERS), idents(&TRANSFERS));
+    quote! {
+        #(#attrs)*
+        #vis struct #name<T = f64>(::core::marker::PhantomData<T>);
+
+        #[allow(missing_docs, clippy::all)]
+        impl #name<f64> {
+            pub fn new() -> Self { ::core::unimplemented!() }
+        }
+
+        #[allow(missing_docs, clippy::all)]
+        impl<T> ::core::default::Default for #name<T> {
+            fn default() -> Self { ::core::unimplemented!() }
+        }
+
+        #[allow(missing_docs, unused_variables, clippy::all)]
+        impl<T: #runtime::Scalar> #name<T> {
+            #(pub fn #maps<const N: usize>(&self, first: &[T; N], second: &[T; N]) -> [T; N] {
+                ::core::unimplemented!()
+            })*
+            #(pub fn #transforms<const N: usize>(&self, values: &[T; N]) -> [T; N] {
+                ::core::unimplemented!()
+            })*
+            #(pub fn #matrices<const N: usize>(&self, theta: &[T; N]) -> [[T; N]; N] {
+                ::core::unimplemented!()
+            })*
+            #(pub fn #numbers<const N: usize>(&self, first: &[T; N], second: &[T; N]) -> T {
+                ::core::unimplemented!()
+            })*
+            #(pub fn #transfers<const N: usize>(
+                &self, first: &[T; N], second: &[T; N],
+            ) -> #runtime::Transfer<T> {
+                ::core::unimplemented!()
+            })*
+            pub fn potential_energy<const N: usize>(&self, theta: &[T; N]) -> T {
+                ::core::unimplemented!()
+            }
+        }
+
+        impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
+            const LINKS: usize = 0;
+            const LINK_NAMES: &'static [&'static str] = &[];
+            fn accelerations_into(&self, _: T, _: &[T], _: &[T], _: &mut [T]) {}
+        }
+
+        impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {
+            const COORDINATE_NAMES: &'static [&'static str] = &[];
+            fn symmetric_accelerations_into(&self, _: T, _: &[T], _: &[T], _: &mut [T]) {}
+        }
+
+        impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
+            fn kinetic_energy_of(&self, _: &[T], _: &[T]) -> T { ::core::unimplemented!() }
+            fn potential_energy_of(&self, _: &[T]) -> T { ::core::unimplemented!() }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! The runtime's traits for the model. Their slices may have any length; a
+//! wrong one yields NaN, which integrators report at once.
+
+use super::Emission;
+use crate::mechanics::Mechanics;
+use crate::program::Purpose;
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+
+impl Emission<'_> {
+    pub(super) fn traits(&self) -> TokenStream {
+        let pendulum = self.pendulum();
+        let energy = self.scene.requests.energies.then(|| self.energy());
+        let symmetric = self
+            .mechanics
+            .symmetric
+            .is_some()
+            .then(|| self.symmetric_pendulum());
+        quote! {
+            #pendulum
+            #energy
+            #symmetric
+        }
+    }
+
+    fn links(&self) -> Literal {
+        Literal::usize_unsuffixed(self.scene.links.len())
+    }
+
+    /// Copies slices into arrays and calls `method` with them.
+    fn with_arrays(
+        &self,
+        slices: &[&str],
+        call: TokenStream,
+        success: TokenStream,
+        failure: TokenStream,
+    ) -> TokenStream {
+        let links = self.links();
+        let names: Vec<Ident> = slices
+            .iter()
+            .map(|name| Ident::new(name, Span::call_site()))
+            .collect();
+        quote! {
+            match (#(<[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
+                (#(::core::result::Result::Ok(#names),)*) => {
+                    let result = #call;
+                    #success
+                }
+                _ => #failure,
+            }
+        }
+    }
+
+    fn fill(&self, output: &Ident, slices: &[&str], call: TokenStream) -> TokenStream {
+        let links = self.links();
+        let body = self.with_arrays(
+            slices,
+            call,
+            quote!(#output.copy_from_slice(&result);),
+            quote!(#output.fill(T::from_f64(f64::NAN))),
+        );
+        quote! {
+            if #output.len() != #links {
+                #output.fill(T::from_f64(f64::NAN));
+                return;
+            }
+            #body
+        }
+    }
+
+    fn pendulum(&self) -> TokenStream {
+        let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
+        let link_names = self.scene.links.iter().map(|link| &link.name);
+        let output = Ident::new("alpha", Span::call_site());
+        let body = self.fill(
+            &output,
+            &["theta", "omega"],
+            quote!(self.accelerations(&theta, &omega)),
+        );
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
+                const LINKS: usize = #links;
+                const LINK_NAMES: &'static [&'static str] = &[#(#link_names),*];
+
+                #[inline]
+                fn accelerations_into(&self, _time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+                    #body
+                }
+            }
+        }
+    }
+
+    fn energy(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let value = |slices: &[&str], call| {
+            self.with_arrays(
+                slices,
+                call,
+                quote!(result),
+                quote!(T::from_f64(f64::NAN)),
+            )
+        };
+        let kinetic = value(
+            &["theta", "omega"],
+            quote!(self.kinetic_energy(&theta, &omega)),
+        );
+        let potential = value(&["theta"], quote!(self.potential_energy(&theta)));
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
+                #[inline]
+                fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
+                    #kinetic
+                }
+
+                #[inline]
+                fn potential_energy_of(&self, theta: &[T]) -> T {
+                    #potential
+                }
+            }
+        }
+    }
+
+    fn symmetric_pendulum(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let names = coordinate_names(self.mechanics);
+        let output = Ident::new("accelerations", Span::call_site());
+        debug_assert!(
+            self.program
+                .entries
+                .iter()
+                .any(|entry| entry.purpose == Purpose::SymmetricAccelerations)
+        );
+        let body = self.fill(
+            &output,
+            &["coordinates", "rates"],
+            quote!(self.symmetric_accelerations(&coordinates, &rates)),
+        );
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {
+                const COORDINATE_NAMES: &'static [&'static str] = &[#(#names),*];
+
+                #[inline]
+                fn symmetric_accelerations_into(
+                    &self,
+                    _time: T,
+                    coordinates: &[T],
+                    rates: &[T],
+                    accelerations: &mut [T],
+                ) {
+                    #body
+                }
+            }
+        }
+    }
+}
+
+/// `theta_parent`, `theta_m`, …
+fn coordinate_names(mechanics: &Mechanics) -> Vec<String> {
+    mechanics
+        .symmetric
+        .iter()
+        .flat_map(|frame| &frame.coordinates)
+        .map(|&id| mechanics.symbols.get(id).code.clone())
+        .collect()
+}

@@ -1,0 +1,382 @@
+//! Exact numbers: what a decimal literal means before anything is rounded.
+//!
+//! Every literal of a description is read as a rational number and combined
+//! exactly; [`Rational::to_f64`] rounds once, at the very end.
+
+mod round;
+
+use std::cmp::Ordering;
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::ops::{Add, Mul, Neg, Sub};
+
+use numerica::domains::integer::Integer;
+use numerica::domains::rational::Rational as Fraction;
+
+/// Decimal digits up to which [`Rational`] prints a terminating decimal as
+/// such; beyond them, and for every other number, it prints `n/d`.
+const DECIMAL_DIGITS: usize = 25;
+
+/// An arbitrary-precision rational number, always in lowest terms with a
+/// positive denominator.
+///
+/// Addition, subtraction, multiplication and negation are operators on values
+/// and references; division and powers can fail and are the methods
+/// [`checked_div`](Self::checked_div) and [`checked_pow`](Self::checked_pow).
+#[derive(Clone, PartialEq, Eq)]
+pub struct Rational(Fraction);
+
+/// Why an operation on exact numbers gave no number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExactError {
+    /// The text is not a decimal number.
+    Malformed,
+    /// The decimal exponent lies outside ±[`Rational::MAX_EXPONENT`].
+    Exponent,
+    /// Division by zero, or a negative power of zero.
+    DivisionByZero,
+    /// Numerator or denominator would have more than
+    /// [`Rational::MAX_BITS`] bits.
+    TooLong,
+}
+
+impl fmt::Display for ExactError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Malformed => write!(f, "not a decimal number"),
+            Self::Exponent => write!(
+                f,
+                "decimal exponent outside -{0} to {0}",
+                Rational::MAX_EXPONENT
+            ),
+            Self::DivisionByZero => write!(f, "division by zero"),
+            Self::TooLong => write!(
+                f,
+                "numerator or denominator longer than {} bits",
+                Rational::MAX_BITS
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ExactError {}
+
+impl Rational {
+    /// Largest decimal exponent that a literal may carry, either sign. It
+    /// covers every `f64` and keeps `1e999999999` from filling the memory.
+    pub const MAX_EXPONENT: i32 = 400;
+
+    /// Longest numerator or denominator, in bits, that
+    /// [`checked_pow`](Self::checked_pow) forms and that
+    /// [`is_short`](Self::is_short) accepts.
+    pub const MAX_BITS: u64 = 8192;
+
+    /// The number 0.
+    pub fn zero() -> Self {
+        Self(Fraction::zero())
+    }
+
+    /// The number 1.
+    pub fn one() -> Self {
+        Self(Fraction::one())
+    }
+
+    /// The quotient of two machine integers; `None` when `denominator` is 0.
+    pub fn from_ratio(numerator: i64, denominator: i64) -> Option<Self> {
+        if denominator == 0 {
+            return None;
+        }
+        // Wide integers, because the sign moves to the numerator and
+        // `i64::MIN` has no negative.
+        Some(Self(Fraction::new(
+            i128::from(numerator),
+            i128::from(denominator),
+        )))
+    }
+
+    /// Reads a decimal literal exactly: an optional sign, digits with
+    /// underscores between them, an optional point and an optional exponent, as
+    /// in `1_000`, `.5`, `1.88e-3`. Type suffixes and other bases are refused.
+    ///
+    /// # Errors
+    /// [`ExactError::Malformed`], [`ExactError::Exponent`], or
+    /// [`ExactError::TooLong`] for more digits than
+    /// [`MAX_BITS`](Self::MAX_BITS) can hold.
+    pub fn parse_decimal(text: &str) -> Result<Self, ExactError> {
+        let (negative, unsigned) = match text.strip_prefix('-') {
+            Some(rest) => (true, rest),
+            None => (false, text.strip_prefix('+').unwrap_or(text)),
+        };
+        let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
+            Some((mantissa, exponent)) => (mantissa, parse_exponent(exponent)?),
+            None => (unsigned, 0),
+        };
+        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let fraction = digits(fraction)?;
+        let mantissa = digits(whole)? + fraction.as_str();
+        if mantissa.is_empty() {
+            return Err(ExactError::Malformed);
+        }
+        // Each decimal digit takes more than three bits.
+        if mantissa.len() as u64 > Self::MAX_BITS / 4 {
+            return Err(ExactError::TooLong);
+        }
+        let mantissa: Integer = mantissa.parse().map_err(|_| ExactError::Malformed)?;
+        let power = i64::from(exponent) - fraction.len() as i64;
+        let scale = Integer::from(10).pow(power.unsigned_abs());
+        let (numerator, denominator) = if power < 0 {
+            (mantissa, scale)
+        } else {
+            (mantissa * scale, Integer::one())
+        };
+        let value = Self(Fraction::new(numerator, denominator));
+        Ok(if negative { -value } else { value })
+    }
+
+    /// Whether the number is 0.
+    pub fn is_zero(&self) -> bool {
+        self.0.is_zero()
+    }
+
+    /// Whether the number is 1.
+    pub fn is_one(&self) -> bool {
+        self.0.is_one()
+    }
+
+    /// Whether the number is below 0.
+    pub fn is_negative(&self) -> bool {
+        self.0.is_negative()
+    }
+
+    /// Whether the number is a whole one.
+    pub fn is_integer(&self) -> bool {
+        self.0.is_integer()
+    }
+
+    /// Whether numerator and denominator have at most
+    /// [`MAX_BITS`](Self::MAX_BITS) bits each, so that a chain of operations
+    /// can be kept from growing without limit.
+    pub fn is_short(&self) -> bool {
+        self.bits() <= Self::MAX_BITS
+    }
+
+    /// Bits of the longer of numerator and denominator.
+    fn bits(&self) -> u64 {
+        let numerator = self.0.numerator_ref().abs().significant_bits();
+        numerator.max(self.0.denominator_ref().significant_bits())
+    }
+
+    /// The quotient `self / divisor`; `None` when `divisor` is 0.
+    pub fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        (!divisor.is_zero()).then(|| Self(&self.0 / &divisor.0))
+    }
+
+    /// The power `self ^ exponent`; `x ^ 0` is 1 for every `x`.
+    ///
+    /// # Errors
+    /// [`ExactError::DivisionByZero`] for a negative power of zero,
+    /// [`ExactError::TooLong`] for a result beyond
+    /// [`MAX_BITS`](Self::MAX_BITS).
+    pub fn checked_pow(&self, exponent: i32) -> Result<Self, ExactError> {
+        if exponent < 0 && self.is_zero() {
+            return Err(ExactError::DivisionByZero);
+        }
+        let magnitude = u64::from(exponent.unsigned_abs());
+        // 0, 1 and -1 have one bit and stay as short in every power.
+        let bits = self.bits();
+        if bits > 1 && bits.saturating_mul(magnitude) > Self::MAX_BITS {
+            return Err(ExactError::TooLong);
+        }
+        let magnitude = if bits > 1 {
+            magnitude
+        } else {
+            2 - magnitude % 2
+        };
+        if exponent == 0 {
+            return Ok(Self::one());
+        }
+        let power = self.0.pow(magnitude);
+        Ok(Self(if exponent < 0 { power.inv() } else { power }))
+    }
+
+    /// The decimal digits of the numerator, with its sign.
+    pub fn numerator_text(&self) -> String {
+        self.0.numerator_ref().to_string()
+    }
+
+    /// The decimal digits of the denominator, which is positive.
+    pub fn denominator_text(&self) -> String {
+        self.0.denominator_ref().to_string()
+    }
+
+    /// The nearest `f64`, ties to even; numbers beyond the largest finite
+    /// `f64` give an infinity, as a decimal literal in Rust source does.
+    pub fn to_f64(&self) -> f64 {
+        let magnitude =
+            round::magnitude_to_f64(&self.0.numerator_ref().abs(), self.0.denominator_ref());
+        if self.is_negative() {
+            -magnitude
+        } else {
+            magnitude
+        }
+    }
+
+    /// The terminating decimal expansion, where there is one of at most
+    /// [`DECIMAL_DIGITS`] digits.
+    fn terminating_decimal(&self) -> Option<String> {
+        let mut ten = Integer::one();
+        for places in 0..=DECIMAL_DIGITS {
+            let (quotient, rest) = ten.quot_rem(self.0.denominator_ref());
+            if rest.is_zero() {
+                let digits = (self.0.numerator_ref().abs() * quotient).to_string();
+                if digits.len() > DECIMAL_DIGITS {
+                    return None;
+                }
+                let digits = format!("{digits:0>width$}", width = places + 1);
+                let (whole, fraction) = digits.split_at(digits.len() - places);
+                let sign = if self.is_negative() { "-" } else { "" };
+                return Some(if places == 0 {
+                    format!("{sign}{whole}")
+                } else {
+                    format!("{sign}{whole}.{fraction}")
+                });
+            }
+            ten *= Integer::from(10);
+        }
+        None
+    }
+}
+
+/// The digits of `text` without the underscores between them.
+fn digits(text: &str) -> Result<String, ExactError> {
+    text.chars()
+        .filter(|&c| c != '_')
+        .map(|c| c.is_ascii_digit().then_some(c))
+        .collect::<Option<String>>()
+        .ok_or(ExactError::Malformed)
+}
+
+/// A decimal exponent within the limit.
+fn parse_exponent(text: &str) -> Result<i32, ExactError> {
+    let (negative, unsigned) = match text.strip_prefix('-') {
+        Some(rest) => (true, rest),
+        None => (false, text.strip_prefix('+').unwrap_or(text)),
+    };
+    let digits = digits(unsigned)?;
+    if digits.is_empty() {
+        return Err(ExactError::Malformed);
+    }
+    // Parsing all-digit text fails only by overflow.
+    let magnitude: i32 = digits.parse().map_err(|_| ExactError::Exponent)?;
+    if magnitude > Rational::MAX_EXPONENT {
+        return Err(ExactError::Exponent);
+    }
+    Ok(if negative { -magnitude } else { magnitude })
+}
+
+impl From<i64> for Rational {
+    fn from(value: i64) -> Self {
+        Self(Fraction::new(value, 1))
+    }
+}
+
+impl PartialOrd for Rational {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Rational {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let difference = self - other;
+        if difference.is_negative() {
+            Ordering::Less
+        } else if difference.is_zero() {
+            Ordering::Equal
+        } else {
+            Ordering::Greater
+        }
+    }
+}
+
+impl Hash for Rational {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.hash(state);
+    }
+}
+
+impl fmt::Display for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.terminating_decimal() {
+            Some(decimal) => f.write_str(&decimal),
+            None => write!(f, "{}/{}", self.0.numerator_ref(), self.0.denominator_ref()),
+        }
+    }
+}
+
+impl fmt::Debug for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Rational({self})")
+    }
+}
+
+impl Neg for Rational {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self(self.0.neg())
+    }
+}
+
+impl Neg for &Rational {
+    type Output = Rational;
+
+    fn neg(self) -> Rational {
+        Rational(self.0.clone().neg())
+    }
+}
+
+/// Implements a binary operator for values and references.
+macro_rules! operator {
+    ($trait:ident, $method:ident) => {
+        impl $trait<&Rational> for &Rational {
+            type Output = Rational;
+
+            fn $method(self, other: &Rational) -> Rational {
+                Rational($trait::$method(&self.0, &other.0))
+            }
+        }
+
+        impl $trait<Rational> for Rational {
+            type Output = Rational;
+
+            fn $method(self, other: Rational) -> Rational {
+                Rational($trait::$method(&self.0, &other.0))
+            }
+        }
+    };
+}
+
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+
+/// The door to the algebra, which shares this representation.
+impl Rational {
+    /// The number as the algebra's own type.
+    pub(crate) fn as_inner(&self) -> &Fraction {
+        &self.0
+    }
+
+    /// The number from the algebra's own type.
+    pub(crate) fn from_inner(inner: Fraction) -> Self {
+        Self(inner)
+    }
+
+    /// The number as a small integer, if it is one.
+    pub(crate) fn to_i32(&self) -> Option<i32> {
+        self.is_integer()
+            .then(|| self.numerator_text().parse().ok())
+            .flatten()
+    }
+}

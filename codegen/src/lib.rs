@@ -1,0 +1,96 @@
+//! From the attribute `#[branched_pendulum(...)]` to specialised Rust code.
+//!
+//! An ordinary library on token streams, so that every stage can be tested
+//! without a compiler around it:
+//!
+//! ```text
+//! tokens -> Description -> Scene -> Mechanics -> Program -> tokens
+//! ```
+//!
+//! [`expand`] is the whole pipeline. The derivation uses
+//! [Symbolica](https://symbolica.io) behind one door, `mechanics::algebra`;
+//! what is emitted is free of it.
+
+pub mod description;
+pub mod emit;
+pub mod exact;
+pub mod mechanics;
+pub mod program;
+pub mod report;
+pub mod scene;
+
+use description::Description;
+use mechanics::Mechanics;
+use proc_macro2::{Span, TokenStream};
+use program::Program;
+use quote::quote;
+use report::{Message, Report};
+use scene::Scene;
+
+/// Everything that the stages produce for one attribute.
+#[derive(Debug)]
+pub struct Stages {
+    /// What the user wrote.
+    pub description: Description,
+    /// The validated tree.
+    pub scene: Scene,
+    /// What was derived for it.
+    pub mechanics: Mechanics,
+    /// The code to write, as a flat program.
+    pub program: Program,
+    /// The emitted tokens.
+    pub tokens: TokenStream,
+}
+
+/// Runs all stages on an attribute's tokens and the item it stands on.
+///
+/// # Errors
+/// The collected errors of the description, with the tokens that stand in for
+/// the item: its errors, and stubs so that an editor shows no others.
+pub fn stages(attribute: TokenStream, item: TokenStream) -> Result<Stages, (Report, TokenStream)> {
+    let mut report = Report::new();
+    let Some(description) = description::parse(attribute, item.clone(), &mut report) else {
+        let errors = report.to_compile_errors();
+        return Err((report, quote!(#errors #item)));
+    };
+    let Some(scene) = scene::resolve(&description, &mut report) else {
+        return Err(refuse(&description, report));
+    };
+    let mechanics = match mechanics::derive(&scene) {
+        Ok(mechanics) => mechanics,
+        Err(error) => {
+            report.error(Span::call_site(), Message::Algebra(error.to_string()));
+            return Err(refuse(&description, report));
+        }
+    };
+    // After this line nothing fails: a broken invariant is a bug.
+    let program = program::lower(&scene, &mechanics);
+    debug_assert_eq!(program.verify(), Ok(()));
+    let tokens = emit::emit(&description.item, &scene, &mechanics, &program);
+    Ok(Stages {
+        description,
+        scene,
+        mechanics,
+        program,
+        tokens,
+    })
+}
+
+/// Expands the attribute. Always gives tokens: on errors, `compile_error!`
+/// calls and stubs.
+pub fn expand(attribute: TokenStream, item: TokenStream) -> TokenStream {
+    match stages(attribute, item) {
+        Ok(stages) => stages.tokens,
+        Err((_, tokens)) => tokens,
+    }
+}
+
+fn refuse(description: &Description, report: Report) -> (Report, TokenStream) {
+    let errors = report.to_compile_errors();
+    let runtime = description.crate_path.as_ref().map_or_else(
+        || emit::runtime_path(&scene::CratePath::default()),
+        |path| quote!(#path),
+    );
+    let stub = emit::stub(&description.item, &runtime);
+    (report, quote!(#errors #stub))
+}

@@ -1,0 +1,344 @@
+//! The one door to Symbolica.
+//!
+//! Symbolica's free mode allows one thread per user and aborts the process
+//! that starts a second one. [`run`] therefore takes a lock that all processes
+//! of this crate share, does the whole derivation on a fresh thread, joins it
+//! and unlocks. Nothing else in the workspace names Symbolica; what crosses
+//! the door outwards is our own [`Expr`].
+
+use super::expression::{Expr, SymbolId, Symbols};
+use crate::exact::Rational;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs::{File, OpenOptions};
+use std::path::PathBuf;
+use symbolica::atom::{Atom, AtomCore, AtomView, Symbol as AlgebraSymbol};
+use symbolica::coefficient::Coefficient;
+use symbolica::id::Replacement;
+use symbolica::symbol;
+
+/// Why a derivation could not be run.
+#[derive(Debug)]
+pub enum AlgebraError {
+    /// The lock file cannot be opened or locked.
+    Lock {
+        /// Where the lock file is.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The derivation panicked: a broken invariant of ours.
+    Broken {
+        /// The panic's message.
+        message: String,
+    },
+}
+
+impl fmt::Display for AlgebraError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Lock { path, source } => write!(
+                f,
+                "cannot lock `{}`, which keeps derivations of one user apart: {source}",
+                path.display()
+            ),
+            Self::Broken { message } => write!(
+                f,
+                "a derivation broke one of its own invariants (a bug of this crate): {message}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for AlgebraError {}
+
+/// Runs `work` where it may use the algebra: alone among all processes of
+/// this user, on a thread of its own.
+///
+/// Waits for as long as other derivations need. Formulas cannot leave `work`
+/// other than as [`Expr`].
+///
+/// # Errors
+/// [`AlgebraError::Lock`] if the lock file cannot be used,
+/// [`AlgebraError::Broken`] if `work` panics.
+pub fn run<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, AlgebraError> {
+    let lock = lock()?;
+    hide_banner();
+    let outcome = std::thread::scope(|scope| {
+        std::thread::Builder::new()
+            .name("derivation".into())
+            // Symbolica recurses over expressions in unoptimised builds too.
+            .stack_size(64 << 20)
+            .spawn_scoped(scope, work)
+            .map(|handle| handle.join())
+    });
+    drop(lock);
+    match outcome {
+        Ok(Ok(result)) => Ok(result),
+        Ok(Err(panic)) => Err(AlgebraError::Broken {
+            message: panic
+                .downcast_ref::<String>()
+                .cloned()
+                .or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()))
+                .unwrap_or_else(|| "no message".into()),
+        }),
+        Err(source) => Err(AlgebraError::Broken {
+            message: format!("no thread for the derivation: {source}"),
+        }),
+    }
+}
+
+/// Closing the file unlocks it, also when the process dies.
+fn lock() -> Result<File, AlgebraError> {
+    let path = std::env::temp_dir().join("branched-pendulum.lock");
+    let open = || {
+        OpenOptions::new()
+            .create(true)
+            .truncate(false)
+            .write(true)
+            .open(&path)
+            // Another user's lock file can be read and locked, not written.
+            .or_else(|_| File::open(&path))
+    };
+    open()
+        .and_then(|file| file.lock().map(|()| file))
+        .map_err(|source| AlgebraError::Lock {
+            path: path.clone(),
+            source,
+        })
+}
+
+/// The banner would go to the compiler's standard output, which cargo parses;
+/// docs/licences.md carries the notice instead.
+#[allow(unsafe_code)]
+fn hide_banner() {
+    const VARIABLE: &str = "SYMBOLICA_HIDE_BANNER";
+    if std::env::var_os(VARIABLE).is_none() {
+        // SAFETY: called under the process-wide lock, before Symbolica reads
+        // it; the standard library serialises its own accesses, and this
+        // crate reads the environment through the standard library alone.
+        unsafe { std::env::set_var(VARIABLE, "1") };
+    }
+}
+
+/// A formula inside the algebra. Lives only inside [`run`].
+#[derive(Clone, PartialEq, Eq)]
+pub struct Formula(Atom);
+
+impl fmt::Debug for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.0)
+    }
+}
+
+fn algebra_symbol(id: SymbolId) -> AlgebraSymbol {
+    symbol!(format!("branched_pendulum::x{}", id.0).as_str())
+}
+
+impl Formula {
+    /// The number zero.
+    pub fn zero() -> Self {
+        Self(Atom::new())
+    }
+
+    /// An integer.
+    pub fn integer(value: i64) -> Self {
+        Self(Atom::num(value))
+    }
+
+    /// An exact number.
+    pub fn number(value: &Rational) -> Self {
+        Self(Atom::num(value.as_inner().clone()))
+    }
+
+    /// A symbol.
+    pub fn symbol(id: SymbolId) -> Self {
+        Self(Atom::var(algebra_symbol(id)))
+    }
+
+    /// The formula that `expr` spells out.
+    pub fn from_expr(expr: &Expr) -> Self {
+        match expr {
+            Expr::Number(number) => Self::number(number),
+            Expr::Symbol(id) => Self::symbol(*id),
+            Expr::Sum(parts) => parts.iter().map(Self::from_expr).sum(),
+            Expr::Product(parts) => parts
+                .iter()
+                .map(Self::from_expr)
+                .fold(Self::integer(1), |product, factor| product * factor),
+            Expr::Power(base, exponent) => Self::from_expr(base).pow(*exponent),
+        }
+    }
+
+    /// An integer power.
+    pub fn pow(&self, exponent: i32) -> Self {
+        Self(self.0.pow(Atom::num(i64::from(exponent))))
+    }
+
+    /// Whether the formula is literally zero; expand first.
+    pub fn is_zero(&self) -> bool {
+        self.0.is_zero()
+    }
+
+    /// Products multiplied out.
+    pub fn expand(&self) -> Self {
+        Self(self.0.expand())
+    }
+
+    /// Over one common denominator, numerator and denominator coprime.
+    pub fn together(&self) -> Self {
+        Self(self.0.together())
+    }
+
+    /// Partial derivative with respect to the symbol itself (no chain rule).
+    pub fn derivative(&self, id: SymbolId) -> Self {
+        Self(self.0.derivative(algebra_symbol(id)))
+    }
+
+    /// All symbols replaced at once.
+    pub fn substitute(&self, replacements: &[(SymbolId, Formula)]) -> Self {
+        if replacements.is_empty() {
+            return self.clone();
+        }
+        let replacements: Vec<Replacement> = replacements
+            .iter()
+            .map(|(id, value)| {
+                Replacement::new(
+                    Atom::var(algebra_symbol(*id)).to_pattern(),
+                    value.0.to_pattern(),
+                )
+            })
+            .collect();
+        Self(self.0.replace_multiple(replacements.iter()))
+    }
+
+    /// Coefficients of the expanded formula in the given symbols: from
+    /// exponents (one for each symbol, in order) to coefficient.
+    pub fn coefficients(&self, ids: &[SymbolId]) -> BTreeMap<Vec<u32>, Formula> {
+        let atoms: Vec<Atom> = ids
+            .iter()
+            .map(|id| Atom::var(algebra_symbol(*id)))
+            .collect();
+        let expanded = self.0.expand();
+        let mut table = BTreeMap::new();
+        for (key, coefficient) in expanded.coefficient_list::<i16>(&atoms) {
+            let exponents = monomial_exponents(key.as_view(), &atoms);
+            table.insert(exponents, Self(coefficient));
+        }
+        table.retain(|_, coefficient: &mut Formula| !coefficient.is_zero());
+        table
+    }
+
+    /// The symbols that occur.
+    pub fn symbols(&self) -> Vec<SymbolId> {
+        let mut ids: Vec<SymbolId> = self
+            .0
+            .get_all_symbols(false)
+            .into_iter()
+            .map(symbol_id)
+            .collect();
+        ids.sort_unstable();
+        ids
+    }
+
+    /// The formula as plain data, in canonical order.
+    pub fn to_expr(&self, symbols: &Symbols) -> Expr {
+        read(self.0.as_view()).canonical(symbols)
+    }
+}
+
+fn monomial_exponents(key: AtomView<'_>, atoms: &[Atom]) -> Vec<u32> {
+    let mut exponents = vec![0; atoms.len()];
+    let mut note = |factor: AtomView<'_>| {
+        let (base, exponent) = match factor {
+            AtomView::Pow(power) => (power.get_base(), integer(power.get_exp())),
+            other => (other, 1),
+        };
+        if let Some(position) = atoms.iter().position(|atom| atom.as_view() == base) {
+            exponents[position] += exponent.unsigned_abs();
+        }
+    };
+    match key {
+        AtomView::Mul(product) => product.iter().for_each(&mut note),
+        other => note(other),
+    }
+    exponents
+}
+
+fn symbol_id(symbol: AlgebraSymbol) -> SymbolId {
+    let name = symbol.get_stripped_name();
+    match name.strip_prefix('x').and_then(|digits| digits.parse().ok()) {
+        Some(id) => SymbolId(id),
+        None => unreachable!("the algebra returned a symbol that we did not make: {name}"),
+    }
+}
+
+fn integer(view: AtomView<'_>) -> i32 {
+    let number = rational(view);
+    match number.to_i32() {
+        Some(value) => value,
+        None => unreachable!("the algebra returned the exponent {number}"),
+    }
+}
+
+fn rational(view: AtomView<'_>) -> Rational {
+    if let AtomView::Num(number) = view
+        && let Coefficient::Complex(value) = number.get_coeff_view().to_owned()
+        && value.is_real()
+    {
+        return Rational::from_inner(value.re);
+    }
+    unreachable!("the algebra returned a number that is not rational: {view}")
+}
+
+fn read(view: AtomView<'_>) -> Expr {
+    match view {
+        AtomView::Num(_) => Expr::Number(rational(view)),
+        AtomView::Var(variable) => Expr::Symbol(symbol_id(variable.get_symbol())),
+        AtomView::Pow(power) => {
+            Expr::Power(Box::new(read(power.get_base())), integer(power.get_exp()))
+        }
+        AtomView::Mul(product) => Expr::Product(product.iter().map(read).collect()),
+        AtomView::Add(sum) => Expr::Sum(sum.iter().map(read).collect()),
+        AtomView::Fun(_) => {
+            unreachable!("no function enters the algebra, yet it returned {view}")
+        }
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident) => {
+        impl std::ops::$trait for Formula {
+            type Output = Formula;
+            fn $method(self, other: Formula) -> Formula {
+                Formula(std::ops::$trait::$method(&self.0, &other.0))
+            }
+        }
+        impl std::ops::$trait<&Formula> for &Formula {
+            type Output = Formula;
+            fn $method(self, other: &Formula) -> Formula {
+                Formula(std::ops::$trait::$method(&self.0, &other.0))
+            }
+        }
+    };
+}
+
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+operator!(Div, div);
+
+impl std::ops::Neg for Formula {
+    type Output = Formula;
+    fn neg(self) -> Formula {
+        Formula(-self.0)
+    }
+}
+
+impl std::iter::Sum for Formula {
+    fn sum<I: Iterator<Item = Formula>>(iter: I) -> Formula {
+        let terms: Vec<Atom> = iter.map(|formula| formula.0).collect();
+        // Adding all at once keeps the cost linear in the number of terms.
+        Formula(Atom::add_many(terms.iter()))
+    }
+}

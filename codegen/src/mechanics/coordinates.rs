@@ -1,0 +1,425 @@
+//! Symmetric coordinates (physics §3): for identical sibling subtrees, the
+//! mean of the copies and their orthogonal differences, from the leaves up.
+
+use super::algebra::Formula;
+use super::derivation::{Derivation, Frame, MassMatrix};
+use super::expression::SymbolId;
+use crate::scene::{Group, LinkId, OrbitId, Scene};
+use std::collections::BTreeMap;
+
+/// Where a symmetric coordinate lives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Mean angle of all links of an orbit; the link's own angle where the
+    /// orbit has one link.
+    Mean {
+        /// The orbit.
+        orbit: OrbitId,
+    },
+    /// Difference number `index` (from 1) between the copies of a group, in
+    /// one orbit below its node.
+    Difference {
+        /// Index of the group in the scene.
+        group: usize,
+        /// Number of the difference, 1 to copies − 1.
+        index: usize,
+        /// The orbit whose links differ.
+        orbit: OrbitId,
+        /// Σ of the squared weights: the factor between the mass matrix of one
+        /// copy and that of the difference (2 for a pair).
+        norm: i64,
+    },
+}
+
+/// One symmetric coordinate: θ_link = Σ weight · coordinate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Coordinate {
+    /// Short name; `theta_` and `p_` stand before it in code.
+    pub name: String,
+    /// Mean or difference.
+    pub kind: Kind,
+    /// Weight of this coordinate in the angle of each link; links without it
+    /// are left out. Columns of different coordinates are orthogonal.
+    pub weights: Vec<(LinkId, i64)>,
+}
+
+impl Coordinate {
+    /// Σ of the squared weights, by which the inverse transform divides.
+    pub fn norm(&self) -> i64 {
+        self.weights.iter().map(|(_, w)| w * w).sum()
+    }
+}
+
+/// The links of one orbit below a node, in the order of copies.
+struct Strand {
+    orbit: OrbitId,
+    links: Vec<LinkId>,
+}
+
+/// The symmetric coordinates of a scene: means in the order of the orbits,
+/// then differences, outer groups first.
+pub fn symmetric_coordinates(scene: &Scene) -> Vec<Coordinate> {
+    let mut differences = Vec::new();
+    let strands = match scene.links.iter().position(|link| link.parent.is_none()) {
+        Some(root) => descend(scene, LinkId(root), &mut differences),
+        None => Vec::new(),
+    };
+    let mut means: Vec<Coordinate> = strands
+        .into_iter()
+        .map(|strand| Coordinate {
+            name: String::new(),
+            kind: Kind::Mean {
+                orbit: strand.orbit,
+            },
+            weights: strand.links.into_iter().map(|link| (link, 1)).collect(),
+        })
+        .collect();
+    means.sort_by_key(|c| c.weights[0].0);
+    differences.sort_by_key(|c: &Coordinate| match c.kind {
+        Kind::Difference { group, index, .. } => (group, index, c.weights[0].0),
+        Kind::Mean { .. } => (0, 0, c.weights[0].0),
+    });
+    let mut all = means;
+    all.append(&mut differences);
+    name_coordinates(scene, &mut all);
+    all
+}
+
+/// Strands of the subtree at `link`; differences met on the way are added.
+fn descend(scene: &Scene, link: LinkId, differences: &mut Vec<Coordinate>) -> Vec<Strand> {
+    let mut strands = vec![Strand {
+        orbit: scene.links[link.0].orbit,
+        links: vec![link],
+    }];
+    let children: Vec<LinkId> = (0..scene.links.len())
+        .map(LinkId)
+        .filter(|child| scene.links[child.0].parent == Some(link))
+        .collect();
+    let groups: Vec<(usize, &Group)> = scene
+        .groups
+        .iter()
+        .enumerate()
+        .filter(|(_, group)| group.parent == Some(link))
+        .collect();
+    for child in children {
+        match groups.iter().find(|(_, g)| g.copies.contains(&child)) {
+            None => strands.extend(descend(scene, child, differences)),
+            Some((number, group)) if group.copies[0] == child => {
+                let copies: Vec<Vec<Strand>> = group
+                    .copies
+                    .iter()
+                    .map(|&copy| descend(scene, copy, differences))
+                    .collect();
+                strands.extend(combine(*number, copies, differences));
+            }
+            Some(_) => {}
+        }
+    }
+    strands
+}
+
+/// Joins the strands of the copies of a group into means, and records the
+/// Helmert differences: difference r weighs the first r copies with 1 and the
+/// next one with −r.
+fn combine(
+    group: usize,
+    copies: Vec<Vec<Strand>>,
+    differences: &mut Vec<Coordinate>,
+) -> Vec<Strand> {
+    let count = copies.len();
+    let mut joined: Vec<Strand> = Vec::new();
+    let mut by_orbit: BTreeMap<usize, Vec<Vec<LinkId>>> = BTreeMap::new();
+    for strands in copies {
+        for (position, strand) in strands.into_iter().enumerate() {
+            by_orbit
+                .entry(position)
+                .or_default()
+                .push(strand.links.clone());
+            match joined.get_mut(position) {
+                Some(whole) => whole.links.extend(strand.links),
+                None => joined.push(strand),
+            }
+        }
+    }
+    for (position, parts) in by_orbit {
+        for index in 1..count {
+            let mut weights = Vec::new();
+            for (copy, links) in parts.iter().enumerate().take(index + 1) {
+                let weight = if copy < index { 1 } else { -(index as i64) };
+                weights.extend(links.iter().map(|&link| (link, weight)));
+            }
+            differences.push(Coordinate {
+                name: String::new(),
+                kind: Kind::Difference {
+                    group,
+                    index,
+                    orbit: joined[position].orbit,
+                    norm: (index * (index + 1)) as i64,
+                },
+                weights,
+            });
+        }
+    }
+    joined
+}
+
+/// `m` and `d` in the paper's case of one pair of leaves; otherwise the
+/// orbit's name and where the branching is: `child_m`, `hand_d` between arms,
+/// `hand_1_d` between the hands of arm 1, `child_d2` for a second difference.
+fn name_coordinates(scene: &Scene, coordinates: &mut [Coordinate]) {
+    let groups = scene.groups.len();
+    let one_strand = groups == 1
+        && scene.groups[0]
+            .copies
+            .iter()
+            .all(|&copy| scene.links.iter().all(|link| link.parent != Some(copy)));
+    let link_names: Vec<&String> = scene.links.iter().map(|l| &l.name).collect();
+    for coordinate in coordinates.iter_mut() {
+        coordinate.name = match &coordinate.kind {
+            Kind::Mean { orbit } => {
+                let orbit = &scene.orbits[orbit.0];
+                match (orbit.links.len(), one_strand) {
+                    (1, _) => scene.links[orbit.links[0].0].name.clone(),
+                    (_, true) => "m".into(),
+                    _ => format!("{}_m", orbit.name),
+                }
+            }
+            Kind::Difference {
+                group,
+                index,
+                orbit,
+                ..
+            } => {
+                let group = &scene.groups[*group];
+                let number = if group.copies.len() > 2 {
+                    index.to_string()
+                } else {
+                    String::new()
+                };
+                if one_strand {
+                    format!("d{number}")
+                } else {
+                    let root = &scene.orbits[scene.links[group.copies[0].0].orbit.0].name;
+                    let place = group.name.strip_prefix(root.as_str()).unwrap_or("");
+                    format!("{}{place}_d{number}", scene.orbits[orbit.0].name)
+                }
+            }
+        };
+        // A link may be called `m`; its angle keeps that name.
+        while coordinate.weights.len() > 1 && link_names.contains(&&coordinate.name) {
+            coordinate.name.push('_');
+        }
+    }
+}
+
+/// cos and sin of an integer combination of angles, by angle addition.
+#[derive(Clone)]
+struct Rotation {
+    cos: Formula,
+    sin: Formula,
+}
+
+impl Rotation {
+    fn identity() -> Self {
+        Self {
+            cos: Formula::integer(1),
+            sin: Formula::zero(),
+        }
+    }
+
+    fn then(&self, other: &Self) -> Self {
+        Self {
+            cos: (&(&self.cos * &other.cos) - &(&self.sin * &other.sin)).expand(),
+            sin: (&(&self.sin * &other.cos) + &(&self.cos * &other.sin)).expand(),
+        }
+    }
+
+    fn inverse(&self) -> Self {
+        Self {
+            cos: self.cos.clone(),
+            sin: -self.sin.clone(),
+        }
+    }
+
+    fn times(&self, count: i64) -> Self {
+        let one = if count < 0 { self.inverse() } else { self.clone() };
+        (0..count.abs()).fold(Self::identity(), |sum, _| sum.then(&one))
+    }
+}
+
+impl Derivation<'_> {
+    /// The Lagrangian in symmetric coordinates, by substitution of
+    /// θ = J q into the absolute one: M̃ = Jᵀ M J.
+    pub(super) fn symmetric_frame(
+        &mut self,
+        absolute: &Frame,
+        coordinates: &[Coordinate],
+    ) -> Frame {
+        let ids: Vec<SymbolId> = coordinates
+            .iter()
+            .map(|c| self.coordinate(&c.name))
+            .collect();
+        let velocities: Vec<SymbolId> =
+            coordinates.iter().map(|c| self.velocity(&c.name)).collect();
+        let momenta: Vec<SymbolId> = coordinates.iter().map(|c| self.momentum(&c.name)).collect();
+
+        let mut rows: Vec<Vec<(usize, i64)>> = vec![Vec::new(); absolute.coordinates.len()];
+        for (column, coordinate) in coordinates.iter().enumerate() {
+            for &(LinkId(link), weight) in &coordinate.weights {
+                rows[link].push((column, weight));
+            }
+        }
+        let replacements = self.substitution(absolute, &ids, &rows);
+
+        let mut mass = MassMatrix::default();
+        for (i, j, entry) in absolute.mass.iter() {
+            let entry = entry.substitute(&replacements).expand();
+            let pairs: &[(usize, usize)] = if i == j { &[(i, i)] } else { &[(i, j), (j, i)] };
+            for &(i, j) in pairs {
+                for &(a, weight_a) in &rows[i] {
+                    for &(b, weight_b) in rows[j].iter().filter(|(b, _)| *b <= a) {
+                        mass.add(a, b, &Formula::integer(weight_a * weight_b) * &entry);
+                    }
+                }
+            }
+        }
+        let velocity_of = |link: usize| -> Formula {
+            rows[link]
+                .iter()
+                .map(|&(c, w)| &Formula::integer(w) * &Formula::symbol(velocities[c]))
+                .sum()
+        };
+        let velocity_replacements: Vec<(SymbolId, Formula)> = absolute
+            .velocities
+            .iter()
+            .enumerate()
+            .map(|(link, &id)| (id, velocity_of(link)))
+            .collect();
+        Frame {
+            mass: mass.map(|_, _, sum| sum.expand()),
+            potential: self.symmetric_potential(absolute, &replacements),
+            dissipation: absolute
+                .dissipation
+                .substitute(&velocity_replacements)
+                .expand(),
+            coordinates: ids,
+            velocities,
+            momenta,
+        }
+    }
+
+    /// cos and sin of every absolute angle, and of every difference that the
+    /// mass matrix holds, in the new coordinates.
+    fn substitution(
+        &mut self,
+        absolute: &Frame,
+        ids: &[SymbolId],
+        rows: &[Vec<(usize, i64)>],
+    ) -> Vec<(SymbolId, Formula)> {
+        let mut replacements = Vec::new();
+        let known: Vec<_> = self.trigonometry.iter().map(|(k, v)| (*k, *v)).collect();
+        for (symbol, meaning) in known {
+            use super::derivation::Trigonometric::{Cos, CosBetween, Sin, SinBetween};
+            let (i, j) = match meaning {
+                Cos(a) | Sin(a) => (a, None),
+                CosBetween(a, b) | SinBetween(a, b) => (a, Some(b)),
+            };
+            let position = |id| absolute.coordinates.iter().position(|&c| c == id);
+            let Some(link) = position(i) else { continue };
+            let rotation = match j {
+                None => self.rotation(ids, &rows[link], None),
+                Some(j) => {
+                    let Some(other) = position(j) else { continue };
+                    self.rotation(ids, &rows[link], Some(&rows[other]))
+                }
+            };
+            let value = match meaning {
+                Cos(_) | CosBetween(..) => rotation.cos,
+                Sin(_) | SinBetween(..) => rotation.sin,
+            };
+            replacements.push((symbol, value));
+        }
+        replacements
+    }
+
+    /// The rotation by a link's angle, or by the difference of two links'
+    /// angles. Means enter as one difference, so that code and formulas keep
+    /// cos(θ_m − θ_1) whole.
+    fn rotation(
+        &mut self,
+        ids: &[SymbolId],
+        link: &[(usize, i64)],
+        other: Option<&[(usize, i64)]>,
+    ) -> Rotation {
+        let (mean, differences) = split(link);
+        let start = match other {
+            None => self.single(ids[mean]),
+            Some(other) => {
+                let (other_mean, _) = split(other);
+                let (cos, sin) = self.between(ids[mean], ids[other_mean]);
+                Rotation {
+                    cos: Formula::symbol(cos),
+                    sin: Formula::symbol(sin),
+                }
+            }
+        };
+        let mut total: BTreeMap<usize, i64> = differences.iter().copied().collect();
+        if let Some(other) = other {
+            for &(coordinate, weight) in split(other).1 {
+                *total.entry(coordinate).or_default() -= weight;
+            }
+        }
+        total
+            .into_iter()
+            .filter(|&(_, weight)| weight != 0)
+            .fold(start, |sum, (coordinate, weight)| {
+                sum.then(&self.single(ids[coordinate]).times(weight))
+            })
+    }
+
+    fn single(&self, coordinate: SymbolId) -> Rotation {
+        Rotation {
+            cos: Formula::symbol(self.cos(coordinate)),
+            sin: Formula::symbol(self.sin(coordinate)),
+        }
+    }
+
+    /// U orbit by orbit as G (n − Σ cos θ): the sum over an orbit is what
+    /// becomes short, and the difference from its rest value stays one.
+    fn symmetric_potential(
+        &self,
+        absolute: &Frame,
+        replacements: &[(SymbolId, Formula)],
+    ) -> Formula {
+        let mut terms = Vec::new();
+        for orbit in &self.scene.orbits {
+            let count = Formula::integer(orbit.links.len() as i64);
+            let sum = |function: fn(&Self, SymbolId) -> SymbolId| -> Formula {
+                orbit
+                    .links
+                    .iter()
+                    .map(|link| Formula::symbol(function(self, absolute.coordinates[link.0])))
+                    .sum::<Formula>()
+                    .substitute(replacements)
+                    .expand()
+            };
+            let constant = |function: fn(&Self, SymbolId) -> SymbolId| {
+                let one = function(self, absolute.coordinates[orbit.links[0].0]);
+                absolute.potential.derivative(one)
+            };
+            let weight = -constant(Self::cos);
+            terms.push(&weight * &(&count - &sum(Self::cos)));
+            terms.push(&constant(Self::sin) * &sum(Self::sin));
+        }
+        terms.into_iter().sum()
+    }
+}
+
+/// The mean of a link's row, and its differences. Means come before
+/// differences in the order of coordinates.
+fn split(row: &[(usize, i64)]) -> (usize, &[(usize, i64)]) {
+    match row.split_first() {
+        Some((&(mean, _), differences)) => (mean, differences),
+        None => unreachable!("every link has the mean of its orbit among its coordinates"),
+    }
+}

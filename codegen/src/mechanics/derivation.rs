@@ -1,0 +1,349 @@
+//! The state of one derivation inside the algebra: symbols, their meaning, the
+//! chain rule, and the Euler–Lagrange operator that every set of coordinates
+//! shares.
+
+use super::algebra::Formula;
+use super::expression::{Role, SymbolId, Symbols};
+use super::lagrangian::latex_name;
+use crate::scene::Scene;
+use std::collections::BTreeMap;
+
+/// What a trigonometric symbol means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trigonometric {
+    /// cos of a coordinate.
+    Cos(SymbolId),
+    /// sin of a coordinate.
+    Sin(SymbolId),
+    /// cos of the difference of two coordinates.
+    CosBetween(SymbolId, SymbolId),
+    /// sin of the difference of two coordinates.
+    SinBetween(SymbolId, SymbolId),
+}
+
+/// A constant while it is derived.
+pub(super) struct ConstantEntry {
+    pub(super) value: Formula,
+    pub(super) meaning: String,
+    pub(super) unit: &'static str,
+}
+
+/// Symbols and definitions of a derivation in progress.
+pub(super) struct Derivation<'s> {
+    pub(super) scene: &'s Scene,
+    pub(super) symbols: Symbols,
+    pub(super) parameters: Vec<SymbolId>,
+    pub(super) constants: BTreeMap<SymbolId, ConstantEntry>,
+    pub(super) trigonometry: BTreeMap<SymbolId, Trigonometric>,
+    names: BTreeMap<SymbolId, String>,
+    of_one: BTreeMap<SymbolId, (SymbolId, SymbolId)>,
+    of_two: BTreeMap<(SymbolId, SymbolId), (SymbolId, SymbolId)>,
+}
+
+/// Lower triangle of a symmetric matrix, sparse.
+#[derive(Clone, Default)]
+pub(super) struct MassMatrix(BTreeMap<(usize, usize), Formula>);
+
+impl MassMatrix {
+    /// Adds to the entry (row, column), row ≥ column.
+    pub(super) fn add(&mut self, row: usize, column: usize, value: Formula) {
+        let entry = self.0.entry((row, column)).or_insert_with(Formula::zero);
+        *entry = &*entry + &value;
+    }
+
+    /// The entry (i, j) in any order; zero where there is none.
+    pub(super) fn get(&self, i: usize, j: usize) -> Formula {
+        let key = (i.max(j), i.min(j));
+        self.0.get(&key).cloned().unwrap_or_else(Formula::zero)
+    }
+
+    /// Entries of the lower triangle by row, then column.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, usize, &Formula)> {
+        self.0.iter().map(|(&(row, column), value)| (row, column, value))
+    }
+
+    /// The matrix with every entry replaced; zeros are dropped.
+    pub(super) fn map(self, mut change: impl FnMut(usize, usize, Formula) -> Formula) -> Self {
+        Self(
+            self.0
+                .into_iter()
+                .map(|((row, column), value)| ((row, column), change(row, column, value)))
+                .filter(|(_, value)| !value.is_zero())
+                .collect(),
+        )
+    }
+}
+
+/// A Lagrangian in one set of generalized coordinates.
+pub(super) struct Frame {
+    pub(super) coordinates: Vec<SymbolId>,
+    pub(super) velocities: Vec<SymbolId>,
+    pub(super) momenta: Vec<SymbolId>,
+    pub(super) mass: MassMatrix,
+    pub(super) potential: Formula,
+    pub(super) dissipation: Formula,
+}
+
+impl<'s> Derivation<'s> {
+    pub(super) fn new(scene: &'s Scene) -> Self {
+        let mut symbols = Symbols::default();
+        let parameters = scene
+            .parameters
+            .iter()
+            .map(|p| {
+                let latex = format!("\\mathrm{{{}}}", latex_name(&p.name));
+                symbols.intern(Role::Parameter, &p.name, &p.name, &latex)
+            })
+            .collect();
+        Self {
+            scene,
+            symbols,
+            parameters,
+            constants: BTreeMap::new(),
+            trigonometry: BTreeMap::new(),
+            names: BTreeMap::new(),
+            of_one: BTreeMap::new(),
+            of_two: BTreeMap::new(),
+        }
+    }
+
+    pub(super) fn record_constant(
+        &mut self,
+        id: SymbolId,
+        value: Formula,
+        meaning: &str,
+        unit: &'static str,
+    ) {
+        let meaning = meaning.to_owned();
+        self.constants.insert(
+            id,
+            ConstantEntry {
+                value,
+                meaning,
+                unit,
+            },
+        );
+    }
+
+    fn indexed(&mut self, role: Role, code: &str, text: &str, latex: &str, name: &str) -> SymbolId {
+        let latex = format!("{latex}_{{\\mathrm{{{}}}}}", latex_name(name));
+        self.symbols.intern(
+            role,
+            &format!("{code}_{name}"),
+            &format!("{text}_{name}"),
+            &latex,
+        )
+    }
+
+    /// The generalized coordinate of that name, with its cosine and sine.
+    pub(super) fn coordinate(&mut self, name: &str) -> SymbolId {
+        let id = self.indexed(Role::Coordinate, "theta", "θ", "\\theta", name);
+        self.names.insert(id, name.to_owned());
+        let tex = latex_name(name);
+        let mut make = |function: &str, meaning| {
+            let symbol = self.symbols.intern(
+                Role::Trigonometric,
+                &format!("{function}_{name}"),
+                &format!("{function} θ_{name}"),
+                &format!("\\{function}\\theta_{{\\mathrm{{{tex}}}}}"),
+            );
+            self.trigonometry.insert(symbol, meaning);
+            symbol
+        };
+        let cos = make("cos", Trigonometric::Cos(id));
+        let sin = make("sin", Trigonometric::Sin(id));
+        self.of_one.insert(id, (cos, sin));
+        id
+    }
+
+    pub(super) fn velocity(&mut self, name: &str) -> SymbolId {
+        self.indexed(Role::Velocity, "omega", "ω", "\\omega", name)
+    }
+
+    pub(super) fn momentum(&mut self, name: &str) -> SymbolId {
+        self.indexed(Role::Momentum, "p", "p", "p", name)
+    }
+
+    pub(super) fn cos(&self, coordinate: SymbolId) -> SymbolId {
+        self.of_one[&coordinate].0
+    }
+
+    pub(super) fn sin(&self, coordinate: SymbolId) -> SymbolId {
+        self.of_one[&coordinate].1
+    }
+
+    /// cos(a − b) and sin(a − b) as symbols of their own: the mass matrix
+    /// depends on differences alone, and written in them it stays as short as
+    /// on paper.
+    pub(super) fn between(&mut self, a: SymbolId, b: SymbolId) -> (SymbolId, SymbolId) {
+        if let Some(&known) = self.of_two.get(&(a, b)) {
+            return known;
+        }
+        let (name_a, name_b) = (self.names[&a].clone(), self.names[&b].clone());
+        let tex = format!(
+            "(\\theta_{{\\mathrm{{{}}}}}-\\theta_{{\\mathrm{{{}}}}})",
+            latex_name(&name_a),
+            latex_name(&name_b)
+        );
+        let mut make = |function: &str, meaning| {
+            let symbol = self.symbols.intern(
+                Role::Trigonometric,
+                &format!("{function}_{name_a}_from_{name_b}"),
+                &format!("{function}(θ_{name_a} − θ_{name_b})"),
+                &format!("\\{function}{tex}"),
+            );
+            self.trigonometry.insert(symbol, meaning);
+            symbol
+        };
+        let cos = make("cos", Trigonometric::CosBetween(a, b));
+        let sin = make("sin", Trigonometric::SinBetween(a, b));
+        self.of_two.insert((a, b), (cos, sin));
+        (cos, sin)
+    }
+
+    /// ∂/∂(coordinate) of a trigonometric symbol, if it depends on it.
+    fn slope(&self, symbol: SymbolId, coordinate: SymbolId) -> Option<Formula> {
+        let signed = |value: Formula, positive: bool| if positive { value } else { -value };
+        match *self.trigonometry.get(&symbol)? {
+            Trigonometric::Cos(a) => {
+                (a == coordinate).then(|| -Formula::symbol(self.sin(a)))
+            }
+            Trigonometric::Sin(a) => (a == coordinate).then(|| Formula::symbol(self.cos(a))),
+            Trigonometric::CosBetween(a, b) if a == coordinate || b == coordinate => {
+                Some(signed(Formula::symbol(self.of_two[&(a, b)].1), b == coordinate))
+            }
+            Trigonometric::SinBetween(a, b) if a == coordinate || b == coordinate => {
+                Some(signed(Formula::symbol(self.of_two[&(a, b)].0), a == coordinate))
+            }
+            _ => None,
+        }
+    }
+
+    /// Partial derivative with respect to a coordinate, through every sine
+    /// and cosine that depends on it.
+    pub(super) fn partial(&self, formula: &Formula, coordinate: SymbolId) -> Formula {
+        let mut terms = vec![];
+        for symbol in formula.symbols() {
+            if symbol == coordinate {
+                terms.push(formula.derivative(symbol));
+            } else if let Some(slope) = self.slope(symbol, coordinate) {
+                terms.push(&formula.derivative(symbol) * &slope);
+            }
+        }
+        terms.into_iter().sum()
+    }
+
+    /// The coordinates that a formula depends on.
+    pub(super) fn coordinates_of(&self, formula: &Formula) -> Vec<SymbolId> {
+        let mut found = Vec::new();
+        for symbol in formula.symbols() {
+            match self.trigonometry.get(&symbol) {
+                Some(Trigonometric::Cos(a) | Trigonometric::Sin(a)) => found.push(*a),
+                Some(Trigonometric::CosBetween(a, b) | Trigonometric::SinBetween(a, b)) => {
+                    found.extend([*a, *b]);
+                }
+                None if self.symbols.get(symbol).role == Role::Coordinate => found.push(symbol),
+                None => {}
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
+impl Frame {
+    /// Kinetic energy ½ Σ M_ab v_a v_b, one term for each pair a ≥ b.
+    pub(super) fn kinetic_terms(&self) -> impl Iterator<Item = (usize, usize, Formula)> {
+        self.mass.iter().map(|(a, b, entry)| {
+            let pair = &Formula::symbol(self.velocities[a]) * &Formula::symbol(self.velocities[b]);
+            let weight = if a == b {
+                Formula::integer(2).pow(-1)
+            } else {
+                Formula::integer(1)
+            };
+            (a, b, &weight * &(entry * &pair))
+        })
+    }
+
+    /// Generalized momenta p_i = ∂L/∂v_i.
+    pub(super) fn momentum(&self) -> Vec<Formula> {
+        let mut momenta = vec![Vec::new(); self.coordinates.len()];
+        for (a, b, term) in self.kinetic_terms() {
+            momenta[a].push(term.derivative(self.velocities[a]));
+            if a != b {
+                momenta[b].push(term.derivative(self.velocities[b]));
+            }
+        }
+        momenta
+            .into_iter()
+            .map(|terms| terms.into_iter().sum::<Formula>().expand())
+            .collect()
+    }
+
+    /// Index of a coordinate in this frame.
+    pub(super) fn index(&self, coordinate: SymbolId) -> usize {
+        match self.coordinates.iter().position(|&c| c == coordinate) {
+            Some(index) => index,
+            None => unreachable!("a formula of this frame depends on a foreign coordinate"),
+        }
+    }
+
+    /// ∂K/∂q_i at fixed velocities.
+    pub(super) fn kinetic_gradient(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let mut gradient = vec![Vec::new(); self.coordinates.len()];
+        for (_, _, term) in self.kinetic_terms() {
+            for coordinate in derivation.coordinates_of(&term) {
+                gradient[self.index(coordinate)].push(derivation.partial(&term, coordinate));
+            }
+        }
+        gradient
+            .into_iter()
+            .map(|terms| terms.into_iter().sum::<Formula>().expand())
+            .collect()
+    }
+
+    /// ∂U/∂q_i.
+    pub(super) fn potential_gradient(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let depends = derivation.coordinates_of(&self.potential);
+        self.coordinates
+            .iter()
+            .map(|coordinate| {
+                if depends.contains(coordinate) {
+                    derivation.partial(&self.potential, *coordinate).expand()
+                } else {
+                    Formula::zero()
+                }
+            })
+            .collect()
+    }
+
+    /// What the Euler–Lagrange equations hold beside M q̈, so that
+    /// d/dt ∂L/∂v_i − ∂L/∂q_i + ∂R/∂v_i = Σ_j M_ij q̈_j + bias_i.
+    pub(super) fn bias(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let mut rows: Vec<Vec<Formula>> = vec![Vec::new(); self.coordinates.len()];
+        for (a, b, term) in self.kinetic_terms() {
+            let depends = derivation.coordinates_of(&term);
+            for i in if a == b { vec![a] } else { vec![a, b] } {
+                let momentum = term.derivative(self.velocities[i]);
+                for &coordinate in &depends {
+                    let velocity = Formula::symbol(self.velocities[self.index(coordinate)]);
+                    rows[i].push(&derivation.partial(&momentum, coordinate) * &velocity);
+                }
+            }
+            for coordinate in depends {
+                rows[self.index(coordinate)].push(-derivation.partial(&term, coordinate));
+            }
+        }
+        let potential = self.potential_gradient(derivation);
+        rows.into_iter()
+            .zip(potential)
+            .zip(&self.velocities)
+            .map(|((mut row, potential), &velocity)| {
+                row.push(potential);
+                row.push(self.dissipation.derivative(velocity));
+                row.into_iter().sum::<Formula>().expand()
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,250 @@
+//! Expressions as they leave the algebra: plain data in one canonical order.
+//!
+//! This is a carrier and no algebra system: an [`Expr`] is read, printed and
+//! lowered, never simplified or differentiated.
+
+use crate::exact::Rational;
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Index of a symbol in its [`Symbols`] table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SymbolId(pub u32);
+
+/// What a symbol stands for; the declaration order is the canonical order of
+/// factors in a product, constants first so that they can be folded together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Role {
+    /// A named number of the description: a parameter of the model.
+    Parameter,
+    /// A combination of masses and lengths, folded into the model once.
+    Constant,
+    /// Cosine or sine of one coordinate or of a difference of two.
+    Trigonometric,
+    /// A quantity that a linear system defines (in-phase velocities, D).
+    Derived,
+    /// A generalized coordinate.
+    Coordinate,
+    /// A generalized velocity.
+    Velocity,
+    /// A generalized acceleration; appears only inside the derivation.
+    Acceleration,
+    /// A generalized momentum.
+    Momentum,
+    /// The bookkeeping factor of an expansion; never leaves the derivation.
+    Bookkeeping,
+}
+
+/// A symbol's three spellings and its role.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Symbol {
+    /// Spelling in emitted code (`cos_child_1`).
+    pub code: String,
+    /// Spelling in plain-text formulas (`cos θ_child_1`).
+    pub text: String,
+    /// Spelling in LaTeX.
+    pub latex: String,
+    /// What it stands for.
+    pub role: Role,
+}
+
+/// The symbols of one derivation, in the order of their creation.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Symbols {
+    entries: Vec<Symbol>,
+    by_text: BTreeMap<String, SymbolId>,
+    codes: BTreeSet<String>,
+}
+
+impl Symbols {
+    /// The symbol spelled `text` in formulas, created if it is new. Its
+    /// spelling in code is `code`, with a number if another symbol has that
+    /// already: `coupling_a_b_c` may couple a to b_c or a_b to c.
+    pub fn intern(&mut self, role: Role, code: &str, text: &str, latex: &str) -> SymbolId {
+        if let Some(&id) = self.by_text.get(text) {
+            return id;
+        }
+        let id = SymbolId(self.entries.len() as u32);
+        let mut unique = code.to_owned();
+        let mut number = 2;
+        while !self.codes.insert(unique.clone()) {
+            unique = format!("{code}_{number}");
+            number += 1;
+        }
+        self.entries.push(Symbol {
+            code: unique,
+            text: text.to_owned(),
+            latex: latex.to_owned(),
+            role,
+        });
+        self.by_text.insert(text.to_owned(), id);
+        id
+    }
+
+    /// The symbol's entry.
+    pub fn get(&self, id: SymbolId) -> &Symbol {
+        &self.entries[id.0 as usize]
+    }
+
+    /// The symbol spelled `text` in formulas, if there is one.
+    pub fn find(&self, text: &str) -> Option<SymbolId> {
+        self.by_text.get(text).copied()
+    }
+
+    /// All symbols in the order of their creation.
+    pub fn iter(&self) -> impl Iterator<Item = (SymbolId, &Symbol)> {
+        self.entries
+            .iter()
+            .enumerate()
+            .map(|(index, symbol)| (SymbolId(index as u32), symbol))
+    }
+
+    fn rank(&self, id: SymbolId) -> (Role, SymbolId) {
+        (self.get(id).role, id)
+    }
+}
+
+/// A rational expression in symbols, in canonical order.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Expr {
+    /// An exact number.
+    Number(Rational),
+    /// A symbol.
+    Symbol(SymbolId),
+    /// A sum of at least two terms.
+    Sum(Vec<Expr>),
+    /// A product of at least two factors; a number comes first.
+    Product(Vec<Expr>),
+    /// An integer power, negative for a quotient.
+    Power(Box<Expr>, i32),
+}
+
+impl Expr {
+    /// The number zero.
+    pub fn zero() -> Self {
+        Self::Number(Rational::from(0))
+    }
+
+    /// Whether this is the number zero.
+    pub fn is_zero(&self) -> bool {
+        matches!(self, Self::Number(number) if number.is_zero())
+    }
+
+    /// Calls `visit` with every symbol in the expression, repeats included.
+    pub fn for_each_symbol(&self, visit: &mut impl FnMut(SymbolId)) {
+        match self {
+            Self::Number(_) => {}
+            Self::Symbol(id) => visit(*id),
+            Self::Sum(parts) | Self::Product(parts) => {
+                for part in parts {
+                    part.for_each_symbol(visit);
+                }
+            }
+            Self::Power(base, _) => base.for_each_symbol(visit),
+        }
+    }
+
+    /// The same expression with every sum and product in canonical order,
+    /// which depends on the symbols' roles and creation order alone: the order
+    /// in which an algebra system happens to keep terms must not reach the
+    /// generated code.
+    pub fn canonical(self, symbols: &Symbols) -> Self {
+        match self {
+            Self::Number(_) | Self::Symbol(_) => self,
+            Self::Power(base, exponent) => Self::Power(Box::new(base.canonical(symbols)), exponent),
+            Self::Sum(parts) => Self::Sum(sorted(parts, symbols, compare_terms)),
+            Self::Product(parts) => Self::Product(sorted(parts, symbols, compare_factors)),
+        }
+    }
+
+    /// Factors of a product, or the expression itself as its only factor.
+    pub fn factors(&self) -> &[Expr] {
+        match self {
+            Self::Product(parts) => parts,
+            other => std::slice::from_ref(other),
+        }
+    }
+
+    /// Terms of a sum, or the expression itself as its only term.
+    pub fn terms(&self) -> &[Expr] {
+        match self {
+            Self::Sum(parts) => parts,
+            other => std::slice::from_ref(other),
+        }
+    }
+}
+
+type Compare = fn(&Expr, &Expr, &Symbols) -> Ordering;
+
+fn sorted(parts: Vec<Expr>, symbols: &Symbols, compare: Compare) -> Vec<Expr> {
+    let mut parts: Vec<Expr> = parts.into_iter().map(|p| p.canonical(symbols)).collect();
+    parts.sort_by(|a, b| compare(a, b, symbols));
+    parts
+}
+
+/// Numbers, then symbols by role, then sums; quotients last.
+fn compare_factors(a: &Expr, b: &Expr, symbols: &Symbols) -> Ordering {
+    let (base_a, exponent_a) = power(a);
+    let (base_b, exponent_b) = power(b);
+    (exponent_a < 0)
+        .cmp(&(exponent_b < 0))
+        .then_with(|| compare_bases(base_a, base_b, symbols))
+        .then_with(|| exponent_a.cmp(&exponent_b))
+}
+
+fn power(expr: &Expr) -> (&Expr, i32) {
+    match expr {
+        Expr::Power(base, exponent) => (base, *exponent),
+        other => (other, 1),
+    }
+}
+
+fn compare_bases(a: &Expr, b: &Expr, symbols: &Symbols) -> Ordering {
+    fn class(expr: &Expr) -> u8 {
+        match expr {
+            Expr::Number(_) => 0,
+            Expr::Symbol(_) => 1,
+            Expr::Power(..) => 2,
+            Expr::Product(_) => 3,
+            Expr::Sum(_) => 4,
+        }
+    }
+    match (a, b) {
+        (Expr::Number(x), Expr::Number(y)) => x.cmp(y),
+        (Expr::Symbol(x), Expr::Symbol(y)) => symbols.rank(*x).cmp(&symbols.rank(*y)),
+        (Expr::Power(x, n), Expr::Power(y, m)) => {
+            compare_bases(x, y, symbols).then_with(|| n.cmp(m))
+        }
+        (Expr::Product(x), Expr::Product(y)) => compare_all(x, y, symbols, compare_factors),
+        (Expr::Sum(x), Expr::Sum(y)) => compare_all(x, y, symbols, compare_terms),
+        _ => class(a).cmp(&class(b)),
+    }
+}
+
+/// Terms compare by what they multiply, by their numeric factor only then.
+fn compare_terms(a: &Expr, b: &Expr, symbols: &Symbols) -> Ordering {
+    fn without_number(expr: &Expr) -> &[Expr] {
+        let factors = expr.factors();
+        match factors.first() {
+            Some(Expr::Number(_)) => &factors[1..],
+            _ => factors,
+        }
+    }
+    compare_all(
+        without_number(a),
+        without_number(b),
+        symbols,
+        compare_factors,
+    )
+    .then_with(|| compare_all(a.factors(), b.factors(), symbols, compare_factors))
+}
+
+fn compare_all(a: &[Expr], b: &[Expr], symbols: &Symbols, compare: Compare) -> Ordering {
+    for (x, y) in a.iter().zip(b) {
+        let order = compare(x, y, symbols);
+        if order != Ordering::Equal {
+            return order;
+        }
+    }
+    a.len().cmp(&b.len())
+}

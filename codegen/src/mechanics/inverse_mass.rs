@@ -1,0 +1,260 @@
+//! The expansion of the inverse mass matrix in the difference angles
+//! (physics §4): M̃ = M⁽⁰⁾ + ε M⁽¹⁾ + ε² M⁽²⁾ + …, and with w = M⁽⁰⁾⁻¹ p
+//! the kinetic energy order by order, without an inverse written out.
+
+use super::algebra::Formula;
+use super::coordinates::{Coordinate, Kind};
+use super::derivation::{Derivation, Frame, MassMatrix};
+use super::expression::{Role, SymbolId};
+use super::lagrangian::latex_name;
+
+/// The largest in-phase block whose inverse is also written out, for formulas
+/// that people read.
+const WRITTEN_OUT: usize = 2;
+
+/// What counts as small when W is truncated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Counting {
+    /// The difference angles; momenta stay whole (the paper's sense).
+    Angle,
+    /// Difference angles and their momenta alike, as in an oscillation.
+    Amplitude,
+}
+
+/// M̃ and its inverse about the in-phase motion.
+pub(super) struct Expansion {
+    /// Indices of the means among the coordinates.
+    pub(super) in_phase: Vec<usize>,
+    /// Indices of the differences.
+    pub(super) differences: Vec<usize>,
+    /// M⁽⁰⁾, M⁽¹⁾, M⁽²⁾ with the difference angles in them.
+    pub(super) orders: Vec<MassMatrix>,
+    /// w = M⁽⁰⁾⁻¹ p: a symbol for each mean, p_d / M_dd for a difference.
+    pub(super) velocities: Vec<Formula>,
+    /// The symbols of the means' w, in the order of `in_phase`.
+    pub(super) velocity_symbols: Vec<SymbolId>,
+    /// The inverse of the in-phase block written out, where it is small.
+    pub(super) written_out: Option<WrittenOut>,
+}
+
+/// The inverse of the in-phase block as adjugate over determinant.
+pub(super) struct WrittenOut {
+    /// The symbol D.
+    pub(super) determinant: SymbolId,
+    /// What D is.
+    pub(super) determinant_value: Formula,
+    /// The adjugate, dense, in the order of `in_phase`.
+    pub(super) adjugate: Vec<Vec<Formula>>,
+}
+
+impl Derivation<'_> {
+    /// Coefficients of ε⁰, ε¹, … εᵒʳᵈᵉʳ of a formula when the differences,
+    /// and with [`Counting::Amplitude`] their momenta, carry a factor ε.
+    pub(super) fn orders(
+        &mut self,
+        formula: &Formula,
+        pairs: &[(SymbolId, SymbolId)],
+        counting: Counting,
+        order: u32,
+    ) -> Vec<Formula> {
+        let epsilon = self
+            .symbols
+            .intern(Role::Bookkeeping, "epsilon", "ε", "\\varepsilon");
+        let small = Formula::symbol(epsilon);
+        let mut replacements = Vec::new();
+        for &(q, p) in pairs {
+            let scaled = &small * &Formula::symbol(q);
+            let (cos, sin) = series(&scaled, order);
+            replacements.push((self.cos(q), cos));
+            replacements.push((self.sin(q), sin));
+            replacements.push((q, scaled));
+            if counting == Counting::Amplitude {
+                replacements.push((p, &small * &Formula::symbol(p)));
+            }
+        }
+        let table = formula.substitute(&replacements).coefficients(&[epsilon]);
+        (0..=order)
+            .map(|n| table.get(&vec![n]).cloned().unwrap_or_else(Formula::zero))
+            .collect()
+    }
+
+    /// Expands M̃ to second order about the in-phase motion.
+    pub(super) fn expand_mass(&mut self, frame: &Frame, coordinates: &[Coordinate]) -> Expansion {
+        let (differences, in_phase): (Vec<usize>, Vec<usize>) = (0..coordinates.len())
+            .partition(|&i| matches!(coordinates[i].kind, Kind::Difference { .. }));
+        let pairs: Vec<_> = differences
+            .iter()
+            .map(|&d| (frame.coordinates[d], frame.momenta[d]))
+            .collect();
+        let mut orders = vec![MassMatrix::default(); 3];
+        for (i, j, entry) in frame.mass.iter() {
+            let parts = self.orders(entry, &pairs, Counting::Angle, 2);
+            for (matrix, part) in orders.iter_mut().zip(parts) {
+                matrix.add(i, j, part);
+            }
+        }
+        let mut velocities: Vec<Formula> = (0..coordinates.len())
+            .map(|i| &Formula::symbol(frame.momenta[i]) / &orders[0].get(i, i))
+            .collect();
+        let mut velocity_symbols = Vec::new();
+        for &i in &in_phase {
+            let name = &coordinates[i].name;
+            let id = self.symbols.intern(
+                Role::Derived,
+                &format!("in_phase_omega_{name}"),
+                &format!("w_{name}"),
+                &format!("w_{{\\mathrm{{{}}}}}", latex_name(name)),
+            );
+            velocity_symbols.push(id);
+            velocities[i] = Formula::symbol(id);
+        }
+        let written_out = self.write_out(&orders[0], &in_phase);
+        Expansion {
+            in_phase,
+            differences,
+            orders,
+            velocities,
+            velocity_symbols,
+            written_out,
+        }
+    }
+
+    fn write_out(&mut self, leading: &MassMatrix, in_phase: &[usize]) -> Option<WrittenOut> {
+        if in_phase.is_empty() || in_phase.len() > WRITTEN_OUT {
+            return None;
+        }
+        let entry = |i: usize, j: usize| leading.get(in_phase[i], in_phase[j]);
+        let (adjugate, determinant_value) = if in_phase.len() == 1 {
+            (vec![vec![Formula::integer(1)]], entry(0, 0))
+        } else {
+            let off = entry(1, 0);
+            let value = &(&entry(0, 0) * &entry(1, 1)) - &off.pow(2);
+            let adjugate = vec![
+                vec![entry(1, 1), -off.clone()],
+                vec![-off, entry(0, 0)],
+            ];
+            (adjugate, value.expand())
+        };
+        let determinant = self
+            .symbols
+            .intern(Role::Derived, "determinant", "D", "D");
+        Some(WrittenOut {
+            determinant,
+            determinant_value,
+            adjugate,
+        })
+    }
+}
+
+/// Taylor series of cos x and sin x up to x^order.
+fn series(x: &Formula, order: u32) -> (Formula, Formula) {
+    let mut cos = Formula::zero();
+    let mut sin = Formula::zero();
+    let mut factorial = Formula::integer(1);
+    for n in 0..=order {
+        if n > 0 {
+            factorial = &factorial * &Formula::integer(i64::from(n));
+        }
+        let term = &x.pow(n as i32) / &factorial;
+        let signed = if (n / 2) % 2 == 0 { term } else { -term };
+        if n % 2 == 0 {
+            cos = &cos + &signed;
+        } else {
+            sin = &sin + &signed;
+        }
+    }
+    (cos, sin)
+}
+
+impl Expansion {
+    /// M⁽ⁿ⁾ w.
+    fn apply(&self, order: usize) -> Vec<Formula> {
+        let n = self.velocities.len();
+        (0..n)
+            .map(|i| {
+                (0..n)
+                    .map(|j| &self.orders[order].get(i, j) * &self.velocities[j])
+                    .sum()
+            })
+            .collect()
+    }
+
+    fn half_form(&self, left: &[Formula], right: &[Formula]) -> Formula {
+        let products: Formula = left.iter().zip(right).map(|(a, b)| a * b).sum();
+        &Formula::integer(2).pow(-1) * &products
+    }
+
+    /// K⁽¹⁾ = −½ wᵀ M⁽¹⁾ w: the kinetic energy of first order in the
+    /// difference angles.
+    pub(super) fn first_order(&self) -> Formula {
+        -self.half_form(&self.velocities, &self.apply(1)).expand()
+    }
+
+    /// K⁽¹⁾ + K⁽²⁾ as far as they are of second order in the amplitude:
+    /// K⁽²⁾ = ½ wᵀ(M⁽¹⁾ M⁽⁰⁾⁻¹ M⁽¹⁾ − M⁽²⁾) w, of which M⁽⁰⁾⁻¹ enters
+    /// by the differences' diagonal only: the in-phase part of M⁽¹⁾ w is of
+    /// second order in the amplitude itself.
+    pub(super) fn second_order_in_amplitude(&self) -> Formula {
+        let coupling = self.apply(1);
+        let squares: Formula = self
+            .differences
+            .iter()
+            .map(|&d| &coupling[d].pow(2) / &self.orders[0].get(d, d))
+            .sum();
+        let half = Formula::integer(2).pow(-1);
+        let second = self.half_form(&self.velocities, &self.apply(2));
+        let quadratic = &(&half * &squares) - &second;
+        (&self.first_order() + &quadratic).expand()
+    }
+
+    /// The inverse mass matrix to first order in the difference angles,
+    /// written out: M⁽⁰⁾⁻¹ and −M⁽⁰⁾⁻¹ M⁽¹⁾ M⁽⁰⁾⁻¹.
+    pub(super) fn inverse(&self) -> Option<[Vec<Vec<Formula>>; 2]> {
+        let written = self.written_out.as_ref()?;
+        let n = self.velocities.len();
+        let mut leading = vec![vec![Formula::zero(); n]; n];
+        for &d in &self.differences {
+            leading[d][d] = self.orders[0].get(d, d).pow(-1);
+        }
+        let over_determinant = Formula::symbol(written.determinant).pow(-1);
+        for (a, &i) in self.in_phase.iter().enumerate() {
+            for (b, &j) in self.in_phase.iter().enumerate() {
+                leading[i][j] = &written.adjugate[a][b] * &over_determinant;
+            }
+        }
+        let product = |left: &dyn Fn(usize, usize) -> Formula,
+                       right: &dyn Fn(usize, usize) -> Formula| {
+            (0..n)
+                .map(|i| {
+                    (0..n)
+                        .map(|j| (0..n).map(|k| &left(i, k) * &right(k, j)).sum::<Formula>())
+                        .collect::<Vec<_>>()
+                })
+                .collect::<Vec<_>>()
+        };
+        let half = product(&|i, k| leading[i][k].clone(), &|k, j| {
+            self.orders[1].get(k, j)
+        });
+        let first = product(&|i, k| half[i][k].clone(), &|k, j| leading[k][j].clone());
+        let first = first
+            .into_iter()
+            .map(|row| row.into_iter().map(|entry| -entry.expand()).collect())
+            .collect();
+        Some([leading, first])
+    }
+
+    /// The in-phase velocities w written out, one for each mean.
+    pub(super) fn written_velocities(&self, frame: &Frame) -> Option<Vec<(SymbolId, Formula)>> {
+        let written = self.written_out.as_ref()?;
+        let over_determinant = Formula::symbol(written.determinant).pow(-1);
+        let rows = written.adjugate.iter().map(|row| {
+            let numerator: Formula = row
+                .iter()
+                .zip(&self.in_phase)
+                .map(|(entry, &j)| entry * &Formula::symbol(frame.momenta[j]))
+                .sum();
+            &numerator * &over_determinant
+        });
+        Some(self.velocity_symbols.iter().copied().zip(rows).collect())
+    }
+}

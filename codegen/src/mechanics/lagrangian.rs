@@ -1,0 +1,295 @@
+//! From positions to the Lagrangian and the Euler–Lagrange equations
+//! (physics §1), in the absolute angles.
+
+use super::algebra::Formula;
+use super::derivation::{Derivation, Frame, MassMatrix};
+use super::expression::{Role, SymbolId};
+use crate::scene::{LinkId, Offset, Quantity};
+
+impl Derivation<'_> {
+    /// The Lagrangian in absolute angles: the mass matrix from the velocities
+    /// of the centres of mass, the potential energy from their heights, the
+    /// dissipation function from the joints.
+    pub(super) fn absolute_frame(&mut self) -> Frame {
+        let names: Vec<String> = self.scene.links.iter().map(|l| l.name.clone()).collect();
+        let coordinates: Vec<SymbolId> = names.iter().map(|n| self.coordinate(n)).collect();
+        let velocities: Vec<SymbolId> = names.iter().map(|n| self.velocity(n)).collect();
+        let momenta: Vec<SymbolId> = names.iter().map(|n| self.momentum(n)).collect();
+        let mass = self.mass_matrix(&coordinates);
+        let potential = self.potential(&coordinates);
+        let dissipation = self.dissipation(&velocities);
+        Frame {
+            coordinates,
+            velocities,
+            momenta,
+            mass,
+            potential,
+            dissipation,
+        }
+    }
+
+    /// Row of `∂(x, y)/∂θ_i` of the point `offset` on link `i`:
+    /// x = a sin θ + b cos θ, y = −a cos θ + b sin θ.
+    fn lever(&self, offset: &Offset, angle: SymbolId) -> (Formula, Formula) {
+        let (cos, sin) = (
+            Formula::symbol(self.cos(angle)),
+            Formula::symbol(self.sin(angle)),
+        );
+        let (along, lateral) = (self.quantity(&offset.along), self.quantity(&offset.lateral));
+        let x = &(&along * &sin) + &(&lateral * &cos);
+        let y = &(&lateral * &sin) - &(&along * &cos);
+        (self.partial(&x, angle), self.partial(&y, angle))
+    }
+
+    /// Second derivatives of K in the angular velocities. The velocity of a
+    /// centre of mass is linear in them, so that
+    /// ∂²K/∂ω_i∂ω_j = Σ_l m_l ∂ṙ_l/∂ω_i · ∂ṙ_l/∂ω_j (+ I_l for i = j = l),
+    /// summed over the links l that both i and j carry.
+    fn mass_matrix(&mut self, angles: &[SymbolId]) -> MassMatrix {
+        let mut sums: MassMatrix = MassMatrix::default();
+        for index in 0..angles.len() {
+            let path = self.path(LinkId(index));
+            let link = &self.scene.links[index];
+            let mass = self.quantity(&link.mass);
+            let levers: Vec<(Formula, Formula)> = path
+                .iter()
+                .enumerate()
+                .map(|(step, &on_path)| {
+                    let offset = match path.get(step + 1) {
+                        Some(&next) => &self.scene.links[next].pivot,
+                        None => &link.com,
+                    };
+                    self.lever(offset, angles[on_path])
+                })
+                .collect();
+            for (a, &row) in path.iter().enumerate() {
+                for (b, &column) in path[..=a].iter().enumerate() {
+                    let (xa, ya) = &levers[a];
+                    let (xb, yb) = &levers[b];
+                    let dot = &(xa * xb) + &(ya * yb);
+                    sums.add(row, column, &mass * &dot);
+                }
+            }
+            sums.add(index, index, self.quantity(&link.inertia));
+        }
+        sums.map(|row, column, sum| self.named_entry(angles, row, column, &sum))
+    }
+
+    /// Reads the constants out of one entry and names them. A diagonal entry
+    /// is A (cos² + sin²), an entry between ancestor j and descendant i is
+    /// A cos(θ_i − θ_j) + B sin(θ_i − θ_j): that the polynomial has this form
+    /// is checked coefficient by coefficient.
+    fn named_entry(
+        &mut self,
+        angles: &[SymbolId],
+        row: usize,
+        column: usize,
+        sum: &Formula,
+    ) -> Formula {
+        let (i, j) = (angles[row], angles[column]);
+        let (orbit_i, orbit_j) = (self.orbit_name(row), self.orbit_name(column));
+        if row == column {
+            let table = sum.coefficients(&[self.cos(i), self.sin(i)]);
+            let coefficient =
+                |c: u32, s: u32| table.get(&vec![c, s]).cloned().unwrap_or_else(Formula::zero);
+            let square = coefficient(2, 0);
+            let accounted = usize::from(table.contains_key(&vec![0, 0]))
+                + 2 * usize::from(!square.is_zero());
+            assert!(
+                coefficient(0, 2) == square && table.len() == accounted,
+                "diagonal entry of {orbit_i} is not constant: {sum:?}"
+            );
+            let value = (&square + &coefficient(0, 0)).expand();
+            let constant = self.constant(
+                &format!("inertia_{orbit_i}"),
+                &format!("M_{orbit_i}"),
+                &format!("M_{{\\mathrm{{{}}}}}", latex_name(&orbit_i)),
+                &format!("moment of inertia of `{orbit_i}` about its pivot, with what hangs from it as points at their pivots"),
+                "kg m²",
+                value,
+            );
+            return constant;
+        }
+        let table =
+            sum.coefficients(&[self.cos(i), self.sin(i), self.cos(j), self.sin(j)]);
+        let coefficient = |key: [u32; 4]| {
+            table
+                .get(key.as_slice())
+                .cloned()
+                .unwrap_or_else(Formula::zero)
+        };
+        let cosine = coefficient([1, 0, 1, 0]);
+        let sine = coefficient([0, 1, 1, 0]);
+        let accounted =
+            2 * usize::from(!cosine.is_zero()) + 2 * usize::from(!sine.is_zero());
+        assert!(
+            coefficient([0, 1, 0, 1]) == cosine
+                && (&coefficient([1, 0, 0, 1]) + &sine).expand().is_zero()
+                && table.len() == accounted,
+            "entry {orbit_i}, {orbit_j} does not depend on the difference of angles alone: {sum:?}"
+        );
+        let (cos, sin) = self.between(i, j);
+        let tex = format!("{},{}", latex_name(&orbit_i), latex_name(&orbit_j));
+        let a = self.constant(
+            &format!("coupling_{orbit_i}_{orbit_j}"),
+            &format!("μ_{orbit_i},{orbit_j}"),
+            &format!("\\mu_{{\\mathrm{{{tex}}}}}"),
+            &format!("inertial coupling of `{orbit_i}` to `{orbit_j}`"),
+            "kg m²",
+            cosine,
+        );
+        let b = self.constant(
+            &format!("lateral_coupling_{orbit_i}_{orbit_j}"),
+            &format!("ν_{orbit_i},{orbit_j}"),
+            &format!("\\nu_{{\\mathrm{{{tex}}}}}"),
+            &format!("inertial coupling of `{orbit_i}` to `{orbit_j}` by lateral offsets"),
+            "kg m²",
+            sine,
+        );
+        &(&a * &Formula::symbol(cos)) + &(&b * &Formula::symbol(sin))
+    }
+
+    /// U = g Σ m_l (height of l), zero where all angles are zero.
+    fn potential(&mut self, angles: &[SymbolId]) -> Formula {
+        let mut heights = Vec::new();
+        for index in 0..angles.len() {
+            let path = self.path(LinkId(index));
+            let link = &self.scene.links[index];
+            let weight = &self.quantity(&self.scene.gravity) * &self.quantity(&link.mass);
+            for (step, &on_path) in path.iter().enumerate() {
+                let offset = match path.get(step + 1) {
+                    Some(&next) => &self.scene.links[next].pivot,
+                    None => &link.com,
+                };
+                let cos = Formula::symbol(self.cos(angles[on_path]));
+                let sin = Formula::symbol(self.sin(angles[on_path]));
+                let height = &(&self.quantity(&offset.lateral) * &sin)
+                    - &(&self.quantity(&offset.along) * &cos);
+                heights.push(&weight * &height);
+            }
+        }
+        let total = heights.into_iter().sum::<Formula>().expand();
+        let mut potential = Vec::new();
+        for (index, &angle) in angles.iter().enumerate() {
+            let orbit = self.orbit_name(index);
+            let (cos, sin) = (self.cos(angle), self.sin(angle));
+            let along = self.constant(
+                &format!("gravity_{orbit}"),
+                &format!("G_{orbit}"),
+                &format!("G_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
+                &format!("weight that `{orbit}` carries times its lever"),
+                "J",
+                -total.derivative(cos).expand(),
+            );
+            let lateral = self.constant(
+                &format!("lateral_gravity_{orbit}"),
+                &format!("F_{orbit}"),
+                &format!("F_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
+                &format!("weight that `{orbit}` carries times its lateral lever"),
+                "J",
+                total.derivative(sin).expand(),
+            );
+            // Kept as G (1 − cos θ): multiplied out it would lose digits.
+            potential.push(&along * &(&Formula::integer(1) - &Formula::symbol(cos)));
+            potential.push(&lateral * &Formula::symbol(sin));
+        }
+        potential.into_iter().sum()
+    }
+
+    /// Rayleigh's dissipation function R = ½ Σ c_i (ω_i − ω_π(i))², so that the
+    /// generalized friction torque is −∂R/∂ω_i.
+    fn dissipation(&mut self, velocities: &[SymbolId]) -> Formula {
+        let mut terms = Vec::new();
+        for index in 0..velocities.len() {
+            let link = &self.scene.links[index];
+            let Some(friction) = &link.friction else {
+                continue;
+            };
+            let value = self.quantity(friction);
+            let parent = link.parent;
+            let orbit = self.orbit_name(index);
+            let constant = self.constant(
+                &format!("friction_{orbit}"),
+                &format!("c_{orbit}"),
+                &format!("c_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
+                &format!("viscous friction in the pivot of `{orbit}`"),
+                "N m s",
+                value,
+            );
+            let own = Formula::symbol(velocities[index]);
+            let relative = match parent {
+                Some(LinkId(parent)) => &own - &Formula::symbol(velocities[parent]),
+                None => own,
+            };
+            let half = Formula::integer(2).pow(-1);
+            terms.push(&(&half * &constant) * &relative.pow(2));
+        }
+        terms.into_iter().sum::<Formula>()
+    }
+
+    /// The links from the root to `link`, both included.
+    fn path(&self, link: LinkId) -> Vec<usize> {
+        let mut path = vec![link.0];
+        let mut at = &self.scene.links[link.0];
+        while let Some(LinkId(parent)) = at.parent {
+            path.push(parent);
+            at = &self.scene.links[parent];
+        }
+        path.reverse();
+        path
+    }
+
+    fn orbit_name(&self, link: usize) -> String {
+        let orbit = self.scene.links[link].orbit;
+        self.scene.orbits[orbit.0].name.clone()
+    }
+
+    /// A quantity of the description as a formula in its parameters.
+    pub(super) fn quantity(&self, quantity: &Quantity) -> Formula {
+        match quantity {
+            Quantity::Exact(number) => Formula::number(number),
+            Quantity::Parameter(id) => Formula::symbol(self.parameters[id.0]),
+            Quantity::Sum(parts) => parts.iter().map(|part| self.quantity(part)).sum(),
+            Quantity::Product(parts) => parts
+                .iter()
+                .map(|part| self.quantity(part))
+                .fold(Formula::integer(1), |product, factor| product * factor),
+            Quantity::Quotient(numerator, denominator) => {
+                &self.quantity(numerator) / &self.quantity(denominator)
+            }
+            Quantity::Power(base, exponent) => self.quantity(base).pow(*exponent),
+            Quantity::Negative(value) => -self.quantity(value),
+        }
+    }
+
+    /// A named constant of the model with its value; zero stays zero and is
+    /// not named, so that what a scene lacks leaves no trace.
+    fn constant(
+        &mut self,
+        code: &str,
+        text: &str,
+        latex: &str,
+        meaning: &str,
+        unit: &'static str,
+        value: Formula,
+    ) -> Formula {
+        if value.is_zero() {
+            return value;
+        }
+        let known = self.symbols.find(text);
+        let id = self.symbols.intern(Role::Constant, code, text, latex);
+        match known {
+            Some(_) => assert!(
+                (&self.constants[&id].value - &value).expand().is_zero(),
+                "copies of one description node differ in {code}"
+            ),
+            None => self.record_constant(id, value, meaning, unit),
+        }
+        Formula::symbol(id)
+    }
+}
+
+/// A snake-case name inside `\mathrm{}`.
+pub(super) fn latex_name(name: &str) -> String {
+    name.replace('_', "\\_")
+}

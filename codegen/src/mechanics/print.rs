@@ -1,0 +1,140 @@
+//! Expressions as text and as LaTeX, for docs and for `expand --stage`.
+
+use super::expression::{Expr, Symbols};
+use crate::exact::Rational;
+
+/// How a notation spells the parts of an expression.
+struct Notation {
+    latex: bool,
+}
+
+/// The expression in plain text: `μ cos(θ_2 − θ_1) ω_1² / (2 M)`.
+pub fn text(expr: &Expr, symbols: &Symbols) -> String {
+    if let Expr::Number(number) = expr {
+        return number_text(number);
+    }
+    Notation { latex: false }.sum(expr, symbols)
+}
+
+/// The expression in LaTeX.
+pub fn latex(expr: &Expr, symbols: &Symbols) -> String {
+    Notation { latex: true }.sum(expr, symbols)
+}
+
+impl Notation {
+    fn sum(&self, expr: &Expr, symbols: &Symbols) -> String {
+        let mut out = String::new();
+        for (index, term) in expr.terms().iter().enumerate() {
+            let (negative, body) = self.term(term, symbols);
+            let minus = if self.latex { "-" } else { "−" };
+            match (index, negative) {
+                (0, false) => {}
+                (0, true) => out.push_str(minus),
+                (_, false) => out.push_str(" + "),
+                (_, true) => {
+                    out.push(' ');
+                    out.push_str(minus);
+                    out.push(' ');
+                }
+            }
+            out.push_str(&body);
+        }
+        out
+    }
+
+    /// A term without its sign, and whether that was minus.
+    fn term(&self, term: &Expr, symbols: &Symbols) -> (bool, String) {
+        let mut negative = false;
+        let mut above = Vec::new();
+        let mut below = Vec::new();
+        for factor in term.factors() {
+            match factor {
+                Expr::Number(number) => {
+                    negative = number.is_negative();
+                    let size = if negative { -number } else { number.clone() };
+                    let (numerator, denominator) =
+                        (size.numerator_text(), size.denominator_text());
+                    if numerator != "1" {
+                        above.push(numerator);
+                    }
+                    if denominator != "1" {
+                        below.push(denominator);
+                    }
+                }
+                Expr::Power(base, exponent) if *exponent < 0 => {
+                    below.push(self.power(base, -exponent, symbols));
+                }
+                Expr::Power(base, exponent) => above.push(self.power(base, *exponent, symbols)),
+                other => above.push(self.power(other, 1, symbols)),
+            }
+        }
+        let product = |factors: &[String]| match factors {
+            [] => "1".to_owned(),
+            _ if self.latex => factors.join("\\,"),
+            _ => factors.join(" "),
+        };
+        let body = match (below.len(), self.latex) {
+            (0, _) => product(&above),
+            (_, true) => format!("\\frac{{{}}}{{{}}}", product(&above), product(&below)),
+            (1, false) => format!("{} / {}", product(&above), below[0]),
+            (_, false) => format!("{} / ({})", product(&above), product(&below)),
+        };
+        (negative, body)
+    }
+
+    fn power(&self, base: &Expr, exponent: i32, symbols: &Symbols) -> String {
+        let atom = match base {
+            Expr::Number(number) => number_text(number),
+            Expr::Symbol(id) => {
+                let symbol = symbols.get(*id);
+                let spelled = if self.latex { &symbol.latex } else { &symbol.text };
+                let function = spelled.trim_start_matches('\\');
+                let is_function = function.starts_with("cos") || function.starts_with("sin");
+                if exponent != 1 && is_function {
+                    return self.function_power(spelled, exponent);
+                }
+                spelled.clone()
+            }
+            other if self.latex => format!("\\left({}\\right)", self.sum(other, symbols)),
+            other => format!("({})", self.sum(other, symbols)),
+        };
+        match exponent {
+            1 => atom,
+            _ => format!("{atom}{}", self.exponent(exponent)),
+        }
+    }
+
+    /// cos² x, not cos x².
+    fn function_power(&self, spelled: &str, exponent: i32) -> String {
+        let name_length = if self.latex { 4 } else { 3 };
+        let (name, argument) = spelled.split_at(name_length);
+        format!("{name}{}{argument}", self.exponent(exponent))
+    }
+
+    fn exponent(&self, exponent: i32) -> String {
+        if self.latex {
+            return format!("^{{{exponent}}}");
+        }
+        exponent
+            .to_string()
+            .chars()
+            .map(|digit| match digit {
+                '0' => '⁰',
+                '1' => '¹',
+                '2' => '²',
+                '3' => '³',
+                '4' => '⁴',
+                '5' => '⁵',
+                '6' => '⁶',
+                '7' => '⁷',
+                '8' => '⁸',
+                '9' => '⁹',
+                _ => '⁻',
+            })
+            .collect()
+    }
+}
+
+fn number_text(number: &Rational) -> String {
+    number.to_string()
+}

@@ -1,0 +1,251 @@
+//! Sub-Hamiltonians of the differences and the energy transfer W into them
+//! (physics §5).
+
+use super::algebra::Formula;
+use super::coordinates::{Coordinate, Kind};
+use super::derivation::{Derivation, Frame};
+use super::expression::SymbolId;
+use super::inverse_mass::{Counting, Expansion};
+use crate::scene::LinkId;
+
+/// W split into what the kinetic and what the potential energy of the rest of
+/// the tree do.
+#[derive(Clone)]
+pub(super) struct Parts {
+    pub(super) kinetic: Formula,
+    pub(super) potential: Formula,
+}
+
+/// A difference's energy H_d = T + V.
+pub(super) struct SubHamiltonian {
+    /// Index of the difference among the coordinates.
+    pub(super) coordinate: usize,
+    pub(super) kinetic: Formula,
+    pub(super) potential: Formula,
+}
+
+impl Derivation<'_> {
+    /// H_d of one difference of a group of leaves: T = p_d²/(2 M̃_dd) and the
+    /// potential that Parseval's identity gives it,
+    /// V = G/(2n) |Σ_j w_j e^{iθ_j}|² with the weights w of the difference
+    /// and n = Σ w². For a pair, T = p_d²/(4M) and V = G sin²θ_d.
+    pub(super) fn sub_hamiltonian(
+        &mut self,
+        frame: &Frame,
+        coordinates: &[Coordinate],
+        expansion: &Expansion,
+        coordinate: usize,
+    ) -> SubHamiltonian {
+        let Kind::Difference { norm, orbit, .. } = coordinates[coordinate].kind else {
+            unreachable!("sub-Hamiltonians belong to differences");
+        };
+        let momentum = Formula::symbol(frame.momenta[coordinate]);
+        let inertia = expansion.orders[0].get(coordinate, coordinate);
+        let kinetic = &momentum.pow(2) / &(&Formula::integer(2) * &inertia);
+
+        let mut cosines = Vec::new();
+        let mut sines = Vec::new();
+        for &(link, weight) in &coordinates[coordinate].weights {
+            let (cos, sin) = self.relative_rotation(frame, coordinates, link);
+            let weight = Formula::integer(weight);
+            cosines.push(&weight * &cos);
+            sines.push(&weight * &sin);
+        }
+        let square = |terms: Vec<Formula>| terms.into_iter().sum::<Formula>().pow(2);
+        let modulus = &square(cosines) + &square(sines);
+        let modulus = self.reduce(&modulus, frame, &expansion.differences);
+        let weight = self.gravity_of(orbit);
+        let potential =
+            (&(&weight / &Formula::integer(2 * norm)) * &modulus).expand();
+        SubHamiltonian {
+            coordinate,
+            kinetic,
+            potential,
+        }
+    }
+
+    /// cos and sin of θ_link − θ_mean: the differences' share of an angle.
+    fn relative_rotation(
+        &self,
+        frame: &Frame,
+        coordinates: &[Coordinate],
+        link: LinkId,
+    ) -> (Formula, Formula) {
+        let (mut cos, mut sin) = (Formula::integer(1), Formula::zero());
+        for (index, coordinate) in coordinates.iter().enumerate() {
+            if !matches!(coordinate.kind, Kind::Difference { .. }) {
+                continue;
+            }
+            let weight = coordinate
+                .weights
+                .iter()
+                .find(|(l, _)| *l == link)
+                .map_or(0, |(_, weight)| *weight);
+            let c = Formula::symbol(self.cos(frame.coordinates[index]));
+            let s = Formula::symbol(self.sin(frame.coordinates[index]));
+            let s = if weight < 0 { -s } else { s };
+            for _ in 0..weight.abs() {
+                let turned = &(&cos * &c) - &(&sin * &s);
+                sin = &(&sin * &c) + &(&cos * &s);
+                cos = turned;
+            }
+        }
+        (cos.expand(), sin.expand())
+    }
+
+    /// cos² → 1 − sin² of every difference, so that equal formulas look equal.
+    pub(super) fn reduce(
+        &self,
+        formula: &Formula,
+        frame: &Frame,
+        coordinates: &[usize],
+    ) -> Formula {
+        let mut reduced = formula.expand();
+        for &index in coordinates {
+            let cos = self.cos(frame.coordinates[index]);
+            let sin = Formula::symbol(self.sin(frame.coordinates[index]));
+            let square = &Formula::integer(1) - &sin.pow(2);
+            reduced = reduced
+                .coefficients(&[cos])
+                .into_iter()
+                .map(|(power, coefficient)| {
+                    let odd = Formula::symbol(cos).pow((power[0] % 2) as i32);
+                    &(&coefficient * &odd) * &square.pow((power[0] / 2) as i32)
+                })
+                .sum::<Formula>()
+                .expand();
+        }
+        reduced
+    }
+
+    /// The canonical pairs of the differences.
+    pub(super) fn difference_pairs(
+        frame: &Frame,
+        expansion: &Expansion,
+    ) -> Vec<(SymbolId, SymbolId)> {
+        expansion
+            .differences
+            .iter()
+            .map(|&d| (frame.coordinates[d], frame.momenta[d]))
+            .collect()
+    }
+
+    /// W to the given order in the difference angles, momenta untouched:
+    /// {H_d, K − T} with K to that order, and {H_d, U − V}, both then cut
+    /// off at that order. Order 1 is the paper's W_K + W_P.
+    pub(super) fn angle_transfer(
+        &mut self,
+        frame: &Frame,
+        expansion: &Expansion,
+        energy: &SubHamiltonian,
+        order: u32,
+    ) -> Parts {
+        let kinetic = match order {
+            0 => Formula::zero(),
+            _ => expansion.first_order(),
+        };
+        self.truncated(frame, expansion, energy, &kinetic, Counting::Angle, 0..=order)
+    }
+
+    /// W to second order in the amplitude: the complete quadratic form in the
+    /// differences and their momenta.
+    pub(super) fn amplitude_transfer(
+        &mut self,
+        frame: &Frame,
+        expansion: &Expansion,
+        energy: &SubHamiltonian,
+    ) -> Parts {
+        let kinetic = expansion.second_order_in_amplitude();
+        self.truncated(frame, expansion, energy, &kinetic, Counting::Amplitude, 2..=2)
+    }
+
+    fn truncated(
+        &mut self,
+        frame: &Frame,
+        expansion: &Expansion,
+        energy: &SubHamiltonian,
+        kinetic: &Formula,
+        counting: Counting,
+        orders: std::ops::RangeInclusive<u32>,
+    ) -> Parts {
+        let pairs = Self::difference_pairs(frame, expansion);
+        let whole = &energy.kinetic + &energy.potential;
+        // K − T: the leading kinetic energy of the differences is Σ T, of
+        // which only this difference's own T does not commute with H_d.
+        let from_kinetic = self.poisson_bracket(&pairs, &whole, kinetic);
+        let others = self.other_kinetic(frame, expansion, energy.coordinate);
+        let from_others = self.poisson_bracket(&pairs, &whole, &others);
+        let rest = (&frame.potential - &energy.potential).expand();
+        let from_potential = self.poisson_bracket(&pairs, &energy.kinetic, &rest);
+        let mut cut = |formula: Formula| -> Formula {
+            let parts = self.orders(&formula, &pairs, counting, *orders.end());
+            parts
+                .into_iter()
+                .skip(*orders.start() as usize)
+                .sum::<Formula>()
+                .expand()
+        };
+        Parts {
+            kinetic: cut(&from_kinetic + &from_others),
+            potential: cut(from_potential),
+        }
+    }
+
+    /// Σ p_s²/(2 M_ss) over the differences other than `coordinate`.
+    fn other_kinetic(&self, frame: &Frame, expansion: &Expansion, coordinate: usize) -> Formula {
+        expansion
+            .differences
+            .iter()
+            .filter(|&&d| d != coordinate)
+            .map(|&d| {
+                let inertia = expansion.orders[0].get(d, d);
+                &Formula::symbol(frame.momenta[d]).pow(2) / &(&Formula::integer(2) * &inertia)
+            })
+            .sum()
+    }
+
+    /// W exactly, with velocities at hand: dF/dt = Σ ∂F/∂q q̇ + ∂F/∂p ∂L/∂q.
+    /// Kinetic part {H_d, K − T} = Σ_s ∂V/∂q_s (q̇_s − ∂T/∂p_s)
+    /// + ∂T/∂p_s ∂K/∂q_s|_q̇, potential part {H_d, U − V}. Conservative: what
+    /// friction takes comes separately.
+    pub(super) fn exact_transfer(
+        &mut self,
+        frame: &Frame,
+        expansion: &Expansion,
+        energy: &SubHamiltonian,
+    ) -> Parts {
+        let kinetic_gradient = frame.kinetic_gradient(self);
+        let potential_gradient = frame.potential_gradient(self);
+        let mut kinetic = Vec::new();
+        let mut potential = Vec::new();
+        for &s in &expansion.differences {
+            let (q, p) = (frame.coordinates[s], frame.momenta[s]);
+            let velocity = energy.kinetic.derivative(p);
+            let slope = self.partial(&energy.potential, q);
+            let excess = &Formula::symbol(frame.velocities[s]) - &velocity;
+            kinetic.push(&slope * &excess);
+            kinetic.push(&velocity * &kinetic_gradient[s]);
+            potential.push(&velocity * &(&slope - &potential_gradient[s]));
+        }
+        let short = |terms: Vec<Formula>| {
+            let sum = terms.into_iter().sum::<Formula>();
+            self.reduce(&sum, frame, &expansion.differences)
+        };
+        Parts {
+            kinetic: short(kinetic),
+            potential: short(potential),
+        }
+    }
+
+    /// The power of friction on H_d: Σ ∂H_d/∂p_s Q_s, Q = −∂R/∂q̇.
+    pub(super) fn friction_power(
+        &self,
+        frame: &Frame,
+        energy: &SubHamiltonian,
+    ) -> Formula {
+        let s = energy.coordinate;
+        let velocity = energy.kinetic.derivative(frame.momenta[s]);
+        let torque = -frame.dissipation.derivative(frame.velocities[s]);
+        (&velocity * &torque).expand()
+    }
+}

@@ -1,0 +1,211 @@
+//! The model's constants as a small program of their own: leaves are the
+//! description's numbers and parameters; everything else is formed from them
+//! once, exactly where no parameter is involved.
+
+use super::spelling;
+use crate::exact::Rational;
+use std::collections::BTreeMap;
+
+/// Index of a constant in [`Setup`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ConstantId(pub u32);
+
+/// How a constant is formed.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ConstantOp {
+    /// A number.
+    Number(Rational),
+    /// A parameter of the scene, by its index there.
+    Parameter(usize),
+    /// A constant that the mechanics names, by its index there, formed as the
+    /// other constant says.
+    Named(usize, ConstantId),
+    /// A number times integer powers of other constants, which are ordered and
+    /// neither numbers nor products: one spelling for each product.
+    Product(Rational, Vec<(ConstantId, i32)>),
+    /// Sum.
+    Add(ConstantId, ConstantId),
+    /// Difference.
+    Sub(ConstantId, ConstantId),
+}
+
+impl ConstantOp {
+    /// The constants it is formed of.
+    pub fn operands(&self) -> Vec<ConstantId> {
+        match self {
+            Self::Number(_) | Self::Parameter(_) => Vec::new(),
+            Self::Named(_, a) => vec![*a],
+            Self::Product(_, powers) => powers.iter().map(|(id, _)| *id).collect(),
+            Self::Add(a, b) | Self::Sub(a, b) => vec![*a, *b],
+        }
+    }
+}
+
+/// A constant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ConstantDefinition {
+    /// How it is formed.
+    pub op: ConstantOp,
+    /// Its value, where no parameter is involved.
+    pub exact: Option<Rational>,
+    /// Its name in code.
+    pub name: String,
+}
+
+/// The constants of a model; each uses earlier ones only.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Setup {
+    /// The constants.
+    pub definitions: Vec<ConstantDefinition>,
+    known: BTreeMap<ConstantOp, ConstantId>,
+    names: BTreeMap<String, u32>,
+}
+
+/// Names longer than this say less than a number.
+const LONGEST_NAME: usize = 72;
+
+impl Setup {
+    /// The definition of a constant.
+    pub fn get(&self, id: ConstantId) -> &ConstantDefinition {
+        &self.definitions[id.0 as usize]
+    }
+
+    /// A number.
+    pub(super) fn number(&mut self, value: Rational) -> ConstantId {
+        self.intern(ConstantOp::Number(value), None)
+    }
+
+    /// A parameter of the scene.
+    pub(super) fn parameter(&mut self, index: usize, name: &str) -> ConstantId {
+        self.intern(ConstantOp::Parameter(index), Some(name))
+    }
+
+    /// A constant of the mechanics.
+    pub(super) fn named(&mut self, index: usize, formed: ConstantId, name: &str) -> ConstantId {
+        self.intern(ConstantOp::Named(index, formed), Some(name))
+    }
+
+    /// a + b.
+    pub(super) fn add(&mut self, a: ConstantId, b: ConstantId) -> ConstantId {
+        match (self.as_number(a), self.as_number(b)) {
+            (Some(x), Some(y)) => self.number(x + y),
+            (Some(x), None) if x.is_zero() => b,
+            (None, Some(y)) if y.is_zero() => a,
+            _ => self.intern(ConstantOp::Add(a, b), None),
+        }
+    }
+
+    /// a − b.
+    pub(super) fn sub(&mut self, a: ConstantId, b: ConstantId) -> ConstantId {
+        match (self.as_number(a), self.as_number(b)) {
+            (Some(x), Some(y)) => self.number(x - y),
+            (None, Some(y)) if y.is_zero() => a,
+            _ => self.intern(ConstantOp::Sub(a, b), None),
+        }
+    }
+
+    /// −a.
+    pub(super) fn neg(&mut self, a: ConstantId) -> ConstantId {
+        let (number, powers) = self.as_product(a);
+        self.product(-number, powers)
+    }
+
+    /// a · b.
+    pub(super) fn mul(&mut self, a: ConstantId, b: ConstantId) -> ConstantId {
+        self.combine(a, b, 1)
+    }
+
+    /// a / b, b not zero.
+    pub(super) fn div(&mut self, a: ConstantId, b: ConstantId) -> ConstantId {
+        self.combine(a, b, -1)
+    }
+
+    fn combine(&mut self, a: ConstantId, b: ConstantId, exponent: i32) -> ConstantId {
+        let (number_a, mut powers) = self.as_product(a);
+        let (number_b, powers_b) = self.as_product(b);
+        let factor = match number_b.checked_pow(exponent) {
+            Ok(factor) => factor,
+            Err(error) => unreachable!("constants are divided by non-zero ones only: {error}"),
+        };
+        for (id, power) in powers_b {
+            *powers.entry(id).or_default() += exponent * power;
+        }
+        powers.retain(|_, power| *power != 0);
+        self.product(number_a * factor, powers)
+    }
+
+    fn product(&mut self, number: Rational, powers: BTreeMap<ConstantId, i32>) -> ConstantId {
+        let single = match powers.iter().next() {
+            Some((&id, 1)) if powers.len() == 1 => Some(id),
+            _ => None,
+        };
+        match single {
+            _ if powers.is_empty() || number.is_zero() => self.number(number),
+            Some(id) if number.is_one() => id,
+            _ => {
+                let powers = powers.into_iter().collect();
+                self.intern(ConstantOp::Product(number, powers), None)
+            }
+        }
+    }
+
+    fn as_number(&self, id: ConstantId) -> Option<Rational> {
+        match &self.get(id).op {
+            ConstantOp::Number(number) => Some(number.clone()),
+            _ => None,
+        }
+    }
+
+    fn as_product(&self, id: ConstantId) -> (Rational, BTreeMap<ConstantId, i32>) {
+        match &self.get(id).op {
+            ConstantOp::Number(number) => (number.clone(), BTreeMap::new()),
+            ConstantOp::Product(number, powers) => {
+                (number.clone(), powers.iter().copied().collect())
+            }
+            _ => (Rational::from(1), BTreeMap::from([(id, 1)])),
+        }
+    }
+
+    fn intern(&mut self, op: ConstantOp, name: Option<&str>) -> ConstantId {
+        if let Some(&id) = self.known.get(&op) {
+            return id;
+        }
+        let id = ConstantId(self.definitions.len() as u32);
+        let exact = self.value(&op);
+        let wanted = name.map_or_else(|| spelling::constant(self, &op), str::to_owned);
+        let name = self.unique(wanted, id);
+        self.known.insert(op.clone(), id);
+        self.definitions.push(ConstantDefinition { op, exact, name });
+        id
+    }
+
+    fn value(&self, op: &ConstantOp) -> Option<Rational> {
+        let exact = |id: ConstantId| self.get(id).exact.clone();
+        match op {
+            ConstantOp::Number(number) => Some(number.clone()),
+            ConstantOp::Parameter(_) => None,
+            ConstantOp::Named(_, a) => exact(*a),
+            ConstantOp::Product(number, powers) => {
+                powers.iter().try_fold(number.clone(), |product, (id, power)| {
+                    Some(product * exact(*id)?.checked_pow(*power).ok()?)
+                })
+            }
+            ConstantOp::Add(a, b) => Some(exact(*a)? + exact(*b)?),
+            ConstantOp::Sub(a, b) => Some(exact(*a)? - exact(*b)?),
+        }
+    }
+
+    fn unique(&mut self, wanted: String, id: ConstantId) -> String {
+        let wanted = if wanted.len() > LONGEST_NAME {
+            format!("constant_{}", id.0)
+        } else {
+            wanted
+        };
+        let uses = self.names.entry(wanted.clone()).or_default();
+        *uses += 1;
+        match *uses {
+            1 => wanted,
+            count => format!("{wanted}_{count}"),
+        }
+    }
+}

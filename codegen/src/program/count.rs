@@ -1,0 +1,66 @@
+//! What an entry point costs.
+
+use super::{Op, Program, ValueId};
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// Operations of one evaluation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Sine and cosine of one angle, together.
+    pub sin_cos: usize,
+    /// Additions and subtractions.
+    pub additions: usize,
+    /// Multiplications.
+    pub multiplications: usize,
+    /// Divisions.
+    pub divisions: usize,
+    /// Changes of sign.
+    pub negations: usize,
+}
+
+impl Program {
+    /// The operations that `outputs` take.
+    pub fn operations(&self, outputs: &[ValueId]) -> Operations {
+        let mut count = Operations::default();
+        let mut angles = BTreeSet::new();
+        for id in self.needed(outputs) {
+            match self.definition(id).op {
+                Op::Input(..) | Op::Constant(_) | Op::Number(_) => {}
+                Op::Sin(angle) | Op::Cos(angle) => {
+                    angles.insert(angle);
+                }
+                Op::Neg(_) => count.negations += 1,
+                Op::Add(..) | Op::Sub(..) => count.additions += 1,
+                Op::Mul(..) => count.multiplications += 1,
+                Op::Div(..) => count.divisions += 1,
+            }
+        }
+        count.sin_cos = angles.len();
+        count
+    }
+}
+
+impl fmt::Display for Operations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parts = [
+            (self.sin_cos, "sin_cos"),
+            (self.multiplications, "×"),
+            (self.additions, "±"),
+            (self.divisions, "÷"),
+            (self.negations, "negations"),
+        ];
+        let mut first = true;
+        for (count, what) in parts.into_iter().filter(|(count, _)| *count > 0) {
+            if !first {
+                f.write_str(", ")?;
+            }
+            write!(f, "{count} {what}")?;
+            first = false;
+        }
+        if first {
+            f.write_str("none")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,358 @@
+//! The entry points that a scene's requests lead to.
+
+use super::lower::{Door, Lowering};
+use super::{Argument, Entry, Purpose, Shape, ValueId};
+use crate::mechanics::coordinates::Kind;
+use crate::mechanics::expression::Expr;
+use crate::mechanics::{Entry as MatrixEntry, Frame, Mechanics, Parts, Transfer};
+use crate::scene::{LinkId, Scene};
+
+pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Vec<Entry> {
+    let mechanics = lowering.mechanics;
+    let mut list = EntryList {
+        lowering,
+        entries: Vec::new(),
+    };
+    list.absolute(scene, mechanics);
+    if let Some(symmetric) = &mechanics.symmetric {
+        list.transforms(scene, mechanics);
+        list.symmetric(scene, symmetric);
+        for (number, transfer) in mechanics.transfers.iter().enumerate() {
+            list.transfer(mechanics, symmetric, number, transfer);
+        }
+    }
+    list.entries
+}
+
+struct EntryList<'l, 'm> {
+    lowering: &'l mut Lowering<'m>,
+    entries: Vec<Entry>,
+}
+
+impl EntryList<'_, '_> {
+    fn push(
+        &mut self,
+        name: &str,
+        purpose: Purpose,
+        arguments: &[Argument],
+        outputs: Vec<ValueId>,
+        shape: Shape,
+    ) {
+        self.entries.push(Entry {
+            name: name.to_owned(),
+            purpose,
+            arguments: arguments.to_vec(),
+            outputs,
+            shape,
+        });
+    }
+
+    fn exprs(&mut self, door: &mut Door<'_>, exprs: &[Expr]) -> Vec<ValueId> {
+        exprs
+            .iter()
+            .map(|expr| self.lowering.expr(door, expr))
+            .collect()
+    }
+
+    /// q̈ with M q̈ = −bias.
+    fn accelerations(&mut self, door: &mut Door<'_>, prefix: &str) -> Vec<ValueId> {
+        let frame = door.frame;
+        let names = self.lowering.coordinate_names(frame);
+        let mass = self.lowering.mass_matrix(door);
+        let mut right = Vec::new();
+        for (bias, name) in frame.bias.iter().zip(&names) {
+            let value = self.lowering.expr(door, bias);
+            self.lowering.builder.name(value, &format!("bias_{name}"));
+            let torque = self.lowering.builder.neg(value);
+            right.push(self.lowering.builder.name(torque, &format!("torque_{name}")));
+        }
+        let solution = self.lowering.builder.solve(mass, right, &names);
+        for (&value, name) in solution.iter().zip(&names) {
+            self.lowering
+                .builder
+                .name(value, &format!("{prefix}_{name}"));
+        }
+        solution
+    }
+
+    fn absolute(&mut self, scene: &Scene, mechanics: &Mechanics) {
+        use Argument::{AbsoluteMomenta, Omega, Theta};
+        let frame = &mechanics.absolute;
+        let mut motion = Door::new(frame, Theta, Some(Omega), None);
+        let alpha = self.accelerations(&mut motion, "alpha");
+        let both = [Theta, Omega];
+        self.push(
+            "accelerations",
+            Purpose::Accelerations,
+            &both,
+            alpha,
+            Shape::Vector,
+        );
+        if scene.requests.energies {
+            let kinetic = self.lowering.expr(&mut motion, &frame.kinetic);
+            let potential = self.lowering.expr(&mut motion, &frame.potential);
+            self.push(
+                "kinetic_energy",
+                Purpose::KineticEnergy,
+                &both,
+                vec![kinetic],
+                Shape::Scalar,
+            );
+            self.push(
+                "potential_energy",
+                Purpose::PotentialEnergy,
+                &[Theta],
+                vec![potential],
+                Shape::Scalar,
+            );
+        }
+        if scene.requests.momenta {
+            let momenta = self.exprs(&mut motion, &frame.momentum);
+            self.push(
+                "momenta",
+                Purpose::AbsoluteMomenta,
+                &both,
+                momenta,
+                Shape::Vector,
+            );
+            let mut phase = Door::new(frame, Theta, None, Some(AbsoluteMomenta));
+            let velocities = frame
+                .velocities
+                .iter()
+                .map(|&v| self.lowering.symbol(&mut phase, v))
+                .collect();
+            self.push(
+                "velocities",
+                Purpose::AbsoluteVelocities,
+                &[Theta, AbsoluteMomenta],
+                velocities,
+                Shape::Vector,
+            );
+        }
+        if scene.requests.modes {
+            let size = frame.coordinates.len();
+            for (name, purpose, entries) in [
+                ("mass_matrix", Purpose::MassMatrix, &frame.mass),
+                ("stiffness_matrix", Purpose::StiffnessMatrix, &frame.stiffness),
+            ] {
+                let dense = self.dense(&mut motion, entries, size);
+                self.push(name, purpose, &[Theta], dense, Shape::Matrix(size));
+            }
+        }
+    }
+
+    fn dense(
+        &mut self,
+        door: &mut Door<'_>,
+        entries: &[MatrixEntry],
+        size: usize,
+    ) -> Vec<ValueId> {
+        let sparse = self.lowering.matrix(door, entries);
+        let zero = self.lowering.builder.integer(0);
+        let mut dense = Vec::with_capacity(size * size);
+        for row in 0..size {
+            for column in 0..size {
+                let key = (row.max(column), row.min(column));
+                dense.push(sparse.get(&key).copied().unwrap_or(zero));
+            }
+        }
+        dense
+    }
+
+    /// θ = J q, and q = (JᵀJ)⁻¹ Jᵀ θ, where JᵀJ is diagonal.
+    fn transforms(&mut self, scene: &Scene, mechanics: &Mechanics) {
+        let builder = &mut self.lowering.builder;
+        let mut forward = Vec::new();
+        for coordinate in &mechanics.coordinates {
+            let mut sum = builder.integer(0);
+            for &(LinkId(link), weight) in &coordinate.weights {
+                let angle = builder.input(Argument::Absolute, link);
+                let weight = builder.integer(weight);
+                let term = builder.mul(weight, angle);
+                sum = builder.add(sum, term);
+            }
+            let norm = builder.integer(coordinate.norm());
+            let one = builder.integer(1);
+            let inverse = builder.div(one, norm);
+            forward.push(builder.mul(inverse, sum));
+        }
+        let mut backward = vec![builder.integer(0); scene.links.len()];
+        for (index, coordinate) in mechanics.coordinates.iter().enumerate() {
+            let value = builder.input(Argument::Symmetric, index);
+            for &(LinkId(link), weight) in &coordinate.weights {
+                let weight = builder.integer(weight);
+                let term = builder.mul(weight, value);
+                backward[link] = builder.add(backward[link], term);
+            }
+        }
+        self.push(
+            "to_symmetric",
+            Purpose::ToSymmetric,
+            &[Argument::Absolute],
+            forward,
+            Shape::Vector,
+        );
+        self.push(
+            "from_symmetric",
+            Purpose::FromSymmetric,
+            &[Argument::Symmetric],
+            backward,
+            Shape::Vector,
+        );
+    }
+
+    fn symmetric(&mut self, scene: &Scene, frame: &Frame) {
+        use Argument::{Coordinates, Momenta, Rates};
+        let mut motion = Door::new(frame, Coordinates, Some(Rates), None);
+        let accelerations = self.accelerations(&mut motion, "alpha");
+        self.push(
+            "symmetric_accelerations",
+            Purpose::SymmetricAccelerations,
+            &[Coordinates, Rates],
+            accelerations,
+            Shape::Vector,
+        );
+        if scene.requests.momenta {
+            let momenta = self.exprs(&mut motion, &frame.momentum);
+            self.push(
+                "symmetric_momenta",
+                Purpose::SymmetricMomenta,
+                &[Coordinates, Rates],
+                momenta,
+                Shape::Vector,
+            );
+            let mut phase = Door::new(frame, Coordinates, None, Some(Momenta));
+            let velocities: Vec<ValueId> = frame
+                .velocities
+                .iter()
+                .map(|&v| self.lowering.symbol(&mut phase, v))
+                .collect();
+            if scene.requests.energies {
+                // H = ½ pᵀ q̇ + U
+                let builder = &mut self.lowering.builder;
+                let mut twice_kinetic = builder.integer(0);
+                for (index, &velocity) in velocities.iter().enumerate() {
+                    let momentum = builder.input(Momenta, index);
+                    let product = builder.mul(momentum, velocity);
+                    twice_kinetic = builder.add(twice_kinetic, product);
+                }
+                let two = builder.integer(2);
+                let kinetic = builder.div(twice_kinetic, two);
+                let potential = self.lowering.expr(&mut phase, &frame.potential);
+                let total = self.lowering.builder.add(kinetic, potential);
+                self.push(
+                    "hamiltonian",
+                    Purpose::Hamiltonian,
+                    &[Coordinates, Momenta],
+                    vec![total],
+                    Shape::Scalar,
+                );
+            }
+            self.push(
+                "symmetric_velocities",
+                Purpose::SymmetricVelocities,
+                &[Coordinates, Momenta],
+                velocities,
+                Shape::Vector,
+            );
+        }
+    }
+
+    fn transfer(
+        &mut self,
+        mechanics: &Mechanics,
+        frame: &Frame,
+        number: usize,
+        transfer: &Transfer,
+    ) {
+        use Argument::{Coordinates, Momenta, Rates};
+        let several = mechanics
+            .coordinates
+            .iter()
+            .filter(|c| matches!(c.kind, Kind::Difference { .. }))
+            .count()
+            > 1;
+        let place = if several {
+            format!("_{}", mechanics.coordinates[transfer.coordinate].name)
+        } else {
+            String::new()
+        };
+        let mut phase = Door::new(frame, Coordinates, None, Some(Momenta));
+        let mut motion = Door::new(frame, Coordinates, Some(Rates), None);
+        let canonical = [Coordinates, Momenta];
+
+        let energy = self.parts(&mut phase, &transfer.energy);
+        let total = self.lowering.builder.add(energy[0], energy[1]);
+        self.push(
+            &format!("antiphase_energy{place}"),
+            Purpose::SubHamiltonian(number),
+            &canonical,
+            vec![total],
+            Shape::Scalar,
+        );
+        if let Some(parts) = &transfer.angle {
+            let outputs = self.parts(&mut phase, parts);
+            self.push(
+                &format!("transfer_angle_1{place}"),
+                Purpose::AngleTransfer(number),
+                &canonical,
+                outputs,
+                Shape::Transfer,
+            );
+        }
+        if let Some(parts) = &transfer.amplitude {
+            let outputs = self.parts(&mut phase, parts);
+            self.push(
+                &format!("transfer_amplitude_2{place}"),
+                Purpose::AmplitudeTransfer(number),
+                &canonical,
+                outputs,
+                Shape::Transfer,
+            );
+        }
+        if let Some(form) = &transfer.quadratic_form {
+            let outputs = self.exprs(&mut phase, form);
+            self.push(
+                &format!("transfer_quadratic_form{place}"),
+                Purpose::QuadraticForm(number),
+                &canonical,
+                outputs,
+                Shape::Vector,
+            );
+        }
+        if let Some(parts) = &transfer.exact {
+            let outputs = self.parts(&mut phase, parts);
+            self.push(
+                &format!("transfer_exact{place}"),
+                Purpose::ExactTransfer(number),
+                &canonical,
+                outputs,
+                Shape::Transfer,
+            );
+            let outputs = self.parts(&mut motion, parts);
+            self.push(
+                &format!("transfer_exact_from_rates{place}"),
+                Purpose::ExactTransferFromRates(number),
+                &[Coordinates, Rates],
+                outputs,
+                Shape::Transfer,
+            );
+        }
+        if !transfer.friction.is_zero() {
+            let power = self.lowering.expr(&mut motion, &transfer.friction);
+            self.push(
+                &format!("antiphase_friction_power{place}"),
+                Purpose::FrictionPower(number),
+                &[Coordinates, Rates],
+                vec![power],
+                Shape::Scalar,
+            );
+        }
+    }
+
+    fn parts(&mut self, door: &mut Door<'_>, parts: &Parts) -> Vec<ValueId> {
+        let kinetic = self.lowering.expr(door, &parts.kinetic);
+        let potential = self.lowering.expr(door, &parts.potential);
+        vec![kinetic, potential]
+    }
+}

@@ -1,0 +1,401 @@
+//! Expressions become program values.
+//!
+//! A [`Door`] says what the caller hands over (angles and velocities, or
+//! coordinates and momenta); a symbol that is not handed over is formed from
+//! what is, when it is first needed.
+
+use super::builder::Builder;
+use super::constants::{ConstantId, Setup};
+use super::solve::Matrix;
+use super::{Argument, Program, ValueId, entries};
+use crate::exact::Rational;
+use crate::mechanics::expression::{Expr, Role, SymbolId};
+use crate::mechanics::{Entry as MatrixEntry, Frame, Mechanics, Trigonometric};
+use crate::scene::Scene;
+use std::collections::BTreeMap;
+
+/// Lowers everything that the scene asks for into one program.
+///
+/// Linear in the size of the mechanics, times a logarithm.
+pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
+    let mut lowering = Lowering {
+        mechanics,
+        builder: Builder::default(),
+        constants: BTreeMap::new(),
+    };
+    let entries = entries::entries(scene, &mut lowering);
+    lowering.builder.finish(entries)
+}
+
+/// Lowering in progress.
+pub(super) struct Lowering<'a> {
+    pub(super) mechanics: &'a Mechanics,
+    pub(super) builder: Builder,
+    constants: BTreeMap<SymbolId, ConstantId>,
+}
+
+/// How symbols of one frame are supplied: handed over by the caller, or formed
+/// on demand.
+pub(super) struct Door<'a> {
+    pub(super) frame: &'a Frame,
+    /// Argument that holds the coordinates.
+    pub(super) coordinates: Argument,
+    /// Argument that holds the velocities; solved from the momenta if none.
+    pub(super) velocities: Option<Argument>,
+    /// Argument that holds the momenta; formed from the velocities if none.
+    pub(super) momenta: Option<Argument>,
+    values: BTreeMap<SymbolId, ValueId>,
+}
+
+impl<'a> Door<'a> {
+    pub(super) fn new(
+        frame: &'a Frame,
+        coordinates: Argument,
+        velocities: Option<Argument>,
+        momenta: Option<Argument>,
+    ) -> Self {
+        Self {
+            frame,
+            coordinates,
+            velocities,
+            momenta,
+            values: BTreeMap::new(),
+        }
+    }
+}
+
+fn position(symbols: &[SymbolId], symbol: SymbolId) -> usize {
+    match symbols.iter().position(|&s| s == symbol) {
+        Some(index) => index,
+        None => unreachable!("a symbol of another frame reached this door"),
+    }
+}
+
+impl Lowering<'_> {
+    /// The value of a symbol behind a door.
+    pub(super) fn symbol(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
+        if let Some(&value) = door.values.get(&symbol) {
+            return value;
+        }
+        let entry = self.mechanics.symbols.get(symbol).clone();
+        let value = match entry.role {
+            Role::Parameter | Role::Constant => {
+                let constant = self.constant(symbol);
+                self.builder.constant(constant)
+            }
+            Role::Trigonometric => {
+                let value = self.trigonometric(door, symbol);
+                self.builder.name(value, &entry.code)
+            }
+            Role::Coordinate => {
+                let index = position(&door.frame.coordinates, symbol);
+                self.builder.input(door.coordinates, index)
+            }
+            Role::Velocity => {
+                let index = position(&door.frame.velocities, symbol);
+                match door.velocities {
+                    Some(argument) => self.builder.input(argument, index),
+                    None => self.velocities(door)[index],
+                }
+            }
+            Role::Momentum => {
+                let index = position(&door.frame.momenta, symbol);
+                match door.momenta {
+                    Some(argument) => self.builder.input(argument, index),
+                    None => {
+                        let momentum = door.frame.momentum[index].clone();
+                        let value = self.expr(door, &momentum);
+                        self.builder.name(value, &entry.code)
+                    }
+                }
+            }
+            Role::Derived => self.in_phase_velocity(door, symbol),
+            Role::Acceleration | Role::Bookkeeping => {
+                unreachable!("{} never leaves the derivation", entry.code)
+            }
+        };
+        door.values.insert(symbol, value);
+        value
+    }
+
+    fn trigonometric(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
+        let mechanics = self.mechanics;
+        match mechanics.trigonometry[&symbol] {
+            Trigonometric::Cos(a) => {
+                let angle = self.symbol(door, a);
+                self.builder.cos(angle)
+            }
+            Trigonometric::Sin(a) => {
+                let angle = self.symbol(door, a);
+                self.builder.sin(angle)
+            }
+            // cos(a − b) = cos a cos b + sin a sin b
+            Trigonometric::CosBetween(a, b) => {
+                let [cos_a, sin_a, cos_b, sin_b] = self.sines_and_cosines(door, a, b);
+                let first = self.builder.mul(cos_a, cos_b);
+                let second = self.builder.mul(sin_a, sin_b);
+                self.builder.add(first, second)
+            }
+            // sin(a − b) = sin a cos b − cos a sin b
+            Trigonometric::SinBetween(a, b) => {
+                let [cos_a, sin_a, cos_b, sin_b] = self.sines_and_cosines(door, a, b);
+                let first = self.builder.mul(sin_a, cos_b);
+                let second = self.builder.mul(cos_a, sin_b);
+                self.builder.sub(first, second)
+            }
+        }
+    }
+
+    fn sines_and_cosines(
+        &mut self,
+        door: &mut Door<'_>,
+        a: SymbolId,
+        b: SymbolId,
+    ) -> [ValueId; 4] {
+        let mechanics = self.mechanics;
+        let find = |wanted: Trigonometric| {
+            match mechanics.trigonometry.iter().find(|(_, t)| **t == wanted) {
+                Some((&symbol, _)) => symbol,
+                None => unreachable!("every coordinate has a sine and a cosine"),
+            }
+        };
+        [
+            find(Trigonometric::Cos(a)),
+            find(Trigonometric::Sin(a)),
+            find(Trigonometric::Cos(b)),
+            find(Trigonometric::Sin(b)),
+        ]
+        .map(|symbol| self.symbol(door, symbol))
+    }
+
+    /// q̇ with M q̇ = p.
+    fn velocities(&mut self, door: &mut Door<'_>) -> Vec<ValueId> {
+        let frame = door.frame;
+        let mass = self.mass_matrix(door);
+        let momenta = frame.momenta.clone();
+        let right = momenta.iter().map(|&p| self.symbol(door, p)).collect();
+        let names = self.coordinate_names(frame);
+        let solution = self.builder.solve(mass, right, &names);
+        for (&symbol, &value) in frame.velocities.iter().zip(&solution) {
+            let code = &self.mechanics.symbols.get(symbol).code;
+            self.builder.name(value, code);
+            door.values.insert(symbol, value);
+        }
+        solution
+    }
+
+    /// w with M⁽⁰⁾ w = p on the in-phase coordinates.
+    fn in_phase_velocity(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
+        let mechanics = self.mechanics;
+        let Some(expansion) = &mechanics.expansion else {
+            unreachable!("in-phase velocities come with the expansion");
+        };
+        let matrix = self.matrix(door, &expansion.leading);
+        let right = expansion
+            .in_phase
+            .iter()
+            .map(|&i| self.symbol(door, door.frame.momenta[i]))
+            .collect();
+        let all = self.coordinate_names(door.frame);
+        let names: Vec<String> = expansion
+            .in_phase
+            .iter()
+            .map(|&i| format!("in_phase_{}", all[i]))
+            .collect();
+        let solution = self.builder.solve(matrix, right, &names);
+        for (&velocity, &value) in expansion.velocities.iter().zip(&solution) {
+            let code = &mechanics.symbols.get(velocity).code;
+            self.builder.name(value, code);
+            door.values.insert(velocity, value);
+        }
+        solution[position(&expansion.velocities, symbol)]
+    }
+
+    /// What stands after `theta_` in the names of a frame's coordinates.
+    pub(super) fn coordinate_names(&self, frame: &Frame) -> Vec<String> {
+        frame
+            .coordinates
+            .iter()
+            .map(|&c| {
+                let code = &self.mechanics.symbols.get(c).code;
+                code.strip_prefix("theta_").unwrap_or(code).to_owned()
+            })
+            .collect()
+    }
+
+    /// The entries of the frame's mass matrix as values, named.
+    pub(super) fn mass_matrix(&mut self, door: &mut Door<'_>) -> Matrix {
+        let names = self.coordinate_names(door.frame);
+        let matrix = self.matrix(door, &door.frame.mass);
+        for (&(row, column), &value) in &matrix {
+            let name = format!("mass_{}_{}", names[row], names[column]);
+            self.builder.name(value, &name);
+        }
+        matrix
+    }
+
+    /// A matrix's entries as values.
+    pub(super) fn matrix(&mut self, door: &mut Door<'_>, entries: &[MatrixEntry]) -> Matrix {
+        entries
+            .iter()
+            .map(|entry| {
+                let value = self.expr(door, &entry.value);
+                ((entry.row, entry.column), value)
+            })
+            .collect()
+    }
+
+    /// An expression as a value. Sums start with a positive term if they have
+    /// one, so that no operation is spent on a sign.
+    pub(super) fn expr(&mut self, door: &mut Door<'_>, expr: &Expr) -> ValueId {
+        match expr {
+            Expr::Number(number) => self.builder.number(number.clone()),
+            Expr::Symbol(symbol) => self.symbol(door, *symbol),
+            Expr::Sum(terms) => {
+                let terms: Vec<(bool, ValueId)> =
+                    terms.iter().map(|term| self.term(door, term)).collect();
+                let first = terms.iter().position(|&(negative, _)| !negative);
+                let (negative, mut sum) = terms[first.unwrap_or(0)];
+                for (index, &(minus, value)) in terms.iter().enumerate() {
+                    if index == first.unwrap_or(0) {
+                        continue;
+                    }
+                    sum = if minus == negative {
+                        self.builder.add(sum, value)
+                    } else {
+                        self.builder.sub(sum, value)
+                    };
+                }
+                if negative { self.builder.neg(sum) } else { sum }
+            }
+            term => {
+                let (negative, value) = self.term(door, term);
+                if negative {
+                    self.builder.neg(value)
+                } else {
+                    value
+                }
+            }
+        }
+    }
+
+    /// A term's sign and size: constants first, then what is multiplied, then
+    /// one quotient.
+    fn term(&mut self, door: &mut Door<'_>, term: &Expr) -> (bool, ValueId) {
+        let mut negative = false;
+        let mut constant = self.builder.integer(1);
+        let mut above: Option<ValueId> = None;
+        let mut below: Option<ValueId> = None;
+        for factor in term.factors() {
+            let (base, exponent) = match factor {
+                Expr::Power(base, exponent) => (base.as_ref(), *exponent),
+                Expr::Number(number) if number.is_negative() => {
+                    negative = !negative;
+                    let size: Rational = -number;
+                    let size = self.builder.number(size);
+                    constant = self.builder.mul(constant, size);
+                    continue;
+                }
+                other => (other, 1),
+            };
+            let value = match base {
+                Expr::Product(_) | Expr::Power(..) => self.expr(door, base),
+                Expr::Sum(_) => self.expr(door, base),
+                Expr::Number(number) => self.builder.number(number.clone()),
+                Expr::Symbol(symbol) => self.symbol(door, *symbol),
+            };
+            let is_constant = self.is_constant(value);
+            for _ in 0..exponent.unsigned_abs() {
+                match (is_constant, exponent > 0) {
+                    (true, true) => constant = self.builder.mul(constant, value),
+                    (true, false) => constant = self.builder.div(constant, value),
+                    (false, up) => {
+                        let side = if up { &mut above } else { &mut below };
+                        *side = Some(match *side {
+                            Some(product) => self.builder.mul(product, value),
+                            None => value,
+                        });
+                    }
+                }
+            }
+        }
+        let one = self.builder.integer(1);
+        let mut value = match above {
+            Some(product) => self.builder.mul(constant, product),
+            None => constant,
+        };
+        if let Some(divisor) = below {
+            let value_or_one = if above.is_some() || !self.builder.is(constant, 1) {
+                value
+            } else {
+                one
+            };
+            value = self.builder.div(value_or_one, divisor);
+        }
+        (negative, value)
+    }
+
+    fn is_constant(&self, value: ValueId) -> bool {
+        matches!(
+            self.builder.op(value),
+            super::Op::Constant(_) | super::Op::Number(_)
+        )
+    }
+
+    /// The constant of the setup that a parameter or constant symbol stands
+    /// for.
+    fn constant(&mut self, symbol: SymbolId) -> ConstantId {
+        if let Some(&id) = self.constants.get(&symbol) {
+            return id;
+        }
+        let mechanics = self.mechanics;
+        let code = &mechanics.symbols.get(symbol).code;
+        let parameter = mechanics.parameters.iter().position(|&p| p == symbol);
+        let constant = mechanics.constants.iter().position(|c| c.symbol == symbol);
+        let id = match (parameter, constant) {
+            (Some(index), _) => self.builder.setup.parameter(index, code),
+            (None, Some(index)) => {
+                let value = mechanics.constants[index].value.clone();
+                let formed = self.constant_expr(&value);
+                self.builder.setup.named(index, formed, code)
+            }
+            (None, None) => unreachable!("{code} is neither parameter nor constant"),
+        };
+        self.constants.insert(symbol, id);
+        id
+    }
+
+    /// An expression in parameters as a constant of the setup.
+    fn constant_expr(&mut self, expr: &Expr) -> ConstantId {
+        match expr {
+            Expr::Number(number) => self.builder.setup.number(number.clone()),
+            Expr::Symbol(symbol) => self.constant(*symbol),
+            Expr::Sum(terms) => self.constant_fold(terms, Setup::add, 0),
+            Expr::Product(factors) => self.constant_fold(factors, Setup::mul, 1),
+            Expr::Power(base, exponent) => {
+                let base = self.constant_expr(base);
+                let mut power = self.builder.setup.number(Rational::from(1));
+                for _ in 0..exponent.unsigned_abs() {
+                    power = match *exponent > 0 {
+                        true => self.builder.setup.mul(power, base),
+                        false => self.builder.setup.div(power, base),
+                    };
+                }
+                power
+            }
+        }
+    }
+
+    fn constant_fold(
+        &mut self,
+        parts: &[Expr],
+        operation: fn(&mut Setup, ConstantId, ConstantId) -> ConstantId,
+        start: i64,
+    ) -> ConstantId {
+        let start = self.builder.setup.number(Rational::from(start));
+        parts.iter().fold(start, |total, part| {
+            let value = self.constant_expr(part);
+            operation(&mut self.builder.setup, total, value)
+        })
+    }
+}

@@ -1,0 +1,215 @@
+//! The flat program that code is written from.
+//!
+//! A [`Program`] is one list of definitions in which every value uses only
+//! earlier ones; entry points name their outputs in it. Equal operations on
+//! equal operands are one value. Constants of the model are a second, smaller
+//! list of the same kind ([`Setup`]), evaluated once.
+
+mod builder;
+mod constants;
+mod count;
+mod entries;
+mod interpret;
+mod lower;
+mod rebuild;
+mod solve;
+mod spelling;
+mod text;
+mod verify;
+
+pub use constants::{ConstantId, ConstantOp, Setup};
+pub use count::Operations;
+pub use lower::lower;
+pub use rebuild::Rebuilt;
+pub use verify::Fault;
+
+use crate::exact::Rational;
+
+/// Index of a value in [`Program::definitions`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ValueId(pub u32);
+
+/// An array that an entry point receives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Argument {
+    /// Absolute angles, rad.
+    Theta,
+    /// Angular velocities, rad/s.
+    Omega,
+    /// Momenta that belong to the absolute angles, kg m²/s.
+    AbsoluteMomenta,
+    /// Symmetric coordinates, rad.
+    Coordinates,
+    /// Their velocities, rad/s.
+    Rates,
+    /// Momenta that belong to the symmetric coordinates, kg m²/s.
+    Momenta,
+    /// Angles or angular velocities, absolute: the transform serves both.
+    Absolute,
+    /// The same in symmetric coordinates.
+    Symmetric,
+}
+
+/// One operation. Operands are earlier values.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Op {
+    /// An element of an argument.
+    Input(Argument, usize),
+    /// A constant of the model.
+    Constant(ConstantId),
+    /// A number known when the code is written.
+    Number(Rational),
+    /// Sine; its partner `Cos` of the same value is computed with it.
+    Sin(ValueId),
+    /// Cosine.
+    Cos(ValueId),
+    /// Opposite.
+    Neg(ValueId),
+    /// Sum.
+    Add(ValueId, ValueId),
+    /// Difference.
+    Sub(ValueId, ValueId),
+    /// Product.
+    Mul(ValueId, ValueId),
+    /// Quotient.
+    Div(ValueId, ValueId),
+}
+
+impl Op {
+    /// The operands, none to two.
+    pub fn operands(&self) -> impl Iterator<Item = ValueId> {
+        let (first, second) = match *self {
+            Self::Input(..) | Self::Constant(_) | Self::Number(_) => (None, None),
+            Self::Sin(a) | Self::Cos(a) | Self::Neg(a) => (Some(a), None),
+            Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) => {
+                (Some(a), Some(b))
+            }
+        };
+        first.into_iter().chain(second)
+    }
+}
+
+/// A value: how it is formed, and its name if it means something by itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Definition {
+    /// The operation.
+    pub op: Op,
+    /// Name in emitted code; unnamed values are written in place.
+    pub name: Option<String>,
+}
+
+/// The shape in which an entry point returns its outputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// One number.
+    Scalar,
+    /// An array.
+    Vector,
+    /// A square matrix of that size, by rows.
+    Matrix(usize),
+    /// A `Transfer`: kinetic part, potential part.
+    Transfer,
+}
+
+/// What an entry point computes; the emitter documents it accordingly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// θ̈ from θ, ω.
+    Accelerations,
+    /// K.
+    KineticEnergy,
+    /// U.
+    PotentialEnergy,
+    /// p from θ, ω.
+    AbsoluteMomenta,
+    /// ω from θ, p.
+    AbsoluteVelocities,
+    /// M at θ.
+    MassMatrix,
+    /// ∂²U/∂θ∂θ at θ.
+    StiffnessMatrix,
+    /// Symmetric coordinates from absolute angles.
+    ToSymmetric,
+    /// Absolute angles from symmetric coordinates.
+    FromSymmetric,
+    /// q̈ from q, q̇.
+    SymmetricAccelerations,
+    /// p from q, q̇.
+    SymmetricMomenta,
+    /// q̇ from q, p.
+    SymmetricVelocities,
+    /// H in symmetric coordinates and momenta.
+    Hamiltonian,
+    /// H_d of the transfer with that number.
+    SubHamiltonian(usize),
+    /// W to first order in the difference angles.
+    AngleTransfer(usize),
+    /// W to second order in the amplitude.
+    AmplitudeTransfer(usize),
+    /// The coefficients of that quadratic form.
+    QuadraticForm(usize),
+    /// W exactly, from coordinates and momenta.
+    ExactTransfer(usize),
+    /// W exactly, from coordinates and velocities.
+    ExactTransferFromRates(usize),
+    /// Power of friction on H_d.
+    FrictionPower(usize),
+}
+
+/// An entry point: the program pruned to its outputs becomes a function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Function name.
+    pub name: String,
+    /// What it computes.
+    pub purpose: Purpose,
+    /// Arguments in order.
+    pub arguments: Vec<Argument>,
+    /// Output values.
+    pub outputs: Vec<ValueId>,
+    /// Shape of the outputs.
+    pub shape: Shape,
+}
+
+/// All of a scene's code in one list.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Program {
+    /// Values; each uses earlier ones only.
+    pub definitions: Vec<Definition>,
+    /// Entry points in the order in which they are emitted.
+    pub entries: Vec<Entry>,
+    /// The model's constants.
+    pub setup: Setup,
+}
+
+impl Program {
+    /// The definition of a value.
+    pub fn definition(&self, id: ValueId) -> &Definition {
+        &self.definitions[id.0 as usize]
+    }
+
+    /// The entry point of that name.
+    pub fn entry(&self, name: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.name == name)
+    }
+
+    /// The values that `outputs` depend on, themselves included, in order:
+    /// the program pruned to them. Linear in the program's length.
+    pub fn needed(&self, outputs: &[ValueId]) -> Vec<ValueId> {
+        let mut wanted = vec![false; self.definitions.len()];
+        for output in outputs {
+            wanted[output.0 as usize] = true;
+        }
+        for index in (0..wanted.len()).rev() {
+            if wanted[index] {
+                for operand in self.definitions[index].op.operands() {
+                    wanted[operand.0 as usize] = true;
+                }
+            }
+        }
+        (0..wanted.len() as u32)
+            .map(ValueId)
+            .filter(|id| wanted[id.0 as usize])
+            .collect()
+    }
+}

@@ -1,0 +1,93 @@
+//! A program as text, for `expand --stage program` and for snapshots.
+
+use super::{Argument, ConstantId, ConstantOp, Op, Program, ValueId};
+use std::fmt::{self, Write};
+
+impl Argument {
+    /// Name of the argument in emitted code.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Theta => "theta",
+            Self::Omega => "omega",
+            Self::AbsoluteMomenta | Self::Momenta => "momenta",
+            Self::Coordinates => "coordinates",
+            Self::Rates => "rates",
+            Self::Absolute => "absolute",
+            Self::Symmetric => "symmetric",
+        }
+    }
+}
+
+impl fmt::Display for Program {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "constants")?;
+        for (index, definition) in self.setup.definitions.iter().enumerate() {
+            let at = |id: ConstantId| format!("k{}", id.0);
+            write!(f, "  k{index} = ")?;
+            match &definition.op {
+                ConstantOp::Number(number) => write!(f, "{number}")?,
+                ConstantOp::Parameter(parameter) => write!(f, "parameter {parameter}")?,
+                ConstantOp::Named(_, a) => write!(f, "{}", at(*a))?,
+                ConstantOp::Product(number, powers) => {
+                    write!(f, "{number}")?;
+                    for (id, power) in powers {
+                        write!(f, " * {}^{power}", at(*id))?;
+                    }
+                }
+                ConstantOp::Add(a, b) => write!(f, "{} + {}", at(*a), at(*b))?,
+                ConstantOp::Sub(a, b) => write!(f, "{} - {}", at(*a), at(*b))?,
+            }
+            match &definition.exact {
+                Some(exact) => writeln!(f, "    # {} = {exact}", definition.name)?,
+                None => writeln!(f, "    # {}", definition.name)?,
+            }
+        }
+        for entry in &self.entries {
+            let arguments: Vec<&str> = entry.arguments.iter().map(|a| a.name()).collect();
+            let operations = self.operations(&entry.outputs);
+            writeln!(
+                f,
+                "{}({})    # {operations}",
+                entry.name,
+                arguments.join(", ")
+            )?;
+            for id in self.needed(&entry.outputs) {
+                writeln!(f, "  {}", self.line(id))?;
+            }
+            let outputs: Vec<String> = entry.outputs.iter().map(|id| value(*id)).collect();
+            writeln!(f, "  -> {}", outputs.join(" "))?;
+        }
+        Ok(())
+    }
+}
+
+fn value(id: ValueId) -> String {
+    format!("v{}", id.0)
+}
+
+impl Program {
+    fn line(&self, id: ValueId) -> String {
+        let definition = self.definition(id);
+        let mut line = format!("{} = ", value(id));
+        // Writing to a string cannot fail.
+        let _ = match &definition.op {
+            Op::Input(argument, index) => write!(line, "{}[{index}]", argument.name()),
+            Op::Constant(constant) => {
+                write!(line, "k{} ({})", constant.0, self.setup.get(*constant).name)
+            }
+            Op::Number(number) => write!(line, "{number}"),
+            Op::Sin(a) => write!(line, "sin {}", value(*a)),
+            Op::Cos(a) => write!(line, "cos {}", value(*a)),
+            Op::Neg(a) => write!(line, "-{}", value(*a)),
+            Op::Add(a, b) => write!(line, "{} + {}", value(*a), value(*b)),
+            Op::Sub(a, b) => write!(line, "{} - {}", value(*a), value(*b)),
+            Op::Mul(a, b) => write!(line, "{} * {}", value(*a), value(*b)),
+            Op::Div(a, b) => write!(line, "{} / {}", value(*a), value(*b)),
+        };
+        if let Some(name) = &definition.name {
+            line.push_str("    # ");
+            line.push_str(name);
+        }
+        line
+    }
+}

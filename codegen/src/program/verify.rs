@@ -1,0 +1,84 @@
+//! Checks the shape of a program. Later stages rely on it; a fault is a bug.
+
+use super::{Program, Shape};
+use std::fmt;
+
+/// A broken invariant of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// A value uses one that is not earlier.
+    Order {
+        /// Index of the definition.
+        definition: usize,
+    },
+    /// An entry point's outputs do not fill its shape.
+    Outputs {
+        /// Name of the entry point.
+        entry: String,
+    },
+    /// An entry point reads an argument that it does not receive.
+    Argument {
+        /// Name of the entry point.
+        entry: String,
+    },
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Order { definition } => {
+                write!(f, "definition {definition} uses a value that is not earlier")
+            }
+            Self::Outputs { entry } => write!(f, "the outputs of `{entry}` do not fill its shape"),
+            Self::Argument { entry } => {
+                write!(f, "`{entry}` reads an argument that it does not receive")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Fault {}
+
+impl Program {
+    /// Checks that definitions are in order, that entry points receive what
+    /// they read and that outputs fill their shapes.
+    ///
+    /// # Errors
+    /// The first [`Fault`] found.
+    pub fn verify(&self) -> Result<(), Fault> {
+        for (index, definition) in self.definitions.iter().enumerate() {
+            if definition.op.operands().any(|id| id.0 as usize >= index) {
+                return Err(Fault::Order { definition: index });
+            }
+        }
+        for entry in &self.entries {
+            let filled = match entry.shape {
+                Shape::Scalar => entry.outputs.len() == 1,
+                Shape::Vector => !entry.outputs.is_empty(),
+                Shape::Matrix(size) => entry.outputs.len() == size * size,
+                Shape::Transfer => entry.outputs.len() == 2,
+            };
+            let in_range = entry
+                .outputs
+                .iter()
+                .all(|id| (id.0 as usize) < self.definitions.len());
+            if !filled || !in_range {
+                return Err(Fault::Outputs {
+                    entry: entry.name.clone(),
+                });
+            }
+            let reads_only_its_own = self.needed(&entry.outputs).into_iter().all(|id| {
+                match self.definition(id).op {
+                    super::Op::Input(argument, _) => entry.arguments.contains(&argument),
+                    _ => true,
+                }
+            });
+            if !reads_only_its_own {
+                return Err(Fault::Argument {
+                    entry: entry.name.clone(),
+                });
+            }
+        }
+        Ok(())
+    }
+}

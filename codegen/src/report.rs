@@ -1,0 +1,131 @@
+//! Collected errors of a description, each at its place in the source.
+//!
+//! Every stage of the front end adds to one [`Report`] and goes on as far as it
+//! can, so that a user sees all mistakes at once. What can be said is listed in
+//! [`Message`].
+
+mod message;
+mod nearest;
+mod wording;
+
+use std::fmt::Write as _;
+
+use proc_macro2::{Span, TokenStream};
+use quote::quote_spanned;
+
+pub use message::Message;
+pub use nearest::nearest;
+pub use wording::Problem;
+
+/// One error and its place.
+#[derive(Debug, Clone)]
+pub struct Diagnostic {
+    /// The tokens that are wrong.
+    pub span: Span,
+    /// What is wrong with them.
+    pub message: Message,
+}
+
+impl Diagnostic {
+    /// An error at `span`.
+    pub fn new(span: Span, message: Message) -> Self {
+        Self { span, message }
+    }
+}
+
+/// All errors found so far, in the order of finding.
+#[derive(Debug, Clone, Default)]
+pub struct Report {
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Report {
+    /// An empty report.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds an error.
+    pub fn error(&mut self, span: Span, message: Message) {
+        self.push(Diagnostic::new(span, message));
+    }
+
+    /// Adds an error.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Whether nothing was wrong.
+    pub fn is_empty(&self) -> bool {
+        self.diagnostics.is_empty()
+    }
+
+    /// The errors, in the order of finding.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
+    }
+
+    /// One `compile_error!` for each error, at its place.
+    pub fn to_compile_errors(&self) -> TokenStream {
+        self.diagnostics
+            .iter()
+            .map(|Diagnostic { span, message }| {
+                let Problem { text, label, hint } = message.problem();
+                // The compiler shows one text only, at the span.
+                let text = format!("{text}: {label}\nhelp: {hint}");
+                quote_spanned!(*span=> ::core::compile_error! { #text })
+            })
+            .collect()
+    }
+
+    /// The errors as text in the manner of the compiler, in the order of the
+    /// source: message, line and column, the line with the wrong tokens marked,
+    /// and what to write instead. `source` is the text that the tokens were
+    /// read from.
+    pub fn render(&self, source: &str) -> String {
+        let mut ordered: Vec<&Diagnostic> = self.diagnostics.iter().collect();
+        ordered.sort_by_key(|diagnostic| {
+            let start = diagnostic.span.start();
+            (start.line, start.column)
+        });
+        let mut text = String::new();
+        for diagnostic in ordered {
+            if !text.is_empty() {
+                text.push('\n');
+            }
+            render_one(diagnostic, source, &mut text);
+        }
+        text
+    }
+}
+
+/// Appends one error to `text`.
+fn render_one(diagnostic: &Diagnostic, source: &str, text: &mut String) {
+    let Diagnostic { span, message } = diagnostic;
+    let Problem {
+        text: headline,
+        label,
+        hint,
+    } = message.problem();
+    let (start, end) = (span.start(), span.end());
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "error: {headline}");
+    if let Some(line) = source.lines().nth(start.line.saturating_sub(1)) {
+        let margin = " ".repeat(start.line.to_string().len());
+        let width = if end.line == start.line {
+            end.column.saturating_sub(start.column)
+        } else {
+            line.chars().count().saturating_sub(start.column)
+        };
+        let _ = writeln!(text, "{margin}--> {}:{}", start.line, start.column + 1);
+        let _ = writeln!(text, "{margin} |");
+        let _ = writeln!(text, "{} | {line}", start.line);
+        let _ = writeln!(
+            text,
+            "{margin} | {}{} {label}",
+            " ".repeat(start.column),
+            "^".repeat(width.max(1)),
+        );
+    }
+    let _ = writeln!(text, "help: {hint}");
+}

@@ -1,0 +1,237 @@
+//! The catalogue of messages: all that the front end has to say to a user.
+
+use super::nearest::nearest;
+
+/// What is wrong in a description.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Message {
+    /// Another token should stand here.
+    Expected {
+        /// What should.
+        what: &'static str,
+    },
+    /// The list ends too early.
+    Ended {
+        /// What is missing.
+        what: &'static str,
+    },
+    /// Brackets or parentheses nested too deeply.
+    Nesting {
+        /// Deepest nesting allowed.
+        limit: usize,
+    },
+    /// The attribute stands on something else than a struct.
+    NotAStruct,
+    /// The struct has fields.
+    StructFields {
+        /// The struct.
+        name: String,
+    },
+    /// The struct has generic parameters.
+    StructGenerics {
+        /// The struct.
+        name: String,
+    },
+    /// An unknown setting of the scene.
+    UnknownEntry {
+        /// As written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<&'static str>,
+    },
+    /// No gravity.
+    MissingGravity,
+    /// No link.
+    EmptyTree,
+    /// A second link at the top level.
+    SecondRoot {
+        /// The first root.
+        first: String,
+    },
+    /// Several copies of the root.
+    RootCopies,
+    /// A property or setting given twice.
+    DuplicateProperty {
+        /// The property.
+        name: String,
+    },
+    /// A name that already means something else.
+    DuplicateName {
+        /// The name.
+        name: String,
+    },
+    /// A keyword, or a name that the emitted code uses.
+    ReservedName {
+        /// The name.
+        name: String,
+    },
+    /// A name that is no snake-case identifier.
+    NotSnakeCase {
+        /// As written.
+        name: String,
+        /// As it could be written.
+        suggestion: Option<String>,
+    },
+    /// A shape that is not in the table.
+    UnknownShape {
+        /// As written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<&'static str>,
+        /// All shapes.
+        known: Vec<&'static str>,
+    },
+    /// A property that the body does not have.
+    UnknownProperty {
+        /// As written.
+        name: String,
+        /// The body: "a link", "a `rod`".
+        body: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<&'static str>,
+        /// All properties of the body.
+        known: Vec<&'static str>,
+    },
+    /// A property that the body needs.
+    MissingProperty {
+        /// The property.
+        name: &'static str,
+        /// Name of the link.
+        link: String,
+        /// The body: "a link", "a `rod`".
+        body: String,
+    },
+    /// Children without a place to hang.
+    MissingJoint {
+        /// The link that they hang from.
+        link: String,
+    },
+    /// `at` on the root.
+    RootPivot,
+    /// Children of a generation rule.
+    RuleChildren,
+    /// A pair where a single value is needed.
+    NotAPoint {
+        /// The property.
+        name: String,
+    },
+    /// Not a whole number of at least 1.
+    NotACount {
+        /// The property.
+        name: String,
+    },
+    /// Not the name of a shape.
+    NotAShape,
+    /// A value below zero that must not be.
+    Negative {
+        /// As in "mass of `child`".
+        what: String,
+        /// The value.
+        value: String,
+    },
+    /// A value that must be above zero.
+    NotPositive {
+        /// As in "length of `child`".
+        what: String,
+        /// The value.
+        value: String,
+    },
+    /// A link that can turn without kinetic energy.
+    Singular {
+        /// The link.
+        link: String,
+    },
+    /// No copies.
+    ZeroCopies,
+    /// More links than can be expanded.
+    TooManyLinks {
+        /// The limit.
+        limit: usize,
+    },
+    /// A divisor that is zero.
+    DivisionByZero,
+    /// A literal that is no plain decimal number.
+    NotDecimal {
+        /// As written.
+        text: String,
+    },
+    /// A number that no `f64` can hold.
+    NumberRange,
+    /// A number with too many digits to go on exactly.
+    NumberLength,
+    /// An exponent that is no small whole number.
+    Exponent,
+    /// A power of a power without parentheses.
+    ChainedPower,
+    /// A function in a value.
+    FunctionCall {
+        /// The function.
+        name: String,
+    },
+    /// A mathematical constant without exact value.
+    NotExact {
+        /// The name.
+        name: String,
+        /// Its value in digits.
+        digits: &'static str,
+    },
+    /// An output that does not exist.
+    UnknownRequest {
+        /// As written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<&'static str>,
+    },
+    /// An output asked for twice.
+    DuplicateRequest {
+        /// The output or form.
+        name: String,
+    },
+    /// Parentheses after an output without forms.
+    RequestForms {
+        /// The output.
+        name: String,
+    },
+    /// A form of the transfer that does not exist.
+    UnknownForm {
+        /// As written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<&'static str>,
+    },
+    /// `transfer()` without a form.
+    NoForm,
+    /// `exact = ...`.
+    ExactOrder,
+    /// An order of the difference angles that is not derived.
+    AngleOrder,
+    /// An order of the amplitude that is not derived.
+    AmplitudeOrder,
+    /// Symmetric coordinates without identical siblings.
+    NoSiblings {
+        /// The output.
+        request: String,
+    },
+    /// Transfer between identical siblings that have children.
+    NestedGroups {
+        /// The first such group.
+        group: String,
+    },
+    /// The derivation could not be run.
+    Algebra(String),
+}
+
+impl Message {
+    /// A property or setting given twice.
+    pub fn duplicate_property(name: &impl ToString) -> Self {
+        Self::DuplicateProperty {
+            name: name.to_string(),
+        }
+    }
+
+    /// An unknown setting of the scene.
+    pub fn unknown_entry(name: String) -> Self {
+        let nearest = nearest(&name, &["gravity", "crate", "emit"]);
+        Self::UnknownEntry { name, nearest }
+    }
+}

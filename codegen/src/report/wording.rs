@@ -1,0 +1,323 @@
+//! The messages in words. Every one says what is wrong and what to write
+//! instead.
+
+use super::Message;
+
+/// A message in words.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// What is wrong, on its own.
+    pub text: String,
+    /// What is wrong with the marked tokens.
+    pub label: String,
+    /// What to write instead.
+    pub hint: String,
+}
+
+impl Message {
+    /// The message in words.
+    pub fn problem(&self) -> Problem {
+        use Message as M;
+        match self {
+            M::Expected { what } => {
+                problem(format!("expected {what}"), "not expected here", OUTLINE)
+            }
+            M::Ended { what } => {
+                problem(format!("expected {what}"), "missing before this", OUTLINE)
+            }
+            M::Nesting { limit } => problem(
+                format!("more than {limit} levels of brackets"),
+                "too deep",
+                "write long chains by rule: `chain: generations(count = 100, ...)`",
+            ),
+            M::NotAStruct => problem(
+                "the attribute stands on something else than a struct",
+                "not a struct",
+                "put it on a struct without fields: `pub struct Pendulum;`",
+            ),
+            M::StructFields { name } => problem(
+                format!("struct `{name}` has fields"),
+                "must be without fields",
+                format!("write `struct {name};`, the fields follow from the description"),
+            ),
+            M::StructGenerics { name } => problem(
+                format!("struct `{name}` is generic"),
+                "must be without parameters",
+                format!("write `struct {name};`, its functions are generic over the scalar"),
+            ),
+            M::UnknownEntry { name, nearest } => problem(
+                format!("unknown setting `{name}`"),
+                "not a setting of the scene",
+                suggest(
+                    nearest,
+                    "settings are `gravity = ...`, `crate = ...`, `emit(...)`",
+                ),
+            ),
+            M::MissingGravity => problem(
+                "gravity is missing",
+                "described without `gravity`",
+                "write `gravity = 9.80665`, in m/s²",
+            ),
+            M::EmptyTree => problem(
+                "there is no link",
+                "described without a link",
+                "write one, as in `bob: point(mass = 0.1, length = 0.3)`",
+            ),
+            M::SecondRoot { first } => problem(
+                "there is more than one root",
+                "second root",
+                format!("hang it from another link: `{first}(...) [ ... ]`"),
+            ),
+            M::RootCopies => problem(
+                "the root has several copies",
+                "copies of the root do not act on each other",
+                "leave out the multiplicity and run the model several times",
+            ),
+            M::DuplicateProperty { name } => problem(
+                format!("`{name}` is given twice"),
+                "given before",
+                "keep one of them",
+            ),
+            M::DuplicateName { name } => problem(
+                format!("the name `{name}` is taken"),
+                "second use of the name",
+                "links, copies `name_1`, `name_2`, ..., groups and parameters need names of \
+                   their own",
+            ),
+            M::ReservedName { name } => problem(
+                format!("the name `{name}` is reserved"),
+                "used by Rust or by the emitted code",
+                format!("choose another, as in `my_{name}`"),
+            ),
+            M::NotSnakeCase { name, suggestion } => problem(
+                format!("`{name}` is not a snake-case name"),
+                "becomes part of names in the emitted code",
+                match suggestion {
+                    Some(suggestion) => format!("write `{suggestion}`"),
+                    None => "use letters a to z, digits and single underscores, a letter first"
+                        .to_owned(),
+                },
+            ),
+            M::UnknownShape {
+                name,
+                nearest,
+                known,
+            } => problem(
+                format!("unknown shape `{name}`"),
+                "not a shape",
+                suggest(nearest, &format!("shapes are {}", listed(known))),
+            ),
+            M::UnknownProperty {
+                name,
+                body,
+                nearest,
+                known,
+            } => problem(
+                format!("{body} has no property `{name}`"),
+                "unknown property",
+                suggest(nearest, &format!("{body} has {}", listed(known))),
+            ),
+            M::MissingProperty { name, link, body } => problem(
+                format!("`{link}` has no `{name}`"),
+                "property missing",
+                format!("{body} needs it: write `{name} = ...`{}", unit_note(name)),
+            ),
+            M::MissingJoint { link } => problem(
+                format!("`{link}` does not say where its children hang"),
+                "no `joint`",
+                "write `joint = ...`, the distance from its pivot in m, or give each child \
+                   an `at = ...`",
+            ),
+            M::RootPivot => problem(
+                "the root does not hang from a link",
+                "`at` is a place on the parent",
+                "leave it out: the root's pivot is the origin",
+            ),
+            M::RuleChildren => problem(
+                "a generation rule has no other children",
+                "the rule makes all children",
+                "leave out the brackets, or write the tree link by link",
+            ),
+            M::NotAPoint { name } => problem(
+                format!("`{name}` is a single value"),
+                "a pair",
+                "only `com`, `joint` and `at` can be pairs `(along, lateral)`",
+            ),
+            M::NotACount { name } => problem(
+                format!("`{name}` is not a whole number of at least 1"),
+                "not a count",
+                format!("write a literal: `{name} = 3`"),
+            ),
+            M::NotAShape => problem(
+                "`shape` is not the name of a shape",
+                "not a name",
+                "write `shape = rod`",
+            ),
+            M::Negative { what, value } => problem(
+                format!("{what} is negative"),
+                format!("this is {value}"),
+                "write a value that is zero or above",
+            ),
+            M::NotPositive { what, value } => problem(
+                format!("{what} is not positive"),
+                format!("this is {value}"),
+                "write a value above zero",
+            ),
+            M::Singular { link } => problem(
+                format!("`{link}` can turn without kinetic energy"),
+                "makes the mass matrix singular",
+                "give it mass away from its pivot or a moment of inertia",
+            ),
+            M::ZeroCopies => problem(
+                "zero copies",
+                "leaves no link",
+                "write `* 1` or more, or leave the link out",
+            ),
+            M::TooManyLinks { limit } => problem(
+                format!("more than {limit} links"),
+                "too many with this one",
+                "use fewer generations, branches or copies",
+            ),
+            M::DivisionByZero => problem(
+                "division by zero",
+                "this is zero",
+                "write a divisor other than zero",
+            ),
+            M::NotDecimal { text } => problem(
+                format!("`{text}` is not a decimal number"),
+                "not a decimal number",
+                "write digits as in `0.27` or `1.88e-3`, without suffix; units are SI",
+            ),
+            M::NumberRange => problem(
+                "a number is too large or too small",
+                "no `f64` can hold it",
+                "magnitudes go from 5e-324 to 1.7e308; units are SI",
+            ),
+            M::NumberLength => problem(
+                "too many digits",
+                "too long for exact arithmetic",
+                "round it: 17 digits are all that an `f64` keeps",
+            ),
+            M::Exponent => problem(
+                "the exponent is not a whole number",
+                "not an exponent",
+                "write a literal, as in `length^2` or `length^-1`",
+            ),
+            M::ChainedPower => problem(
+                "a power of a power",
+                "ambiguous",
+                "write parentheses: `(a^2)^3`",
+            ),
+            M::FunctionCall { name } => problem(
+                format!("`{name}(...)`: values have no functions"),
+                "values are made of `+ - * / ^`",
+                "compute it beforehand and write the digits, or make it a parameter",
+            ),
+            M::NotExact { name, digits } => problem(
+                format!("`{name}` has no exact value"),
+                "not a rational number",
+                format!("write as many digits as needed: `{digits}`"),
+            ),
+            M::UnknownRequest { name, nearest } => problem(
+                format!("unknown output `{name}`"),
+                "cannot be emitted",
+                suggest(
+                    nearest,
+                    "outputs are `energies`, `momenta`, `modes`, `symmetric`, `transfer(...)`; \
+                     accelerations are always there",
+                ),
+            ),
+            M::DuplicateRequest { name } => problem(
+                format!("`{name}` is asked for twice"),
+                "asked for before",
+                "keep one of them",
+            ),
+            M::RequestForms { name } => problem(
+                format!("`{name}` has no forms"),
+                "takes no parentheses",
+                format!("write `{name}` alone"),
+            ),
+            M::UnknownForm { name, nearest } => problem(
+                format!("unknown form `{name}` of the transfer"),
+                "not a form",
+                suggest(nearest, "forms are `angle = 1`, `amplitude = 2`, `exact`"),
+            ),
+            M::NoForm => problem(
+                "no form of the transfer is chosen",
+                "empty",
+                "write `transfer` for all forms, or choose: `transfer(exact)`",
+            ),
+            M::ExactOrder => problem(
+                "the exact transfer has no order",
+                "takes no value",
+                "write `exact` alone",
+            ),
+            M::AngleOrder => problem(
+                "order of the angles not available",
+                "orders are 0 and 1",
+                "write `angle = 0` or `angle = 1`, or use `exact`",
+            ),
+            M::AmplitudeOrder => problem(
+                "order of the amplitude not available",
+                "the only order is 2",
+                "write `amplitude = 2`, or use `exact`",
+            ),
+            M::NoSiblings { request } => problem(
+                format!("`{request}` needs identical siblings"),
+                "no link has copies",
+                "write `child(...) * 2`: links that merely have equal numbers do not count",
+            ),
+            M::Algebra(reason) => problem(
+                "the mechanics could not be derived",
+                reason.as_str(),
+                "commit the expansion made by the `expand` tool where the derivation cannot run",
+            ),
+            M::NestedGroups { group } => problem(
+                format!(
+                    "`transfer` needs siblings without children, the copies of `{group}` \
+                         have some"
+                ),
+                "tree not supported",
+                "available are all of `transfer(angle = 0 or 1, amplitude = 2, exact)` for \
+                   trees whose copied links are leaves; leave it out for this tree",
+            ),
+        }
+    }
+}
+
+/// How an attribute looks, for tokens out of place.
+const OUTLINE: &str = "an attribute looks like `gravity = 9.80665, parent(mass = 0.1, com = 0.1, \
+     inertia = 0, joint = 0.3) [child: rod(mass = 0.1, length = 0.2) * 2], emit(energies)`";
+
+fn problem(text: impl Into<String>, label: impl Into<String>, hint: impl Into<String>) -> Problem {
+    Problem {
+        text: text.into(),
+        label: label.into(),
+        hint: hint.into(),
+    }
+}
+
+/// The name that was probably meant, or else what there is.
+fn suggest(nearest: &Option<&'static str>, otherwise: &str) -> String {
+    match nearest {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None => otherwise.to_owned(),
+    }
+}
+
+/// Names with commas between them.
+fn listed(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ")
+}
+
+/// The unit of a property, where it has one.
+fn unit_note(name: &str) -> &'static str {
+    match name {
+        "mass" | "bob_mass" => ", in kg",
+        "inertia" => ", in kg m² about the centre of mass",
+        "com" => ", in m from its pivot",
+        "length" | "width" | "radius" => ", in m",
+        _ => "",
+    }
+}

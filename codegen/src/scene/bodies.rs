@@ -1,0 +1,313 @@
+//! Bodies by shape.
+//!
+//! A new shape is one entry of [`SHAPES`] and one function. Every formula is
+//! homogeneous: mass × length² for an inertia, so that a generation rule can
+//! scale the finished body.
+
+use super::{Offset, Quantity, Sign};
+use crate::exact::ExactError;
+
+/// A link without its place in the tree.
+#[derive(Debug, Clone)]
+pub(super) struct Body {
+    /// kg
+    pub(super) mass: Quantity,
+    /// About the centre of mass, kg m².
+    pub(super) inertia: Quantity,
+    /// Centre of mass, from the pivot.
+    pub(super) com: Offset,
+    /// Where children hang, from the pivot, unless they say it themselves.
+    pub(super) joint: Option<Offset>,
+}
+
+/// A shape, and how its body follows from its dimensions.
+pub(super) struct Shape {
+    /// What stands behind the colon.
+    pub(super) name: &'static str,
+    /// What must or may be given.
+    pub(super) dimensions: &'static [Dimension],
+    /// The body that follows.
+    pub(super) body: fn(&Given) -> Result<Body, ExactError>,
+    /// What must be positive beside the dimensions.
+    pub(super) condition: Option<Condition>,
+}
+
+/// A length that must be positive.
+#[derive(Clone, Copy)]
+pub(super) struct Condition {
+    /// In words.
+    pub(super) what: &'static str,
+    /// In numbers.
+    pub(super) value: fn(&Given) -> Quantity,
+}
+
+/// A property with its unit and the condition on its sign.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dimension {
+    pub(super) name: &'static str,
+    pub(super) unit: &'static str,
+    pub(super) sign: Sign,
+    pub(super) required: bool,
+}
+
+const fn required(name: &'static str, unit: &'static str, sign: Sign) -> Dimension {
+    Dimension {
+        name,
+        unit,
+        sign,
+        required: true,
+    }
+}
+
+const fn optional(name: &'static str, unit: &'static str, sign: Sign) -> Dimension {
+    Dimension {
+        name,
+        unit,
+        sign,
+        required: false,
+    }
+}
+
+const MASS: Dimension = required("mass", "kg", Sign::NonNegative);
+const LENGTH: Dimension = required("length", "m", Sign::Positive);
+const RADIUS: Dimension = required("radius", "m", Sign::Positive);
+/// A distance that may be zero: a disc can turn about its centre.
+const DISTANCE: Dimension = required("length", "m", Sign::NonNegative);
+
+/// What every link may say, whatever its shape.
+pub(super) const COMMON: &[Dimension] = &[
+    optional("com", "m", Sign::Any),
+    optional("inertia", "kg m²", Sign::NonNegative),
+    optional("joint", "m", Sign::Any),
+    optional("at", "m", Sign::Any),
+    optional("friction", "N m s", Sign::NonNegative),
+];
+
+/// What a link without a shape must say.
+pub(super) const PLAIN: &[Dimension] = &[
+    MASS,
+    required("com", "m", Sign::Any),
+    required("inertia", "kg m²", Sign::NonNegative),
+];
+
+/// All shapes.
+pub(super) const SHAPES: &[Shape] = &[
+    Shape {
+        name: "point",
+        dimensions: &[MASS, LENGTH],
+        body: point,
+        condition: None,
+    },
+    Shape {
+        name: "rod",
+        dimensions: &[MASS, LENGTH],
+        body: rod,
+        condition: None,
+    },
+    Shape {
+        name: "rod_with_bob",
+        dimensions: &[
+            required("mass", "kg", Sign::Positive),
+            LENGTH,
+            required("bob_mass", "kg", Sign::NonNegative),
+        ],
+        body: rod_with_bob,
+        condition: None,
+    },
+    Shape {
+        name: "cylinder",
+        dimensions: &[MASS, LENGTH, RADIUS],
+        body: cylinder,
+        condition: None,
+    },
+    Shape {
+        name: "plate",
+        dimensions: &[
+            MASS,
+            LENGTH,
+            required("width", "m", Sign::Positive),
+            optional("margin", "m", Sign::NonNegative),
+        ],
+        body: plate,
+        condition: Some(Condition {
+            what: "`length - 2 * margin`",
+            value: plate_span,
+        }),
+    },
+    Shape {
+        name: "disc",
+        dimensions: &[MASS, DISTANCE, RADIUS],
+        body: disc,
+        condition: None,
+    },
+    Shape {
+        name: "ring",
+        dimensions: &[MASS, DISTANCE, RADIUS],
+        body: ring,
+        condition: None,
+    },
+    Shape {
+        name: "ball",
+        dimensions: &[MASS, DISTANCE, RADIUS],
+        body: ball,
+        condition: None,
+    },
+    Shape {
+        name: "shell",
+        dimensions: &[MASS, DISTANCE, RADIUS],
+        body: shell,
+        condition: None,
+    },
+];
+
+/// The values of the properties that a link gives.
+#[derive(Debug, Default)]
+pub(super) struct Given(pub(super) Vec<(&'static str, Offset)>);
+
+impl Given {
+    /// A property that may be a pair.
+    pub(super) fn point(&self, name: &str) -> Option<&Offset> {
+        self.0
+            .iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, value)| value)
+    }
+
+    /// A property that is a single value.
+    pub(super) fn value(&self, name: &str) -> Option<&Quantity> {
+        self.point(name).map(|point| &point.along)
+    }
+
+    /// A dimension of a shape; an optional one that is not given is zero.
+    fn get(&self, name: &str) -> Quantity {
+        self.value(name).cloned().unwrap_or_else(Quantity::zero)
+    }
+}
+
+/// A point on the axis of a link.
+fn on_axis(along: Quantity) -> Offset {
+    Offset {
+        along,
+        lateral: Quantity::zero(),
+    }
+}
+
+/// The fraction `numerator / denominator` of a value.
+fn fraction(numerator: i64, denominator: i64, value: Quantity) -> Result<Quantity, ExactError> {
+    Quantity::product([Quantity::integer(numerator), value])
+        .divided_by(Quantity::integer(denominator))
+}
+
+fn square(value: &Quantity) -> Result<Quantity, ExactError> {
+    value.clone().power(2)
+}
+
+fn product(a: &Quantity, b: Quantity) -> Quantity {
+    Quantity::product([a.clone(), b])
+}
+
+/// A point mass m on a massless rod: com = joint = L, I = 0.
+fn point(given: &Given) -> Result<Body, ExactError> {
+    let length = given.get("length");
+    Ok(Body {
+        mass: given.get("mass"),
+        inertia: Quantity::zero(),
+        com: on_axis(length.clone()),
+        joint: Some(on_axis(length)),
+    })
+}
+
+/// A uniform thin rod on its end: com = L/2, I = m L²/12, joint = L.
+fn rod(given: &Given) -> Result<Body, ExactError> {
+    let (mass, length) = (given.get("mass"), given.get("length"));
+    Ok(Body {
+        inertia: fraction(1, 12, product(&mass, square(&length)?))?,
+        mass,
+        com: on_axis(fraction(1, 2, length.clone())?),
+        joint: Some(on_axis(length)),
+    })
+}
+
+/// A uniform thin rod of mass m with a point mass b at its end:
+/// com = (m/2 + b) L/(m + b), I = m L²/12 + m b/(m + b) (L/2)², joint = L.
+fn rod_with_bob(given: &Given) -> Result<Body, ExactError> {
+    let (rod, bob) = (given.get("mass"), given.get("bob_mass"));
+    let length = given.get("length");
+    let mass = Quantity::sum([rod.clone(), bob.clone()]);
+    let moment = Quantity::sum([fraction(1, 2, rod.clone())?, bob.clone()]);
+    let reduced = product(&rod, bob).divided_by(mass.clone())?;
+    let parts = Quantity::sum([fraction(1, 12, rod)?, fraction(1, 4, reduced)?]);
+    Ok(Body {
+        com: on_axis(product(&moment, length.clone()).divided_by(mass.clone())?),
+        mass,
+        inertia: product(&parts, square(&length)?),
+        joint: Some(on_axis(length)),
+    })
+}
+
+/// A uniform solid cylinder on the centre of its end, turning across its axis:
+/// com = L/2, I = m (L²/12 + r²/4), joint = L.
+fn cylinder(given: &Given) -> Result<Body, ExactError> {
+    let (mass, length) = (given.get("mass"), given.get("length"));
+    let along = fraction(1, 12, square(&length)?)?;
+    let across = fraction(1, 4, square(&given.get("radius"))?)?;
+    Ok(Body {
+        inertia: product(&mass, Quantity::sum([along, across])),
+        mass,
+        com: on_axis(fraction(1, 2, length.clone())?),
+        joint: Some(on_axis(length)),
+    })
+}
+
+/// A uniform rectangular plate with a pivot hole at the distance `margin` from
+/// either end: com = L/2 - margin, I = m (L² + w²)/12, joint = L - 2 margin.
+fn plate(given: &Given) -> Result<Body, ExactError> {
+    let (mass, length) = (given.get("mass"), given.get("length"));
+    let squares = Quantity::sum([square(&length)?, square(&given.get("width"))?]);
+    let half = fraction(1, 2, length)?;
+    Ok(Body {
+        inertia: fraction(1, 12, product(&mass, squares))?,
+        mass,
+        com: on_axis(Quantity::sum([half, given.get("margin").negative()])),
+        joint: Some(on_axis(plate_span(given))),
+    })
+}
+
+/// The distance between the holes of a plate.
+fn plate_span(given: &Given) -> Quantity {
+    let margins = product(&Quantity::integer(-2), given.get("margin"));
+    Quantity::sum([given.get("length"), margins])
+}
+
+/// A round body with its centre at the distance `length`: com = joint = L,
+/// I = factor · m r².
+fn round(given: &Given, numerator: i64, denominator: i64) -> Result<Body, ExactError> {
+    let (mass, length) = (given.get("mass"), given.get("length"));
+    let square = square(&given.get("radius"))?;
+    Ok(Body {
+        inertia: fraction(numerator, denominator, product(&mass, square))?,
+        mass,
+        com: on_axis(length.clone()),
+        joint: Some(on_axis(length)),
+    })
+}
+
+/// A uniform disc on a massless arm: I = m r²/2.
+fn disc(given: &Given) -> Result<Body, ExactError> {
+    round(given, 1, 2)
+}
+
+/// A thin ring on a massless arm: I = m r².
+fn ring(given: &Given) -> Result<Body, ExactError> {
+    round(given, 1, 1)
+}
+
+/// A uniform ball on a massless arm: I = 2 m r²/5.
+fn ball(given: &Given) -> Result<Body, ExactError> {
+    round(given, 2, 5)
+}
+
+/// A thin spherical shell on a massless arm: I = 2 m r²/3.
+fn shell(given: &Given) -> Result<Body, ExactError> {
+    round(given, 2, 3)
+}

@@ -1,0 +1,188 @@
+//! Templates to links: every copy written out and named.
+
+use std::collections::BTreeMap;
+
+use super::template::{MAX_LINKS, Template};
+use super::{Group, Link, LinkId, Orbit, OrbitId};
+use crate::report::{Message, Report};
+
+/// The tree with all its copies.
+pub(super) struct Expansion {
+    pub(super) links: Vec<Link>,
+    pub(super) orbits: Vec<Orbit>,
+    pub(super) groups: Vec<Group>,
+}
+
+/// A copy that is still to be written out.
+struct Pending {
+    template: usize,
+    parent: Option<LinkId>,
+    /// The numbers of the copies that it is or hangs in, as in `_2_1`.
+    suffix: String,
+}
+
+/// Writes out all copies, parent before child, depth first. The templates must
+/// be few enough in copies, see [`check_size`].
+pub(super) fn expand(templates: &[Template]) -> Expansion {
+    let mut children = vec![Vec::new(); templates.len()];
+    for (index, template) in templates.iter().enumerate().rev() {
+        // Backwards, because the stack gives back the last first.
+        if let Some(siblings) = template.parent.and_then(|parent| children.get_mut(parent)) {
+            siblings.push(index);
+        }
+    }
+    let mut expansion = Expansion {
+        links: Vec::new(),
+        orbits: orbits(templates),
+        groups: Vec::new(),
+    };
+    let mut groups = BTreeMap::new();
+    let mut stack = Vec::new();
+    if !templates.is_empty() {
+        stack.push(Pending {
+            template: 0,
+            parent: None,
+            suffix: String::new(),
+        });
+    }
+    while let Some(pending) = stack.pop() {
+        let Some(template) = templates.get(pending.template) else {
+            continue;
+        };
+        let id = LinkId(expansion.links.len());
+        expansion.links.push(link(template, &pending));
+        if let Some(orbit) = expansion.orbits.get_mut(pending.template) {
+            orbit.links.push(id);
+        }
+        if template.copies > 1 {
+            let key = (pending.parent, pending.template);
+            let index = *groups.entry(key).or_insert_with(|| {
+                expansion.groups.push(Group {
+                    name: group_name(template, &pending.suffix),
+                    parent: pending.parent,
+                    copies: Vec::new(),
+                });
+                expansion.groups.len() - 1
+            });
+            if let Some(group) = expansion.groups.get_mut(index) {
+                group.copies.push(id);
+            }
+        }
+        for &child in children.get(pending.template).into_iter().flatten() {
+            let copies = templates.get(child).map_or(0, |child| child.copies);
+            for copy in (1..=copies).rev() {
+                let mut suffix = pending.suffix.clone();
+                if copies > 1 {
+                    suffix.push_str(&format!("_{copy}"));
+                }
+                stack.push(Pending {
+                    template: child,
+                    parent: Some(id),
+                    suffix,
+                });
+            }
+        }
+    }
+    expansion
+}
+
+/// One copy of a template.
+fn link(template: &Template, pending: &Pending) -> Link {
+    let Template {
+        name,
+        body,
+        pivot,
+        friction,
+        ..
+    } = template;
+    Link {
+        name: format!("{name}{}", pending.suffix),
+        parent: pending.parent,
+        orbit: OrbitId(pending.template),
+        mass: body.mass.clone(),
+        inertia: body.inertia.clone(),
+        com: body.com.clone(),
+        pivot: pivot.clone(),
+        friction: friction.clone(),
+    }
+}
+
+/// The orbits of the templates, still without links. Templates stand in the
+/// order of their first link.
+fn orbits(templates: &[Template]) -> Vec<Orbit> {
+    let mut orbits: Vec<Orbit> = Vec::with_capacity(templates.len());
+    for template in templates {
+        let above = template.parent.and_then(|parent| orbits.get(parent));
+        let depth = above.map_or(0, |parent| parent.depth + 1);
+        orbits.push(Orbit {
+            name: template.name.clone(),
+            depth,
+            links: Vec::new(),
+        });
+    }
+    orbits
+}
+
+/// The name of the group that a copy belongs to: the copy's without its own
+/// number.
+fn group_name(template: &Template, suffix: &str) -> String {
+    let outer = suffix.rsplit_once('_').map_or("", |(outer, _)| outer);
+    format!("{}{outer}", template.name)
+}
+
+/// Whether all copies together are at most [`MAX_LINKS`].
+pub(super) fn check_size(templates: &[Template], report: &mut Report) -> bool {
+    let mut copies: Vec<usize> = Vec::with_capacity(templates.len());
+    let mut links: usize = 0;
+    for template in templates {
+        let above = template.parent.and_then(|parent| copies.get(parent));
+        let own = above.copied().unwrap_or(1).saturating_mul(template.copies);
+        copies.push(own);
+        links = links.saturating_add(own);
+        if links > MAX_LINKS {
+            report.error(template.span, Message::TooManyLinks { limit: MAX_LINKS });
+            return false;
+        }
+    }
+    true
+}
+
+/// Reports names of links, orbits and groups that two templates share, and
+/// returns the names of all, each with its template.
+pub(super) fn check_names(
+    expansion: &Expansion,
+    templates: &[Template],
+    report: &mut Report,
+) -> BTreeMap<String, usize> {
+    let Expansion {
+        links,
+        orbits,
+        groups,
+    } = expansion;
+    let of_orbits = orbits
+        .iter()
+        .enumerate()
+        .map(|(orbit, Orbit { name, .. })| (name, orbit));
+    let of_links = links.iter().map(|Link { name, orbit, .. }| (name, orbit.0));
+    let of_groups = groups.iter().filter_map(|Group { name, copies, .. }| {
+        let first = copies.first()?;
+        Some((name, links.get(first.0)?.orbit.0))
+    });
+    let mut owners: BTreeMap<String, usize> = BTreeMap::new();
+    let mut reported = vec![false; templates.len()];
+    for (name, template) in of_orbits.chain(of_links).chain(of_groups) {
+        let owner = *owners.entry(name.clone()).or_insert(template);
+        if owner == template {
+            continue;
+        }
+        // One message for each pair of nodes, not for each of their copies.
+        let later = owner.max(template);
+        if let (Some(reported), Some(node)) = (reported.get_mut(later), templates.get(later))
+            && !std::mem::replace(reported, true)
+        {
+            let name = name.clone();
+            report.error(node.span, Message::DuplicateName { name });
+        }
+    }
+    owners
+}

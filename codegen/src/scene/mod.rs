@@ -1,0 +1,210 @@
+//! The scene: a description checked and written out link by link.
+//!
+//! [`resolve`] turns a [`Description`](crate::description::Description) into a
+//! [`Scene`]. Later stages read nothing else and may rely on what is said here:
+//!
+//! - exactly one root; `links` holds every parent before its children, depth
+//!   first, with the copies of a subtree one after the other;
+//! - names of links, orbits, groups and parameters are snake-case Rust
+//!   identifiers, no keywords, and mean one thing each;
+//! - every literal mass and inertia is non-negative, and no choice of angles
+//!   makes the mass matrix singular as far as literals can tell; what only
+//!   parameters decide is listed in [`Scene::requirements`];
+//! - what `requests` asks for can be derived for this tree.
+
+mod bodies;
+mod expand;
+mod names;
+mod properties;
+mod quantity;
+mod requests;
+mod resolve;
+mod rule;
+mod singular;
+mod template;
+mod text;
+mod values;
+
+pub use quantity::Quantity;
+pub use resolve::resolve;
+
+/// Index of a link in [`Scene::links`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct LinkId(pub usize);
+
+/// Index of an orbit in [`Scene::orbits`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct OrbitId(pub usize);
+
+/// Index of a parameter in [`Scene::parameters`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ParameterId(pub usize);
+
+/// A validated tree of links and what is asked for about it. SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Name of the struct that carries the attribute.
+    pub name: String,
+    /// Path of the runtime crate, as in `::branched_pendulum`.
+    pub crate_path: CratePath,
+    /// Gravitational acceleration, m/s².
+    pub gravity: Quantity,
+    /// All links, parent before child.
+    pub links: Vec<Link>,
+    /// Links that are copies of one node of the description, in the order of
+    /// their first link.
+    pub orbits: Vec<Orbit>,
+    /// Identical sibling subtrees, in the order of their first link.
+    pub groups: Vec<Group>,
+    /// Named values that the model is given at run time: gravity's first, then
+    /// link by link in the order in which the description names them.
+    pub parameters: Vec<Parameter>,
+    /// Conditions on values that depend on parameters, to be checked when the
+    /// model is built.
+    pub requirements: Vec<Requirement>,
+    /// What is asked for beside the accelerations.
+    pub requests: Requests,
+}
+
+/// Path of the runtime crate in the user's crate: `::branched_pendulum`, or
+/// what `crate = ...` says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CratePath {
+    /// Whether the path starts with `::`.
+    pub global: bool,
+    /// The names between the `::`, as written.
+    pub segments: Vec<String>,
+}
+
+impl Default for CratePath {
+    fn default() -> Self {
+        Self {
+            global: true,
+            segments: vec!["branched_pendulum".to_owned()],
+        }
+    }
+}
+
+/// A rigid link. Its angle is absolute, from the downward vertical.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Snake-case name, unique in the scene.
+    pub name: String,
+    /// The link that it hangs from; `None` for the root.
+    pub parent: Option<LinkId>,
+    /// The orbit it belongs to.
+    pub orbit: OrbitId,
+    /// Mass, kg.
+    pub mass: Quantity,
+    /// Moment of inertia about the centre of mass, kg m².
+    pub inertia: Quantity,
+    /// The centre of mass, from the link's own pivot.
+    pub com: Offset,
+    /// The link's pivot on its parent, from the parent's pivot and in the
+    /// parent's directions; zero for the root.
+    pub pivot: Offset,
+    /// Viscous friction in the link's pivot, N m s, on the angular velocity
+    /// relative to the parent (to the ground for the root); `None` without.
+    pub friction: Option<Quantity>,
+}
+
+/// A point of a link, from the link's pivot, m.
+///
+/// At angle 0 `along` points down and `lateral` in the direction in which
+/// positive angles move the link's end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Offset {
+    /// Component along the link.
+    pub along: Quantity,
+    /// Component across the link.
+    pub lateral: Quantity,
+}
+
+/// The links that are copies of one node of the description. All their
+/// properties are equal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orbit {
+    /// Name of the node: `child`, or `name_2` for a generation of a rule.
+    pub name: String,
+    /// Number of links between these and the ground, without themselves; 0 for
+    /// the root.
+    pub depth: usize,
+    /// The copies, in the order of [`Scene::links`].
+    pub links: Vec<LinkId>,
+}
+
+/// Identical sibling subtrees, from a multiplicity or a generation rule and
+/// never guessed from equal numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// Name of the orbit of the copies, with the numbers of the copy it hangs
+    /// in: `hand_1` for the two hands of `arm_1`.
+    pub name: String,
+    /// The link that the copies hang from. Always present today, since a scene
+    /// has one root.
+    pub parent: Option<LinkId>,
+    /// The roots of the copies, two or more.
+    pub copies: Vec<LinkId>,
+}
+
+/// A value that the description names instead of stating.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Snake-case name.
+    pub name: String,
+    /// What it is used for, in words, with its unit where it stands alone.
+    pub doc: String,
+    /// The strictest condition among its direct uses.
+    pub sign: Sign,
+}
+
+/// A condition on the sign of a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Sign {
+    /// Any finite number.
+    Any,
+    /// Zero or above.
+    NonNegative,
+    /// Above zero.
+    Positive,
+}
+
+/// A condition on a value that depends on parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Requirement {
+    /// The value in words, as in "mass of `child`".
+    pub what: String,
+    /// The value.
+    pub quantity: Quantity,
+    /// The condition, never [`Sign::Any`].
+    pub sign: Sign,
+}
+
+/// What is asked for beside the accelerations.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Requests {
+    /// Kinetic and potential energy.
+    pub energies: bool,
+    /// Generalized momenta and the velocities that belong to them.
+    pub momenta: bool,
+    /// The matrices of the linear modes.
+    pub modes: bool,
+    /// Symmetric coordinates: means and differences of identical siblings.
+    pub symmetric: bool,
+    /// Energy transfer into the differences. Comes with `momenta` and
+    /// `symmetric`.
+    pub transfer: Option<TransferRequest>,
+}
+
+/// Which forms of the energy transfer are asked for; at least one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TransferRequest {
+    /// Order of the kinetic energy in the difference angles, momenta kept
+    /// whole; 1 is the form of the paper.
+    pub angle_order: Option<u32>,
+    /// Order in the amplitude of the differences, angles and momenta alike; 2
+    /// is the complete quadratic form.
+    pub amplitude_order: Option<u32>,
+    /// The form without truncation.
+    pub exact: bool,
+}

@@ -1,0 +1,99 @@
+//! Which names a description may give.
+
+use proc_macro2::{Ident, Span};
+
+use crate::report::{Message, Report};
+
+/// Keywords of Rust 2024, reserved ones included.
+#[rustfmt::skip]
+const KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
+    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
+    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
+    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
+/// Names that the emitted code gives to things of its own.
+#[rustfmt::skip]
+const EMITTED: &[&str] = &[
+    "accelerations", "angles", "emit", "model", "momenta", "out", "scalar", "state", "time",
+    "velocities",
+];
+
+/// Constants that look like parameters, with digits to write instead.
+const CONSTANTS: &[(&str, &str)] = &[
+    ("pi", "3.14159265358979324"),
+    ("tau", "6.28318530717958648"),
+];
+
+/// Checks the name of a link; a fault goes to `report`.
+pub(super) fn check_link(name: &Ident, report: &mut Report) {
+    if let Some(message) = fault(&name.to_string()) {
+        report.error(name.span(), message);
+    }
+}
+
+/// Checks the name of a parameter; a fault goes to `report`.
+pub(super) fn check_parameter(name: &str, span: Span, report: &mut Report) -> Option<()> {
+    let constant = CONSTANTS.iter().find(|(constant, _)| *constant == name);
+    let message = match constant {
+        Some(&(name, digits)) => Some(Message::NotExact {
+            name: name.to_owned(),
+            digits,
+        }),
+        None => fault(name),
+    };
+    match message {
+        Some(message) => {
+            report.error(span, message);
+            None
+        }
+        None => Some(()),
+    }
+}
+
+/// What is wrong with a name.
+fn fault(name: &str) -> Option<Message> {
+    let name = name.to_owned();
+    if KEYWORDS.contains(&name.as_str()) || EMITTED.contains(&name.as_str()) {
+        Some(Message::ReservedName { name })
+    } else if is_snake_case(&name) {
+        None
+    } else {
+        let suggestion = snake_case(&name);
+        Some(Message::NotSnakeCase { name, suggestion })
+    }
+}
+
+/// Whether `name` is letters a to z, digits and single underscores, a letter
+/// first and no underscore last.
+fn is_snake_case(name: &str) -> bool {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    name.starts_with(|c: char| c.is_ascii_lowercase())
+        && name.chars().all(plain)
+        && !name.ends_with('_')
+        && !name.contains("__")
+}
+
+/// `name` with its capitals written as words of their own, if that is a name
+/// which may be used.
+fn snake_case(name: &str) -> Option<String> {
+    let mut words = String::new();
+    let mut after_small = false;
+    for c in name.chars() {
+        if c.is_ascii_uppercase() && after_small {
+            words.push('_');
+        }
+        after_small = c.is_ascii_lowercase() || c.is_ascii_digit();
+        words.push(c.to_ascii_lowercase());
+    }
+    let pieces: Vec<&str> = words.split('_').filter(|piece| !piece.is_empty()).collect();
+    let suggestion = pieces.join("_");
+    fault_free(&suggestion).then_some(suggestion)
+}
+
+/// Whether a name may be used.
+fn fault_free(name: &str) -> bool {
+    is_snake_case(name) && !KEYWORDS.contains(&name) && !EMITTED.contains(&name)
+}

@@ -1,0 +1,293 @@
+//! What stands in the parentheses of a link: which properties there are, which
+//! are missing, and the body that follows.
+
+use super::bodies::{Body, COMMON, Condition, Dimension, Given, PLAIN, SHAPES, Shape};
+use super::rule::{COUNTS, Counts, RATIOS, Rule};
+use super::template::accept_body;
+use super::values::{Usage, Values, message_for};
+use super::{Offset, Quantity, Sign};
+use crate::description::{Node, Property, Value};
+use crate::report::{Message, Report, nearest};
+
+/// The properties of a link or rule, evaluated.
+pub(super) struct Properties {
+    /// The body; a stand-in after an error.
+    pub(super) body: Body,
+    /// The rule, where there is one.
+    pub(super) rule: Option<Rule>,
+    /// All that is given, the body's properties included.
+    pub(super) given: Given,
+}
+
+/// Properties that can be a pair.
+const POINTS: &[&str] = &["com", "joint", "at"];
+
+/// What a link may and must say.
+pub(super) struct Kind {
+    /// In words: "a link", "a `rod`".
+    text: String,
+    shape: Option<&'static Shape>,
+    is_rule: bool,
+}
+
+impl Properties {
+    /// Reads what a link or rule says of itself.
+    pub(super) fn read(
+        node: &Node,
+        is_rule: bool,
+        values: &mut Values,
+        report: &mut Report,
+    ) -> Self {
+        let mut counts = Counts::default();
+        let shape = if is_rule {
+            counts.read(node, report);
+            counts.shape
+        } else {
+            node.shape.as_ref().map(|shape| {
+                find_shape(&shape.to_string()).map_err(|message| {
+                    report.error(shape.span(), message);
+                })
+            })
+        };
+        let fault = matches!(shape, Some(Err(())));
+        let kind = Kind::new(shape.and_then(Result::ok), is_rule);
+        // The properties of an unknown shape are unknown too.
+        let given = if fault {
+            None
+        } else {
+            kind.evaluate(node, values, report)
+        };
+        let body = given
+            .as_ref()
+            .and_then(|given| kind.body(given, node, values, report));
+        let given = given.unwrap_or_default();
+        let ratio = |name| given.value(name).cloned().unwrap_or(Quantity::integer(1));
+        let rule = is_rule.then(|| Rule {
+            count: counts.count.unwrap_or(1),
+            branching: counts.branching.unwrap_or(1),
+            mass_ratio: ratio("mass_ratio"),
+            length_ratio: ratio("length_ratio"),
+        });
+        Self {
+            body: body.unwrap_or_else(stand_in),
+            rule,
+            given,
+        }
+    }
+}
+
+/// A body for a link that has none because of an error, so that its children
+/// can be looked at.
+fn stand_in() -> Body {
+    let origin = Offset {
+        along: Quantity::zero(),
+        lateral: Quantity::zero(),
+    };
+    Body {
+        mass: Quantity::zero(),
+        inertia: Quantity::zero(),
+        com: origin.clone(),
+        joint: Some(origin),
+    }
+}
+
+/// A shape by its name.
+pub(super) fn find_shape(name: &str) -> Result<&'static Shape, Message> {
+    SHAPES
+        .iter()
+        .find(|shape| shape.name == name)
+        .ok_or_else(|| {
+            let mut known: Vec<&'static str> = SHAPES.iter().map(|shape| shape.name).collect();
+            known.push("generations");
+            Message::UnknownShape {
+                name: name.to_owned(),
+                nearest: nearest(name, &known),
+                known,
+            }
+        })
+}
+
+impl Kind {
+    pub(super) fn new(shape: Option<&'static Shape>, is_rule: bool) -> Self {
+        let text = match (shape, is_rule) {
+            (None, false) => "a link without shape".to_owned(),
+            (Some(shape), false) => format!("a `{}`", shape.name),
+            (None, true) => "a generation rule".to_owned(),
+            (Some(shape), true) => format!("a generation rule of `{}`", shape.name),
+        };
+        Self {
+            text,
+            shape,
+            is_rule,
+        }
+    }
+
+    /// All quantities that there are, required ones first.
+    fn dimensions(&self) -> impl Iterator<Item = &'static Dimension> {
+        let own = self.shape.map_or(PLAIN, |shape| shape.dimensions);
+        let ratios = if self.is_rule { RATIOS } else { &[] };
+        own.iter().chain(COMMON).chain(ratios)
+    }
+
+    /// The names of all properties.
+    fn known(&self) -> Vec<&'static str> {
+        let counts = if self.is_rule { COUNTS } else { &[] };
+        let mut known: Vec<&'static str> = counts.to_vec();
+        for dimension in self.dimensions() {
+            if !known.contains(&dimension.name) {
+                known.push(dimension.name);
+            }
+        }
+        known
+    }
+
+    /// The values of all quantities, in the order written; `None` after
+    /// reporting what is wrong.
+    fn evaluate(&self, node: &Node, values: &mut Values, report: &mut Report) -> Option<Given> {
+        let mut given = Given::default();
+        let mut sound = !node.damaged;
+        let mut seen: Vec<String> = Vec::new();
+        for property in &node.properties {
+            let name = property.name.to_string();
+            if seen.contains(&name) {
+                report.error(property.name.span(), Message::duplicate_property(&name));
+                sound = false;
+                continue;
+            }
+            let dimension = self.dimensions().find(|known| known.name == name);
+            if let Some(dimension) = dimension {
+                match evaluate(dimension, property, node, values, report) {
+                    Some(value) => given.0.push((dimension.name, value)),
+                    None => sound = false,
+                }
+            } else if !(self.is_rule && COUNTS.contains(&name.as_str())) {
+                sound = false;
+                let (message, meant) = self.unknown(name.clone());
+                report.error(property.name.span(), message);
+                // What was probably meant is misspelt, not missing.
+                seen.extend(meant.map(str::to_owned));
+            }
+            seen.push(name);
+        }
+        let missing = self
+            .dimensions()
+            .filter(|known| known.required && !seen.iter().any(|name| name == known.name));
+        for dimension in missing.filter(|_| !node.damaged) {
+            sound = false;
+            let message = self.missing(dimension.name, node);
+            report.error(node.name.span(), message);
+        }
+        sound.then_some(given)
+    }
+
+    /// The message about an unknown property, and the one probably meant.
+    fn unknown(&self, name: String) -> (Message, Option<&'static str>) {
+        let known = self.known();
+        let nearest = nearest(&name, &known);
+        let message = Message::UnknownProperty {
+            name,
+            body: self.text.clone(),
+            nearest,
+            known,
+        };
+        (message, nearest)
+    }
+
+    /// The message about a missing property.
+    pub(super) fn missing(&self, name: &'static str, node: &Node) -> Message {
+        Message::MissingProperty {
+            name,
+            link: node.name.to_string(),
+            body: self.text.clone(),
+        }
+    }
+
+    /// The body: what the shape says, unless the link says otherwise.
+    fn body(
+        &self,
+        given: &Given,
+        node: &Node,
+        values: &mut Values,
+        report: &mut Report,
+    ) -> Option<Body> {
+        let span = node.name.span();
+        if let Some(Condition { what, value }) = self.shape.and_then(|shape| shape.condition) {
+            let usage = Usage {
+                what: format!("{what} of `{}`", node.name),
+                unit: "m",
+                sign: Sign::Positive,
+            };
+            values.accept(value(given), &usage, span, report)?;
+        }
+        let mut body = match self
+            .shape
+            .map_or_else(|| Ok(stand_in()), |shape| (shape.body)(given))
+        {
+            Ok(body) => body,
+            Err(error) => {
+                report.error(span, message_for(error));
+                return None;
+            }
+        };
+        if self.shape.is_none() {
+            body.mass = given.value("mass")?.clone();
+            body.joint = None;
+        }
+        if let Some(inertia) = given.value("inertia") {
+            body.inertia = inertia.clone();
+        }
+        if let Some(com) = given.point("com") {
+            body.com = com.clone();
+        }
+        if let Some(joint) = given.point("joint") {
+            body.joint = Some(joint.clone());
+        }
+        accept_body(&body, node, values, report).then_some(body)
+    }
+}
+
+/// The value of a property.
+fn evaluate(
+    dimension: &Dimension,
+    property: &Property,
+    node: &Node,
+    values: &mut Values,
+    report: &mut Report,
+) -> Option<Offset> {
+    let &Dimension {
+        name, unit, sign, ..
+    } = dimension;
+    let usage = |part: &str| Usage {
+        what: format!("{part}{} of `{}`", in_words(name), node.name),
+        unit,
+        sign,
+    };
+    match &property.value {
+        Value::Single(value) => Some(Offset {
+            along: values.evaluate(value, &usage(""), report)?,
+            lateral: Quantity::zero(),
+        }),
+        Value::Pair(along, lateral) if POINTS.contains(&name) => {
+            let along = values.evaluate(along, &usage(""), report);
+            let lateral = values.evaluate(lateral, &usage("lateral "), report);
+            Some(Offset {
+                along: along?,
+                lateral: lateral?,
+            })
+        }
+        Value::Pair(..) => {
+            let name = name.to_owned();
+            report.error(property.name.span(), Message::NotAPoint { name });
+            None
+        }
+    }
+}
+
+/// A property as one says it.
+fn in_words(name: &str) -> String {
+    match name {
+        "com" => "centre of mass".to_owned(),
+        "at" => "pivot".to_owned(),
+        _ => name.replace('_', " "),
+    }
+}

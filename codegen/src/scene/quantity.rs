@@ -1,0 +1,296 @@
+//! Values of a scene: exact numbers, parameters, and what is formed of them.
+
+use std::fmt;
+
+use super::{Parameter, ParameterId};
+use crate::exact::{ExactError, Rational};
+
+/// A value in SI units, known exactly or in terms of parameters.
+///
+/// The functions that build one fold: an expression of literals only is always
+/// [`Quantity::Exact`]; a sum or product holds at most one exact member, which
+/// comes first; nothing is multiplied by 0 or 1 or has 0 added; nothing is
+/// divided by an exact number. Members keep the order in which they were
+/// written.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// A number.
+    Exact(Rational),
+    /// A parameter of the model.
+    Parameter(ParameterId),
+    /// A sum of two or more members.
+    Sum(Vec<Quantity>),
+    /// A product of two or more factors.
+    Product(Vec<Quantity>),
+    /// Dividend and divisor.
+    Quotient(Box<Quantity>, Box<Quantity>),
+    /// An integer power other than 0 and 1.
+    Power(Box<Quantity>, i32),
+    /// The opposite of a value that is not exact.
+    Negative(Box<Quantity>),
+}
+
+impl Quantity {
+    /// The number 0.
+    pub fn zero() -> Self {
+        Self::Exact(Rational::zero())
+    }
+
+    /// A whole number.
+    pub fn integer(value: i64) -> Self {
+        Self::Exact(Rational::from(value))
+    }
+
+    /// The value where it is known exactly.
+    pub fn exact(&self) -> Option<&Rational> {
+        match self {
+            Self::Exact(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Whether the value is known to be 0.
+    pub fn is_zero(&self) -> bool {
+        self.exact().is_some_and(Rational::is_zero)
+    }
+
+    /// The sum of `members`.
+    pub fn sum(members: impl IntoIterator<Item = Self>) -> Self {
+        let mut constant = Rational::zero();
+        let mut rest = Vec::new();
+        for member in members {
+            match member {
+                Self::Exact(value) => constant = constant + value,
+                Self::Sum(inner) => {
+                    for member in inner {
+                        match member {
+                            Self::Exact(value) => constant = constant + value,
+                            other => rest.push(other),
+                        }
+                    }
+                }
+                other => rest.push(other),
+            }
+        }
+        if !constant.is_zero() {
+            rest.insert(0, Self::Exact(constant));
+        }
+        Self::collected(rest, Self::zero, Self::Sum)
+    }
+
+    /// The product of `factors`.
+    pub fn product(factors: impl IntoIterator<Item = Self>) -> Self {
+        let mut constant = Rational::one();
+        let mut rest = Vec::new();
+        for factor in factors {
+            match factor {
+                Self::Exact(value) => constant = constant * value,
+                Self::Negative(inner) => {
+                    constant = -constant;
+                    rest.push(*inner);
+                }
+                Self::Product(inner) => {
+                    for factor in inner {
+                        match factor {
+                            Self::Exact(value) => constant = constant * value,
+                            other => rest.push(other),
+                        }
+                    }
+                }
+                other => rest.push(other),
+            }
+        }
+        if constant.is_zero() {
+            return Self::zero();
+        }
+        let opposite = -&constant;
+        if opposite.is_one() && !rest.is_empty() {
+            let positive = Self::collected(rest, || Self::integer(1), Self::Product);
+            return Self::Negative(Box::new(positive));
+        }
+        if !constant.is_one() {
+            rest.insert(0, Self::Exact(constant));
+        }
+        Self::collected(rest, || Self::integer(1), Self::Product)
+    }
+
+    /// A sum or product of what folding left over.
+    fn collected(
+        mut members: Vec<Self>,
+        empty: impl FnOnce() -> Self,
+        several: impl FnOnce(Vec<Self>) -> Self,
+    ) -> Self {
+        match members.len() {
+            0 | 1 => members.pop().unwrap_or_else(empty),
+            _ => several(members),
+        }
+    }
+
+    /// The opposite.
+    pub fn negative(self) -> Self {
+        match self {
+            Self::Exact(value) => Self::Exact(-value),
+            Self::Negative(inner) => *inner,
+            other => Self::product([Self::integer(-1), other]),
+        }
+    }
+
+    /// The quotient `self / divisor`.
+    ///
+    /// # Errors
+    /// [`ExactError::DivisionByZero`] if `divisor` is known to be 0.
+    pub fn divided_by(self, divisor: Self) -> Result<Self, ExactError> {
+        match divisor {
+            Self::Exact(divisor) => {
+                let inverse = Rational::one()
+                    .checked_div(&divisor)
+                    .ok_or(ExactError::DivisionByZero)?;
+                Ok(Self::product([self, Self::Exact(inverse)]))
+            }
+            _ if self.is_zero() => Ok(self),
+            divisor => Ok(Self::Quotient(Box::new(self), Box::new(divisor))),
+        }
+    }
+
+    /// The power `self ^ exponent`; `x ^ 0` is 1.
+    ///
+    /// # Errors
+    /// [`ExactError::DivisionByZero`] for a negative power of a known 0,
+    /// [`ExactError::TooLong`] for a number that would not be
+    /// [short](Rational::is_short).
+    pub fn power(self, exponent: i32) -> Result<Self, ExactError> {
+        match (self, exponent) {
+            (Self::Exact(value), _) => value.checked_pow(exponent).map(Self::Exact),
+            (_, 0) => Ok(Self::integer(1)),
+            (value, 1) => Ok(value),
+            (Self::Power(base, inner), _) => match inner.checked_mul(exponent) {
+                Some(product) => base.power(product),
+                None => Err(ExactError::TooLong),
+            },
+            (value, _) => Ok(Self::Power(Box::new(value), exponent)),
+        }
+    }
+
+    /// Calls `visit` with every number and parameter in the value, in the order
+    /// written.
+    pub fn for_each_leaf<'a>(&'a self, visit: &mut impl FnMut(&'a Self)) {
+        match self {
+            Self::Exact(_) | Self::Parameter(_) => visit(self),
+            Self::Sum(members) | Self::Product(members) => {
+                for member in members {
+                    member.for_each_leaf(visit);
+                }
+            }
+            Self::Quotient(dividend, divisor) => {
+                dividend.for_each_leaf(visit);
+                divisor.for_each_leaf(visit);
+            }
+            Self::Power(base, _) | Self::Negative(base) => base.for_each_leaf(visit),
+        }
+    }
+
+    /// The value as text in the attribute's own notation, so that it could be
+    /// written there again. `parameters` are those of the scene.
+    pub fn display<'a>(&'a self, parameters: &'a [Parameter]) -> impl fmt::Display + 'a {
+        Shown {
+            value: self,
+            parameters,
+            place: Place::Sum,
+        }
+    }
+}
+
+/// What surrounds a value in the text, from loosest to tightest.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Place {
+    Sum,
+    Term,
+    Factor,
+    Base,
+}
+
+/// A value on its way to text.
+struct Shown<'a> {
+    value: &'a Quantity,
+    parameters: &'a [Parameter],
+    place: Place,
+}
+
+impl Shown<'_> {
+    fn part<'a>(&'a self, value: &'a Quantity, place: Place) -> Shown<'a> {
+        Shown {
+            value,
+            parameters: self.parameters,
+            place,
+        }
+    }
+
+    fn bare(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.value {
+            Quantity::Exact(value) => write!(f, "{value}"),
+            Quantity::Parameter(ParameterId(index)) => match self.parameters.get(*index) {
+                Some(parameter) => f.write_str(&parameter.name),
+                None => write!(f, "parameter_{index}"),
+            },
+            Quantity::Sum(members) => {
+                for (i, member) in members.iter().enumerate() {
+                    match member {
+                        Quantity::Negative(opposite) if i > 0 => {
+                            write!(f, " - {}", self.part(opposite, Place::Term))?;
+                        }
+                        _ if i > 0 => write!(f, " + {}", self.part(member, Place::Term))?,
+                        _ => write!(f, "{}", self.part(member, Place::Term))?,
+                    }
+                }
+                Ok(())
+            }
+            Quantity::Product(factors) => {
+                for (i, factor) in factors.iter().enumerate() {
+                    if i > 0 {
+                        write!(f, " * ")?;
+                    }
+                    write!(f, "{}", self.part(factor, Place::Factor))?;
+                }
+                Ok(())
+            }
+            Quantity::Quotient(dividend, divisor) => write!(
+                f,
+                "{} / {}",
+                self.part(dividend, Place::Factor),
+                self.part(divisor, Place::Factor)
+            ),
+            Quantity::Power(base, exponent) => {
+                write!(f, "{}^{exponent}", self.part(base, Place::Base))
+            }
+            Quantity::Negative(value) => write!(f, "-{}", self.part(value, Place::Factor)),
+        }
+    }
+
+    /// Whether the value needs parentheses where it stands.
+    fn is_loose(&self) -> bool {
+        match self.value {
+            Quantity::Exact(value) => {
+                self.place >= Place::Factor
+                    && (value.is_negative() || value.to_string().contains('/'))
+            }
+            Quantity::Parameter(_) => false,
+            Quantity::Sum(_) => self.place > Place::Sum,
+            Quantity::Product(_) | Quantity::Quotient(..) | Quantity::Negative(_) => {
+                self.place > Place::Term
+            }
+            Quantity::Power(..) => self.place > Place::Factor,
+        }
+    }
+}
+
+impl fmt::Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_loose() {
+            write!(f, "(")?;
+            self.bare(f)?;
+            write!(f, ")")
+        } else {
+            self.bare(f)
+        }
+    }
+}

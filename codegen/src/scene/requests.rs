@@ -1,0 +1,173 @@
+//! What is asked for, and whether it can be derived for the tree.
+
+use proc_macro2::Span;
+
+use super::expand::Expansion;
+use super::{LinkId, Requests, TransferRequest};
+use crate::description::{Form, Request};
+use crate::report::{Message, Report, nearest};
+
+/// All outputs.
+const OUTPUTS: &[&str] = &["energies", "momenta", "modes", "symmetric", "transfer"];
+
+/// All forms of the transfer.
+const FORMS: &[&str] = &["angle", "amplitude", "exact"];
+
+/// Highest order in the difference angles that is derived.
+const MAX_ANGLE_ORDER: u32 = 1;
+
+/// The order in the amplitude that is derived.
+const AMPLITUDE_ORDER: u32 = 2;
+
+/// The requests, and the places of those that need identical siblings.
+pub(super) struct Resolved {
+    pub(super) requests: Requests,
+    symmetric: Option<Span>,
+    transfer: Option<Span>,
+}
+
+/// Reads the requests; what is wrong goes to `report`.
+pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Resolved {
+    let mut resolved = Resolved {
+        requests: Requests::default(),
+        symmetric: None,
+        transfer: None,
+    };
+    let mut seen: Vec<String> = Vec::new();
+    for Request {
+        name,
+        forms,
+        damaged,
+    } in requests
+    {
+        let (text, span) = (name.to_string(), name.span());
+        if seen.contains(&text) {
+            report.error(span, Message::DuplicateRequest { name: text });
+            continue;
+        }
+        if forms.is_some() && text != "transfer" && OUTPUTS.contains(&text.as_str()) {
+            report.error(span, Message::RequestForms { name: text.clone() });
+        }
+        let wanted = &mut resolved.requests;
+        match text.as_str() {
+            "energies" => wanted.energies = true,
+            "momenta" => wanted.momenta = true,
+            "modes" => wanted.modes = true,
+            "symmetric" => {
+                wanted.symmetric = true;
+                resolved.symmetric = Some(span);
+            }
+            "transfer" => {
+                wanted.transfer = Some(transfer(span, forms.as_deref(), *damaged, report));
+                resolved.transfer = Some(span);
+            }
+            _ => {
+                let nearest = nearest(&text, OUTPUTS);
+                let name = text.clone();
+                report.error(span, Message::UnknownRequest { name, nearest });
+            }
+        }
+        seen.push(text);
+    }
+    // The transfer is stated in canonical symmetric coordinates.
+    if resolved.requests.transfer.is_some() {
+        resolved.requests.symmetric = true;
+        resolved.requests.momenta = true;
+    }
+    resolved
+}
+
+/// Reads the forms of the transfer; all of them if none is named.
+fn transfer(
+    span: Span,
+    forms: Option<&[Form]>,
+    damaged: bool,
+    report: &mut Report,
+) -> TransferRequest {
+    let mut request = TransferRequest {
+        angle_order: None,
+        amplitude_order: None,
+        exact: false,
+    };
+    let Some(forms) = forms else {
+        return TransferRequest {
+            angle_order: Some(MAX_ANGLE_ORDER),
+            amplitude_order: Some(AMPLITUDE_ORDER),
+            exact: true,
+        };
+    };
+    if forms.is_empty() && !damaged {
+        report.error(span, Message::NoForm);
+    }
+    let mut seen: Vec<String> = Vec::new();
+    for Form { name, value } in forms {
+        let (text, span) = (name.to_string(), name.span());
+        if seen.contains(&text) {
+            report.error(span, Message::DuplicateRequest { name: text });
+            continue;
+        }
+        let order = value.map(|value| value.count);
+        let span = value.map_or(span, |value| value.span);
+        match text.as_str() {
+            "angle" => {
+                request.angle_order = order.filter(|&order| order <= MAX_ANGLE_ORDER);
+                if request.angle_order.is_none() {
+                    report.error(span, Message::AngleOrder);
+                }
+            }
+            "amplitude" => {
+                request.amplitude_order = order.filter(|&order| order == AMPLITUDE_ORDER);
+                if request.amplitude_order.is_none() {
+                    report.error(span, Message::AmplitudeOrder);
+                }
+            }
+            "exact" => {
+                request.exact = true;
+                if value.is_some() {
+                    report.error(span, Message::ExactOrder);
+                }
+            }
+            _ => {
+                let nearest = nearest(&text, FORMS);
+                let form = text.clone();
+                report.error(
+                    name.span(),
+                    Message::UnknownForm {
+                        name: form,
+                        nearest,
+                    },
+                );
+            }
+        }
+        seen.push(text);
+    }
+    request
+}
+
+/// Checks that the tree has the identical siblings that the requests need.
+pub(super) fn check_symmetry(resolved: &Resolved, expansion: &Expansion, report: &mut Report) {
+    let Expansion { links, groups, .. } = expansion;
+    if groups.is_empty() {
+        let needy = [
+            (resolved.symmetric, "symmetric"),
+            (resolved.transfer, "transfer"),
+        ];
+        for (span, request) in needy {
+            if let Some(span) = span {
+                let request = request.to_owned();
+                report.error(span, Message::NoSiblings { request });
+            }
+        }
+    }
+    let Some(span) = resolved.transfer else {
+        return;
+    };
+    let has_children = |copy: &LinkId| links.iter().any(|link| link.parent == Some(*copy));
+    let nested = groups
+        .iter()
+        .find(|group| group.copies.iter().any(has_children));
+    if let Some(group) = nested {
+        let group = group.name.clone();
+        report.error(span, Message::NestedGroups { group });
+    }
+}

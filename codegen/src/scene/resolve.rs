@@ -1,0 +1,123 @@
+//! Description to scene, on one page.
+
+use super::expand::{check_names, check_size, expand};
+use super::requests::{check_symmetry, resolve_requests};
+use super::singular::check_regular;
+use super::template::Builder;
+use super::values::{Usage, Values};
+use super::{CratePath, Quantity, Scene, Sign};
+use crate::description::{Description, Node, Property, Value};
+use crate::report::{Message, Report};
+
+/// Checks a description and writes it out link by link.
+///
+/// `None` if anything is wrong, here or before: then `report` says what. Every
+/// mistake is looked for that does not depend on another one.
+pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> {
+    let mut builder = Builder::default();
+    let gravity = gravity(description, &mut builder.values, report);
+    check_roots(description, report);
+    for root in &description.roots {
+        builder.add_root(root, report);
+    }
+    let Builder { templates, values } = builder;
+    let resolved = resolve_requests(&description.requests, report);
+    if description.roots.len() > 1 || !check_size(&templates, report) {
+        return None;
+    }
+    let expansion = expand(&templates);
+    let owners = check_names(&expansion, &templates, report);
+    for (parameter, span) in values.parameters.iter().zip(&values.spans) {
+        if owners.contains_key(&parameter.name) {
+            let name = parameter.name.clone();
+            report.error(*span, Message::DuplicateName { name });
+        }
+    }
+    // Copies may have stood where the tree was unreadable.
+    if !description.damaged && !description.roots.iter().any(Node::is_damaged) {
+        check_symmetry(&resolved, &expansion, report);
+    }
+    // A link whose own values are wrong would look singular.
+    if report.is_empty() {
+        check_regular(&templates, report);
+    }
+    if !report.is_empty() {
+        return None;
+    }
+    Some(Scene {
+        name: description.item.ident.to_string(),
+        crate_path: crate_path(description),
+        gravity: gravity?,
+        links: expansion.links,
+        orbits: expansion.orbits,
+        groups: expansion.groups,
+        parameters: values.parameters,
+        requirements: values.requirements,
+        requests: resolved.requests,
+    })
+}
+
+/// The gravitational acceleration.
+fn gravity(
+    description: &Description,
+    values: &mut Values,
+    report: &mut Report,
+) -> Option<Quantity> {
+    let usage = Usage {
+        what: "gravity".to_owned(),
+        unit: "m/s²",
+        sign: Sign::NonNegative,
+    };
+    match &description.gravity {
+        Some(Property {
+            value: Value::Single(value),
+            ..
+        }) => values.evaluate(value, &usage, report),
+        Some(Property {
+            name,
+            value: Value::Pair(..),
+        }) => {
+            let message = Message::NotAPoint {
+                name: name.to_string(),
+            };
+            report.error(name.span(), message);
+            None
+        }
+        None => {
+            // It may have stood where the attribute was unreadable.
+            if !description.damaged {
+                report.error(description.item.ident.span(), Message::MissingGravity);
+            }
+            None
+        }
+    }
+}
+
+/// Checks that there is one root.
+fn check_roots(description: &Description, report: &mut Report) {
+    match description.roots.as_slice() {
+        [] if description.damaged => {}
+        [] => report.error(description.item.ident.span(), Message::EmptyTree),
+        [first, others @ ..] => {
+            for other in others {
+                let first = first.name.to_string();
+                report.error(other.name.span(), Message::SecondRoot { first });
+            }
+        }
+    }
+}
+
+/// The path of the runtime crate.
+fn crate_path(description: &Description) -> CratePath {
+    match &description.crate_path {
+        None => CratePath::default(),
+        Some(path) => CratePath {
+            global: path.leading_colon.is_some(),
+            segments: path
+                .segments
+                .iter()
+                .map(|segment| segment.ident.to_string())
+                .collect(),
+        },
+    }
+}

@@ -1,0 +1,106 @@
+//! Whether a mass matrix is regular for all angles.
+//!
+//! The mass matrix is singular at a configuration if some velocities other than
+//! zero have no kinetic energy there. Call a subtree *yielding* if in some
+//! configuration its pivot can move, in some direction, without kinetic energy;
+//! the direction turns with the subtree, and subtrees turn independently. With m, I, d
+//! mass, inertia and centre of mass of a link and p the places where its
+//! children hang, all from its pivot:
+//!
+//! - A link can turn about its resting pivot without energy iff I = 0, m d = 0
+//!   and every child has p = 0 or yields. The mass matrix is singular for some
+//!   angles iff there is such a link: take the topmost link that moves.
+//! - A subtree yields iff it can move without turning its first link, or with
+//!   turning it:
+//!   - m = 0 and all children yield; or
+//!   - I = 0, m = 0 and the children that do not yield hang from one common
+//!     p ≠ 0, which stays at rest while the link turns about it; or
+//!   - I = 0, m > 0, d ≠ 0 and every child yields or has p = d: the link turns
+//!     about its centre of mass.
+//!
+//! Values that depend on parameters count as different from zero and from each
+//! other unless they are written alike; the model checks them when it is built.
+
+use super::template::Template;
+use super::{Offset, Quantity};
+use crate::report::{Message, Report};
+
+/// Reports links that can turn without kinetic energy, the lowest of each
+/// branch: those above it may be right once it is.
+pub(super) fn check_regular(templates: &[Template], report: &mut Report) {
+    for index in singular(templates) {
+        if let Some(Template { name, span, .. }) = templates.get(index) {
+            report.error(*span, Message::Singular { link: name.clone() });
+        }
+    }
+}
+
+/// What is known about the children of a link.
+struct Subtrees<'a> {
+    /// Pivots of the children that do not yield.
+    firm: Vec<&'a Offset>,
+    /// Whether a link below can turn without energy.
+    singular: bool,
+}
+
+/// The links that can turn without kinetic energy and have none below them that
+/// can, in the order of the templates.
+pub(super) fn singular(templates: &[Template]) -> Vec<usize> {
+    let mut below: Vec<Subtrees<'_>> = templates
+        .iter()
+        .map(|_| Subtrees {
+            firm: Vec::new(),
+            singular: false,
+        })
+        .collect();
+    let mut found = Vec::new();
+    // Children stand behind their parents: backwards, they come first.
+    for (index, template) in templates.iter().enumerate().rev() {
+        let Some(own) = below.get(index) else {
+            continue;
+        };
+        let turns = turns(template, &own.firm);
+        let yields = yields(template, &own.firm);
+        let singular = own.singular || turns;
+        if turns && !own.singular {
+            found.push(index);
+        }
+        if let Some(above) = template.parent.and_then(|parent| below.get_mut(parent)) {
+            above.singular |= singular;
+            if !yields {
+                above.firm.push(&template.pivot);
+            }
+        }
+    }
+    found.reverse();
+    found
+}
+
+/// Whether the link can turn about its resting pivot; `firm` holds the pivots of
+/// the children that do not yield.
+fn turns(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
+    body.inertia.is_zero()
+        && (body.mass.is_zero() || is_origin(&body.com))
+        && firm.iter().all(|pivot| is_origin(pivot))
+}
+
+/// Whether the link's own pivot can move.
+fn yields(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
+    if body.mass.is_zero() && firm.is_empty() {
+        return true;
+    }
+    if !body.inertia.is_zero() {
+        return false;
+    }
+    let centre = if body.mass.is_zero() {
+        firm.first().copied()
+    } else {
+        Some(&body.com)
+    };
+    centre.is_some_and(|centre| !is_origin(centre) && firm.iter().all(|pivot| *pivot == centre))
+}
+
+/// Whether a point is known to be the pivot.
+fn is_origin(Offset { along, lateral }: &Offset) -> bool {
+    [along, lateral].into_iter().all(Quantity::is_zero)
+}

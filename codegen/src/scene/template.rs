@@ -1,0 +1,199 @@
+//! Description nodes to templates: one link for all its copies, its body known.
+
+use proc_macro2::Span;
+
+use super::bodies::{Body, Given};
+use super::names::check_link;
+use super::properties::Properties;
+use super::rule::Rule;
+use super::values::{Usage, Values};
+use super::{Offset, Quantity, Sign};
+use crate::description::Node;
+use crate::report::{Message, Report};
+
+/// Most links that a scene may have, copies included.
+pub(super) const MAX_LINKS: usize = 4096;
+
+/// A link of the description, for all its copies.
+#[derive(Debug)]
+pub(super) struct Template {
+    pub(super) name: String,
+    pub(super) span: Span,
+    /// An earlier template.
+    pub(super) parent: Option<usize>,
+    /// Copies under each copy of the parent.
+    pub(super) copies: usize,
+    pub(super) body: Body,
+    /// The pivot on the parent; zero for the root.
+    pub(super) pivot: Offset,
+    pub(super) friction: Option<Quantity>,
+}
+
+/// What is built up on the way through the description.
+#[derive(Default)]
+pub(super) struct Builder {
+    /// Parents before children, depth first.
+    pub(super) templates: Vec<Template>,
+    pub(super) values: Values,
+}
+
+/// What a link hangs from.
+#[derive(Clone)]
+struct Parent {
+    index: usize,
+    joint: Offset,
+}
+
+impl Builder {
+    /// Adds the root and all that hangs from it. After an error the templates
+    /// still have their names and numbers of copies, but no meaningful bodies.
+    pub(super) fn add_root(&mut self, node: &Node, report: &mut Report) {
+        if let Some(copies) = node.copies.filter(|copies| copies.count > 1) {
+            report.error(copies.span, Message::RootCopies);
+        }
+        self.add(node, None, report);
+    }
+
+    /// Adds a link or a rule, and its children.
+    fn add(&mut self, node: &Node, parent: Option<Parent>, report: &mut Report) {
+        check_link(&node.name, report);
+        if let Some(copies) = node.copies.filter(|copies| copies.count == 0) {
+            report.error(copies.span, Message::ZeroCopies);
+        }
+        let is_rule = node
+            .shape
+            .as_ref()
+            .is_some_and(|shape| shape == "generations");
+        let Properties { body, rule, given } =
+            Properties::read(node, is_rule, &mut self.values, report);
+        let pivot = self.pivot(node, parent.as_ref(), &given, report);
+        let friction = given.value("friction").filter(|value| !value.is_zero());
+        let first = Template {
+            name: node.name.to_string(),
+            span: node.name.span(),
+            parent: parent.map(|parent| parent.index),
+            copies: node.copies.map_or(1, |copies| copies.count as usize),
+            body,
+            pivot,
+            friction: friction.cloned(),
+        };
+        if let Some(rule) = rule {
+            if let Some(child) = node.children.first() {
+                report.error(child.name.span(), Message::RuleChildren);
+            }
+            self.add_generations(node, first, &rule, report);
+            return;
+        }
+        let joint = first.body.joint.clone();
+        let names_pivot = |child: &Node| child.properties.iter().any(|p| p.name == "at");
+        if joint.is_none() && !node.damaged && !node.children.iter().all(names_pivot) {
+            missing_joint(node, report);
+        }
+        let parent = Parent {
+            index: self.templates.len(),
+            joint: joint.unwrap_or_else(origin),
+        };
+        self.templates.push(first);
+        for child in &node.children {
+            self.add(child, Some(parent.clone()), report);
+        }
+    }
+
+    /// Where a link hangs on its parent.
+    fn pivot(
+        &self,
+        node: &Node,
+        parent: Option<&Parent>,
+        given: &Given,
+        report: &mut Report,
+    ) -> Offset {
+        match (parent, given.point("at")) {
+            (Some(_), Some(at)) => at.clone(),
+            (Some(parent), None) => parent.joint.clone(),
+            (None, None) => origin(),
+            (None, Some(_)) => {
+                let at = node.properties.iter().find(|p| p.name == "at");
+                let span = at.map_or(node.name.span(), |at| at.name.span());
+                report.error(span, Message::RootPivot);
+                origin()
+            }
+        }
+    }
+
+    /// Adds the generations of a rule, the first of which is given.
+    fn add_generations(&mut self, node: &Node, first: Template, rule: &Rule, report: &mut Report) {
+        let span = first.span;
+        // The templates alone may be too many, before any copies.
+        if self.templates.len().saturating_add(rule.count) > MAX_LINKS {
+            report.error(span, Message::TooManyLinks { limit: MAX_LINKS });
+            return;
+        }
+        if first.body.joint.is_none() && rule.count > 1 && !node.damaged {
+            missing_joint(node, report);
+        }
+        for generation in 0..rule.count {
+            let Ok(body) = rule.body(&first.body, generation) else {
+                report.error(span, Message::NumberLength);
+                return;
+            };
+            if !accept_body(&body, node, &mut self.values, report) {
+                return;
+            }
+            let above = generation.checked_sub(1).map(|_| self.templates.len() - 1);
+            let hanging = above.and_then(|above| self.templates.get(above)?.body.joint.clone());
+            self.templates.push(Template {
+                name: format!("{}_{}", first.name, generation + 1),
+                span,
+                parent: above.or(first.parent),
+                copies: if above.is_some() {
+                    rule.branching
+                } else {
+                    first.copies
+                },
+                body,
+                pivot: hanging.unwrap_or_else(|| first.pivot.clone()),
+                friction: first.friction.clone(),
+            });
+        }
+    }
+}
+
+/// Checks that the numbers of a body can be rounded to `f64`.
+pub(super) fn accept_body(
+    body: &Body,
+    node: &Node,
+    values: &mut Values,
+    report: &mut Report,
+) -> bool {
+    let Body {
+        mass,
+        inertia,
+        com,
+        joint,
+    } = body;
+    let points = [Some(com), joint.as_ref()].into_iter().flatten();
+    let parts = points.flat_map(|Offset { along, lateral }| [along, lateral]);
+    let usage = Usage {
+        what: String::new(),
+        unit: "",
+        sign: Sign::Any,
+    };
+    // One message for a body is enough.
+    [mass, inertia].into_iter().chain(parts).all(|part| {
+        let span = node.name.span();
+        values.accept(part.clone(), &usage, span, report).is_some()
+    })
+}
+
+fn missing_joint(node: &Node, report: &mut Report) {
+    let link = node.name.to_string();
+    report.error(node.name.span(), Message::MissingJoint { link });
+}
+
+/// The pivot itself.
+fn origin() -> Offset {
+    Offset {
+        along: Quantity::zero(),
+        lateral: Quantity::zero(),
+    }
+}

@@ -1,0 +1,171 @@
+//! A scene as text, a line for each link, orbit, group and parameter.
+
+use std::fmt::{self, Display, Formatter};
+
+use super::{
+    CratePath, Group, Link, Offset, Orbit, Parameter, Requests, Requirement, Scene, Sign,
+    TransferRequest,
+};
+
+impl Display for Scene {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            name,
+            crate_path,
+            gravity,
+            links,
+            orbits,
+            groups,
+            parameters,
+            requirements,
+            requests,
+        } = self;
+        writeln!(f, "scene {name}")?;
+        writeln!(f, "crate {crate_path}")?;
+        writeln!(f, "gravity {} m/s²", gravity.display(parameters))?;
+        for Parameter { name, doc, sign } in parameters {
+            writeln!(f, "parameter {name}, {sign}: {doc}")?;
+        }
+        for Requirement {
+            what,
+            quantity,
+            sign,
+        } in requirements
+        {
+            writeln!(f, "require {} {sign}: {what}", quantity.display(parameters))?;
+        }
+        for link in links {
+            self.write_link(link, f)?;
+        }
+        for Orbit { name, depth, links } in orbits {
+            let links = self.names(links.iter().map(|link| link.0));
+            writeln!(f, "orbit {name}, depth {depth}: {links}")?;
+        }
+        for Group {
+            name,
+            parent,
+            copies,
+        } in groups
+        {
+            write!(f, "group {name}")?;
+            if let Some(parent) = parent {
+                write!(f, " on {}", self.names([parent.0]))?;
+            }
+            writeln!(f, ": {}", self.names(copies.iter().map(|copy| copy.0)))?;
+        }
+        writeln!(f, "requests {requests}")
+    }
+}
+
+impl Scene {
+    /// Writes a link and, indented, its properties.
+    fn write_link(&self, link: &Link, f: &mut Formatter<'_>) -> fmt::Result {
+        let Link {
+            name,
+            parent,
+            orbit: _,
+            mass,
+            inertia,
+            com,
+            pivot,
+            friction,
+        } = link;
+        let show = |Offset { along, lateral }: &Offset| {
+            let along = along.display(&self.parameters);
+            format!("({along}, {})", lateral.display(&self.parameters))
+        };
+        match parent {
+            Some(parent) => {
+                writeln!(
+                    f,
+                    "link {name} on {} at {} m",
+                    self.names([parent.0]),
+                    show(pivot)
+                )?;
+            }
+            None => writeln!(f, "link {name} on the ground")?,
+        }
+        writeln!(f, "    mass {} kg", mass.display(&self.parameters))?;
+        writeln!(f, "    inertia {} kg m²", inertia.display(&self.parameters))?;
+        writeln!(f, "    com {} m", show(com))?;
+        if let Some(friction) = friction {
+            writeln!(
+                f,
+                "    friction {} N m s",
+                friction.display(&self.parameters)
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The names of links.
+    fn names(&self, links: impl IntoIterator<Item = usize>) -> String {
+        let names: Vec<&str> = links
+            .into_iter()
+            .map(|link| self.links.get(link).map_or("?", |link| link.name.as_str()))
+            .collect();
+        names.join(", ")
+    }
+}
+
+impl Display for CratePath {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let start = if self.global { "::" } else { "" };
+        write!(f, "{start}{}", self.segments.join("::"))
+    }
+}
+
+impl Display for Sign {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Any => "any",
+            Self::NonNegative => "non-negative",
+            Self::Positive => "positive",
+        })
+    }
+}
+
+impl Display for Requests {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            energies,
+            momenta,
+            modes,
+            symmetric,
+            transfer,
+        } = self;
+        write!(f, "accelerations")?;
+        let named = [
+            (energies, "energies"),
+            (momenta, "momenta"),
+            (modes, "modes"),
+            (symmetric, "symmetric"),
+        ];
+        for (wanted, name) in named {
+            if *wanted {
+                write!(f, ", {name}")?;
+            }
+        }
+        match transfer {
+            Some(transfer) => write!(f, ", {transfer}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Display for TransferRequest {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            angle_order,
+            amplitude_order,
+            exact,
+        } = self;
+        let forms = [
+            angle_order.map(|order| format!("angle = {order}")),
+            amplitude_order.map(|order| format!("amplitude = {order}")),
+            exact.then(|| "exact".to_owned()),
+        ];
+        let forms: Vec<String> = forms.into_iter().flatten().collect();
+        write!(f, "transfer({})", forms.join(", "))
+    }
+}

@@ -1,0 +1,215 @@
+//! Expressions to quantities: exact arithmetic, parameters, conditions.
+
+use proc_macro2::{Ident, Span};
+
+use super::names::check_parameter;
+use super::{Parameter, ParameterId, Quantity, Requirement, Sign};
+use crate::description::{Expression, ExpressionKind};
+use crate::exact::{ExactError, Rational};
+use crate::report::{Message, Report};
+
+/// What a value is for.
+pub(super) struct Usage<'a> {
+    /// In words, as in "mass of `child`".
+    pub(super) what: String,
+    /// Its unit; empty for a pure number.
+    pub(super) unit: &'a str,
+    /// The condition on its sign.
+    pub(super) sign: Sign,
+}
+
+/// Parameters and conditions met so far.
+#[derive(Default)]
+pub(super) struct Values {
+    pub(super) parameters: Vec<Parameter>,
+    /// The first place of each parameter.
+    pub(super) spans: Vec<Span>,
+    pub(super) requirements: Vec<Requirement>,
+}
+
+impl Values {
+    /// The value of an expression; `None` after reporting what is wrong.
+    pub(super) fn evaluate(
+        &mut self,
+        expression: &Expression,
+        usage: &Usage<'_>,
+        report: &mut Report,
+    ) -> Option<Quantity> {
+        let value = match &expression.kind {
+            ExpressionKind::Name(name) => self.parameter(name, usage, true, report)?,
+            _ => self.operand(expression, usage, report)?,
+        };
+        self.accept(value, usage, expression.span, report)
+    }
+
+    /// Checks a value against what it is for: literals now, parameters by a
+    /// requirement for the model.
+    pub(super) fn accept(
+        &mut self,
+        value: Quantity,
+        usage: &Usage<'_>,
+        span: Span,
+        report: &mut Report,
+    ) -> Option<Quantity> {
+        if let Some(message) = unrepresentable(&value) {
+            report.error(span, message);
+            return None;
+        }
+        let Usage { what, sign, .. } = usage;
+        match &value {
+            Quantity::Exact(number) => {
+                if let Some(message) = violation(number, what, *sign) {
+                    report.error(span, message);
+                    return None;
+                }
+            }
+            _ => {
+                let known = self
+                    .requirements
+                    .iter()
+                    .any(|known| known.quantity == value && known.sign >= *sign);
+                if *sign != Sign::Any && !known {
+                    self.requirements.push(Requirement {
+                        what: what.clone(),
+                        quantity: value.clone(),
+                        sign: *sign,
+                    });
+                }
+            }
+        }
+        Some(value)
+    }
+
+    /// A part of an expression.
+    fn operand(
+        &mut self,
+        expression: &Expression,
+        usage: &Usage<'_>,
+        report: &mut Report,
+    ) -> Option<Quantity> {
+        let value = match &expression.kind {
+            ExpressionKind::Number(number) => Ok(Quantity::Exact(number.clone())),
+            ExpressionKind::Name(name) => return self.parameter(name, usage, false, report),
+            ExpressionKind::Sum(members) => {
+                Ok(Quantity::sum(self.operands(members, usage, report)?))
+            }
+            ExpressionKind::Product { factors, divisors } => {
+                let factors = self.operands(factors, usage, report);
+                let values = self.operands(divisors, usage, report);
+                let (factors, values) = (factors?, values?);
+                if let Some(at) = values.iter().position(Quantity::is_zero) {
+                    let span = divisors.get(at).map_or(expression.span, |zero| zero.span);
+                    report.error(span, Message::DivisionByZero);
+                    return None;
+                }
+                Quantity::product(factors).divided_by(Quantity::product(values))
+            }
+            ExpressionKind::Power(base, exponent) => {
+                self.operand(base, usage, report)?.power(*exponent)
+            }
+            ExpressionKind::Negative(value) => Ok(self.operand(value, usage, report)?.negative()),
+        };
+        match value {
+            Ok(Quantity::Exact(number)) if !number.is_short() => {
+                report.error(expression.span, Message::NumberLength);
+                None
+            }
+            Ok(value) => Some(value),
+            Err(error) => {
+                report.error(expression.span, message_for(error));
+                None
+            }
+        }
+    }
+
+    /// Parts of an expression, all of them looked at even if one is wrong.
+    fn operands(
+        &mut self,
+        expressions: &[Expression],
+        usage: &Usage<'_>,
+        report: &mut Report,
+    ) -> Option<Vec<Quantity>> {
+        let values: Vec<Option<Quantity>> = expressions
+            .iter()
+            .map(|expression| self.operand(expression, usage, report))
+            .collect();
+        values.into_iter().collect()
+    }
+
+    /// The parameter of a name. `alone` says that it is the whole value.
+    fn parameter(
+        &mut self,
+        name: &Ident,
+        usage: &Usage<'_>,
+        alone: bool,
+        report: &mut Report,
+    ) -> Option<Quantity> {
+        let text = name.to_string();
+        check_parameter(&text, name.span(), report)?;
+        let known = self.parameters.iter().position(|known| known.name == text);
+        let index = known.unwrap_or(self.parameters.len());
+        if known.is_none() {
+            self.spans.push(name.span());
+            self.parameters.push(Parameter {
+                name: text,
+                doc: String::new(),
+                sign: Sign::Any,
+            });
+        }
+        let role = match (alone, usage.unit) {
+            (false, _) => format!("part of the {}", usage.what),
+            (true, "") => usage.what.clone(),
+            (true, unit) => format!("{}, {unit}", usage.what),
+        };
+        if let Some(parameter) = self.parameters.get_mut(index) {
+            if !parameter.doc.split("; ").any(|known| known == role) {
+                if !parameter.doc.is_empty() {
+                    parameter.doc.push_str("; ");
+                }
+                parameter.doc.push_str(&role);
+            }
+            if alone {
+                parameter.sign = parameter.sign.max(usage.sign);
+            }
+        }
+        Some(Quantity::Parameter(ParameterId(index)))
+    }
+}
+
+/// The message for a failed operation on exact numbers.
+pub(super) fn message_for(error: ExactError) -> Message {
+    match error {
+        ExactError::DivisionByZero => Message::DivisionByZero,
+        ExactError::TooLong | ExactError::Malformed | ExactError::Exponent => Message::NumberLength,
+    }
+}
+
+/// What is wrong with a number that must have a sign.
+fn violation(number: &Rational, what: &str, sign: Sign) -> Option<Message> {
+    let (what, value) = (what.to_owned(), number.to_string());
+    match sign {
+        Sign::NonNegative if number.is_negative() => Some(Message::Negative { what, value }),
+        Sign::Positive if number.is_negative() || number.is_zero() => {
+            Some(Message::NotPositive { what, value })
+        }
+        _ => None,
+    }
+}
+
+/// What is wrong with a value whose numbers are too long to go on with or do not
+/// fit an `f64`: silently they would become zero or infinite.
+fn unrepresentable(value: &Quantity) -> Option<Message> {
+    let mut message = None;
+    value.for_each_leaf(&mut |leaf| {
+        let Quantity::Exact(number) = leaf else {
+            return;
+        };
+        let rounded = number.to_f64();
+        if !number.is_short() {
+            message = Some(Message::NumberLength);
+        } else if !rounded.is_finite() || (rounded == 0.0 && !number.is_zero()) {
+            message = Some(Message::NumberRange);
+        }
+    });
+    message
+}

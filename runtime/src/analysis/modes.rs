@@ -1,0 +1,276 @@
+//! Linear modes about an equilibrium.
+//!
+//! Small motions q obey M q̈ + K q = 0 with the mass matrix M and the stiffness
+//! matrix K of the equilibrium. Modes are the solutions of K x = λ M x; their
+//! frequencies are √λ / 2π. With M = L Lᵀ (Cholesky) they are the eigenvectors
+//! of the symmetric matrix L⁻¹ K L⁻ᵀ: G. H. Golub, C. F. Van Loan, *Matrix
+//! Computations*, 4th edition, Johns Hopkins 2013, section 8.7.
+
+use core::f64::consts::TAU;
+use core::fmt;
+
+use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
+
+/// The linear modes of a system, by ascending frequency.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Modes {
+    /// Frequencies in hertz, ascending.
+    pub frequencies_hz: Vec<f64>,
+    /// Shapes: `shapes[k][i]` is the part of coordinate i in mode k, in
+    /// kg^(-1/2) m^(-1). They are orthonormal with respect to the mass matrix
+    /// (xᵀ M x = 1), and their largest component is positive. Modes of equal
+    /// frequency span a space; which basis of it is returned is arbitrary.
+    pub shapes: Vec<Vec<f64>>,
+}
+
+impl Modes {
+    /// The modes of a system with mass matrix `mass` (kg m²) and stiffness
+    /// matrix `stiffness` (N m/rad), both given row by row.
+    ///
+    /// Eigenvalues that vanish to rounding count as zero: a coordinate without
+    /// stiffness gives a mode of 0 Hz. Effort and memory grow as n³ and n².
+    ///
+    /// # Errors
+    ///
+    /// [`ModesError`] if the matrices are empty, not square, of different size,
+    /// not finite or not symmetric, if the mass matrix is not positive definite
+    /// or if the stiffness is negative in some direction: the equilibrium is
+    /// then unstable and has no such frequency.
+    ///
+    /// # Examples
+    ///
+    /// Two equal pendulums of 1 Hz, coupled by a spring:
+    ///
+    /// ```
+    /// use branched_pendulum::analysis::Modes;
+    ///
+    /// let stiffness = (2.0 * std::f64::consts::PI).powi(2);
+    /// let spring = 0.1 * stiffness;
+    /// let modes = Modes::new(
+    ///     &[[1.0, 0.0], [0.0, 1.0]],
+    ///     &[[stiffness + spring, -spring], [-spring, stiffness + spring]],
+    /// )?;
+    /// assert!((modes.frequencies_hz[0] - 1.0).abs() < 1e-14);
+    /// assert!((modes.frequencies_hz[1] - 1.2_f64.sqrt()).abs() < 1e-14);
+    /// # Ok::<(), branched_pendulum::analysis::ModesError>(())
+    /// ```
+    pub fn new<R: AsRef<[f64]>>(mass: &[R], stiffness: &[R]) -> Result<Self, ModesError> {
+        let mass = symmetric_matrix("mass", mass)?;
+        let stiffness = symmetric_matrix("stiffness", stiffness)?;
+        if mass.nrows() != stiffness.nrows() {
+            return Err(ModesError::SizeMismatch {
+                mass: mass.nrows(),
+                stiffness: stiffness.nrows(),
+            });
+        }
+        let cholesky = Cholesky::new(mass).ok_or(ModesError::MassNotPositiveDefinite)?;
+        let lower = cholesky.l();
+        // L^-1 K L^-T = L^-1 (L^-1 K)^T, K being symmetric.
+        let reduced = lower
+            .solve_lower_triangular(&stiffness)
+            .and_then(|half| lower.solve_lower_triangular(&half.transpose()))
+            .ok_or(ModesError::MassNotPositiveDefinite)?;
+        let reduced = (&reduced + reduced.transpose()) * 0.5;
+        let largest = reduced.amax();
+        let eigen = SymmetricEigen::try_new(reduced, f64::EPSILON, MAX_SWEEPS)
+            .ok_or(ModesError::NoConvergence)?;
+        let shapes = lower
+            .tr_solve_lower_triangular(&eigen.eigenvectors)
+            .ok_or(ModesError::MassNotPositiveDefinite)?;
+
+        let n = eigen.eigenvalues.len();
+        let rounding = 8.0 * n as f64 * f64::EPSILON * largest;
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+        let mut modes = Self {
+            frequencies_hz: Vec::with_capacity(n),
+            shapes: Vec::with_capacity(n),
+        };
+        for index in order {
+            let eigenvalue = eigen.eigenvalues[index];
+            if eigenvalue < -rounding {
+                return Err(ModesError::NegativeStiffness { eigenvalue });
+            }
+            let squared = if eigenvalue <= rounding {
+                0.0
+            } else {
+                eigenvalue
+            };
+            modes.frequencies_hz.push(squared.sqrt() / TAU);
+            let shape = shapes.column(index);
+            let sign = if shape[shape.iamax()] < 0.0 {
+                -1.0
+            } else {
+                1.0
+            };
+            modes
+                .shapes
+                .push(shape.iter().map(|component| sign * component).collect());
+        }
+        Ok(modes)
+    }
+}
+
+/// Implicit QR needs two or three sweeps for an eigenvalue; this is for
+/// thousands of them.
+const MAX_SWEEPS: usize = 100_000;
+
+/// Relative asymmetry that rounding may leave in a computed matrix.
+const ASYMMETRY: f64 = 1e-12;
+
+fn symmetric_matrix<R: AsRef<[f64]>>(
+    matrix: &'static str,
+    rows: &[R],
+) -> Result<DMatrix<f64>, ModesError> {
+    let n = rows.len();
+    if n == 0 {
+        return Err(ModesError::Empty { matrix });
+    }
+    for (row, values) in rows.iter().enumerate() {
+        let columns = values.as_ref().len();
+        if columns != n {
+            return Err(ModesError::NotSquare {
+                matrix,
+                rows: n,
+                row,
+                columns,
+            });
+        }
+    }
+    let dense = DMatrix::from_fn(n, n, |row, column| rows[row].as_ref()[column]);
+    let scale = dense.amax();
+    for row in 0..n {
+        for column in 0..n {
+            let value = dense[(row, column)];
+            if !value.is_finite() {
+                return Err(ModesError::NotFinite {
+                    matrix,
+                    row,
+                    column,
+                    value,
+                });
+            }
+            if (value - dense[(column, row)]).abs() > ASYMMETRY * scale {
+                return Err(ModesError::NotSymmetric {
+                    matrix,
+                    row,
+                    column,
+                });
+            }
+        }
+    }
+    Ok(dense)
+}
+
+/// Why a system has no linear modes.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ModesError {
+    /// A matrix has no rows.
+    Empty {
+        /// `"mass"` or `"stiffness"`.
+        matrix: &'static str,
+    },
+    /// A row has not as many entries as the matrix has rows.
+    NotSquare {
+        /// `"mass"` or `"stiffness"`.
+        matrix: &'static str,
+        /// Number of rows.
+        rows: usize,
+        /// Index of the row.
+        row: usize,
+        /// Number of entries in that row.
+        columns: usize,
+    },
+    /// An entry is infinite or NaN.
+    NotFinite {
+        /// `"mass"` or `"stiffness"`.
+        matrix: &'static str,
+        /// Index of the row.
+        row: usize,
+        /// Index of the column.
+        column: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// An entry differs from its mirror image by more than rounding.
+    NotSymmetric {
+        /// `"mass"` or `"stiffness"`.
+        matrix: &'static str,
+        /// Index of the row.
+        row: usize,
+        /// Index of the column.
+        column: usize,
+    },
+    /// Mass and stiffness matrix differ in size.
+    SizeMismatch {
+        /// Rows of the mass matrix.
+        mass: usize,
+        /// Rows of the stiffness matrix.
+        stiffness: usize,
+    },
+    /// Some motion has no inertia.
+    MassNotPositiveDefinite,
+    /// The equilibrium is unstable.
+    NegativeStiffness {
+        /// The eigenvalue λ of K x = λ M x, in 1/s².
+        eigenvalue: f64,
+    },
+    /// The eigenvalue iteration did not converge.
+    NoConvergence,
+}
+
+impl fmt::Display for ModesError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty { matrix } => write!(f, "the {matrix} matrix has no rows"),
+            Self::NotSquare {
+                matrix,
+                rows,
+                row,
+                columns,
+            } => write!(
+                f,
+                "the {matrix} matrix is not square: {rows} rows, but {columns} entries in row {row}"
+            ),
+            Self::NotFinite {
+                matrix,
+                row,
+                column,
+                value,
+            } => {
+                write!(
+                    f,
+                    "entry ({row}, {column}) of the {matrix} matrix is {value}"
+                )
+            }
+            Self::NotSymmetric {
+                matrix,
+                row,
+                column,
+            } => {
+                write!(
+                    f,
+                    "the {matrix} matrix is not symmetric at ({row}, {column})"
+                )
+            }
+            Self::SizeMismatch { mass, stiffness } => write!(
+                f,
+                "the mass matrix has {mass} rows and the stiffness matrix {stiffness}"
+            ),
+            Self::MassNotPositiveDefinite => {
+                write!(
+                    f,
+                    "the mass matrix is not positive definite: some motion has no inertia"
+                )
+            }
+            Self::NegativeStiffness { eigenvalue } => write!(
+                f,
+                "the equilibrium is unstable: a squared angular frequency is {eigenvalue} 1/s^2"
+            ),
+            Self::NoConvergence => write!(f, "the eigenvalue iteration did not converge"),
+        }
+    }
+}
+
+impl core::error::Error for ModesError {}

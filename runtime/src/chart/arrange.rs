@@ -1,0 +1,288 @@
+use super::axis::{Scale, scales};
+use super::clip::Rect;
+use super::description::{Chart, Panel};
+use super::drawing::LARGEST_SIDE;
+use super::error::ChartError;
+use super::font::Font;
+use super::guides::{self, Guide};
+use super::label::{Label, widest};
+use super::legend::{self, Legend};
+use super::style::Style;
+use super::ticks::{Ticks, ticks};
+
+/// Font sizes and line heights, px.
+pub(super) const TITLE_SIZE: f64 = 16.0;
+pub(super) const TITLE_LINE: f64 = 21.0;
+pub(super) const LABEL_SIZE: f64 = 13.5;
+pub(super) const LABEL_LINE: f64 = 18.0;
+pub(super) const TICK_SIZE: f64 = 12.0;
+pub(super) const TICK_LINE: f64 = 16.0;
+/// Length of a tick, and space between it and its label.
+pub(super) const TICK: f64 = 5.0;
+pub(super) const TICK_GAP: f64 = 3.0;
+/// Space between the edge of the canvas and what it holds.
+pub(super) const EDGE: f64 = 12.0;
+/// Space between the label of an axis and its tick labels.
+pub(super) const LABEL_GAP: f64 = 7.0;
+/// Space between panels, and between panels and the legend below.
+const PANEL_GAP: f64 = 18.0;
+pub(super) const LEGEND_GAP: f64 = 10.0;
+
+const LEAST_SIZE: (f64, f64) = (320.0, 200.0);
+/// Least width and height of a panel that can be read.
+const LEAST_PANEL: (f64, f64) = (120.0, 100.0);
+
+/// Where everything stands.
+pub(super) struct Plan {
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) title: Vec<Label>,
+    pub(super) x: XAxis,
+    pub(super) panels: Vec<PanelPlan>,
+    pub(super) legend: Legend,
+}
+
+pub(super) struct XAxis {
+    pub(super) scale: Scale,
+    pub(super) ticks: Ticks,
+    pub(super) label: Vec<Label>,
+    /// What is common to the tick labels has a line of its own, since the
+    /// label of the axis leaves no room beside it.
+    pub(super) common_below: bool,
+}
+
+pub(super) struct PanelPlan {
+    pub(super) frame: Rect,
+    pub(super) scale: Scale,
+    pub(super) ticks: Ticks,
+    pub(super) label: Vec<Label>,
+    pub(super) guides: Vec<Guide>,
+    pub(super) styles: Vec<Style>,
+}
+
+/// Finds the place of everything.
+pub(super) fn arrange(chart: &Chart, font: &Font) -> Result<Plan, ChartError> {
+    let sides = [(chart.width, LEAST_SIZE.0), (chart.height, LEAST_SIZE.1)];
+    let usable = |(side, least)| side >= least && side <= LARGEST_SIDE;
+    if !sides.into_iter().all(usable) {
+        return Err(ChartError::Size {
+            width: chart.width,
+            height: chart.height,
+            scale: chart.scale,
+        });
+    }
+    let (x, y) = scales(chart)?;
+    let sketch = Sketch {
+        chart,
+        font,
+        x,
+        y: &y,
+        styles: legend::styles(chart),
+    };
+    // Ticks, wrapped labels and legend depend on the height of the panels,
+    // which depends on the room they take: estimate, then correct once.
+    let estimate = chart.height / y.len() as f64;
+    let first = sketch.plan(&vec![estimate; y.len()])?;
+    let heights = first.panels.iter().map(|p| p.frame.height());
+    sketch.plan(&heights.collect::<Vec<_>>())
+}
+
+struct Sketch<'a> {
+    chart: &'a Chart,
+    font: &'a Font,
+    x: Scale,
+    y: &'a [Scale],
+    styles: Vec<Vec<Style>>,
+}
+
+impl Sketch<'_> {
+    /// The plan whose parts are chosen for panels as high as `heights`.
+    fn plan(&self, heights: &[f64]) -> Result<Plan, ChartError> {
+        let Self { chart, font, .. } = *self;
+        let inner = chart.width - 2.0 * EDGE;
+        let title = Label::parse(&chart.title).wrap(font, TITLE_SIZE, inner);
+        let legend = Legend::plan(chart, &self.styles, font, inner, heights);
+
+        let y_ticks: Vec<Ticks> = self
+            .y
+            .iter()
+            .zip(heights)
+            .map(|(scale, height)| ticks(scale, most(*height, 42.0)))
+            .collect();
+        let y_labels = self.y_labels(heights);
+        let left = self.left(&y_ticks, &y_labels);
+        let right = chart.width - EDGE - legend.side_width();
+        let (ticks, right) = self.x_ticks(left, right);
+        let room = right - left;
+        if room < LEAST_PANEL.0 {
+            return Err(ChartError::NoRoom {
+                width: chart.width,
+                left: room,
+            });
+        }
+        let x = self.x_axis(ticks, room);
+
+        let mut top = EDGE + title.len() as f64 * TITLE_LINE;
+        let across = Rect {
+            left,
+            right,
+            top: 0.0,
+            bottom: 0.0,
+        };
+        let strips: Vec<(Vec<Guide>, f64)> = chart
+            .panels
+            .iter()
+            .zip(&y_ticks)
+            .map(|(panel, ticks)| self.strip(panel, ticks, &across))
+            .collect();
+        let bottom = x.height() + self.legend_height(&legend, inner) + EDGE;
+        let taken: f64 = strips.iter().map(|(_, height)| height).sum();
+        let gaps = PANEL_GAP * (strips.len() as f64 - 1.0);
+        let free = chart.height - top - bottom - taken - gaps;
+        let height = (free / strips.len() as f64).max(LEAST_PANEL.1);
+
+        let mut panels = Vec::new();
+        let parts = strips.into_iter().zip(y_ticks).zip(y_labels);
+        let axes = self.y.iter().zip(&self.styles);
+        for ((((guides, strip), ticks), label), (scale, styles)) in parts.zip(axes) {
+            let frame = Rect {
+                left,
+                right,
+                top: top + strip,
+                bottom: top + strip + height,
+            };
+            top = frame.bottom + PANEL_GAP;
+            panels.push(PanelPlan {
+                frame,
+                scale: *scale,
+                ticks,
+                label,
+                guides,
+                styles: styles.clone(),
+            });
+        }
+        Ok(Plan {
+            width: chart.width,
+            height: top - PANEL_GAP + bottom,
+            title,
+            x,
+            panels,
+            legend,
+        })
+    }
+
+    fn y_labels(&self, heights: &[f64]) -> Vec<Vec<Label>> {
+        let panels = self.chart.panels.iter().zip(heights);
+        let wrap = |label: &str, height: f64| {
+            Label::parse(label).wrap(self.font, LABEL_SIZE, height.max(LEAST_PANEL.1))
+        };
+        panels
+            .map(|(p, height)| wrap(&p.y.label, *height))
+            .collect()
+    }
+
+    /// Left edge of the panels: the widest labels and tick labels stand left
+    /// of it.
+    fn left(&self, ticks: &[Ticks], labels: &[Vec<Label>]) -> f64 {
+        let lines = labels.iter().map(Vec::len).max().unwrap_or(0) as f64;
+        let gap = if lines > 0.0 { LABEL_GAP } else { 0.0 };
+        let labels = ticks.iter().flat_map(tick_labels);
+        let widest = widest(&labels.collect::<Vec<_>>(), self.font, TICK_SIZE);
+        EDGE + lines * LABEL_LINE + gap + widest + TICK + TICK_GAP
+    }
+
+    /// Ticks of the x axis, as many as fit, and the right edge of the panels,
+    /// moved in where the last label would leave the canvas.
+    fn x_ticks(&self, left: f64, right: f64) -> (Ticks, f64) {
+        let wide = fitting(&self.x, right - left, self.font);
+        let half = widest(&tick_labels(&wide), self.font, TICK_SIZE) / 2.0;
+        let right = right.min(self.chart.width - half - 4.0);
+        (fitting(&self.x, right - left, self.font), right)
+    }
+
+    fn x_axis(&self, ticks: Ticks, room: f64) -> XAxis {
+        let label = Label::parse(&self.chart.x.label);
+        let common = ticks.common.as_deref().map_or(0.0, |common| {
+            Label::parse(common).width(self.font, TICK_SIZE)
+        });
+        let beside = label.width(self.font, LABEL_SIZE) / 2.0 + common + 12.0;
+        XAxis {
+            scale: self.x,
+            label: label.wrap(self.font, LABEL_SIZE, room),
+            common_below: common > 0.0 && beside > room / 2.0,
+            ticks,
+        }
+    }
+
+    /// Labels above a panel: marker lines and what is common to the tick
+    /// labels. Returns the height they take as well.
+    fn strip(&self, panel: &Panel, ticks: &Ticks, across: &Rect) -> (Vec<Guide>, f64) {
+        let reserved = ticks.common.as_deref().map_or(0.0, |common| {
+            Label::parse(common).width(self.font, TICK_SIZE)
+        });
+        let (guides, rows) = guides::place(panel, &self.x, across, self.font, reserved);
+        let space = if rows > 0 { 10.0 } else { 6.0 };
+        (guides, rows as f64 * guides::LINE + space)
+    }
+
+    fn legend_height(&self, legend: &Legend, inner: f64) -> f64 {
+        let rows = legend.rows(inner);
+        let height: f64 = rows.iter().map(|row| legend::row_height(row)).sum();
+        if rows.is_empty() {
+            0.0
+        } else {
+            height + LEGEND_GAP
+        }
+    }
+}
+
+impl XAxis {
+    /// Height of ticks, tick labels and label below the last panel.
+    pub(super) fn height(&self) -> f64 {
+        let common = if self.common_below { TICK_LINE } else { 0.0 };
+        // What is common to the tick labels stands in the label's first line.
+        let lines = self
+            .label
+            .len()
+            .max(usize::from(self.ticks.common.is_some()));
+        let ticks = TICK + TICK_GAP + TICK_LINE;
+        ticks + common + lines as f64 * LABEL_LINE + LABEL_GAP
+    }
+}
+
+pub(super) fn tick_labels(ticks: &Ticks) -> Vec<Label> {
+    let labels = ticks.major.iter();
+    labels.map(|tick| Label::parse(&tick.label)).collect()
+}
+
+/// How many ticks an axis of this length has room for, `apart` px each.
+fn most(length: f64, apart: f64) -> usize {
+    ((length / apart) as usize).clamp(5, 40)
+}
+
+/// The most ticks along `length` px whose labels do not touch.
+fn fitting(scale: &Scale, length: f64, font: &Font) -> Ticks {
+    let mut most = most(length, 60.0);
+    loop {
+        let candidate = ticks(scale, most);
+        if most <= 2 || apart(&candidate, scale, length, font) {
+            return candidate;
+        }
+        most -= 1;
+    }
+}
+
+fn apart(ticks: &Ticks, scale: &Scale, length: f64, font: &Font) -> bool {
+    let mut end = f64::NEG_INFINITY;
+    ticks
+        .major
+        .iter()
+        .zip(tick_labels(ticks))
+        .all(|(tick, label)| {
+            let middle = scale.place(tick.at) * length;
+            let half = label.width(font, TICK_SIZE) / 2.0;
+            let clear = middle - half >= end + 10.0;
+            end = middle + half;
+            clear
+        })
+}

@@ -1,0 +1,205 @@
+use super::description::{Axis, Chart, Panel, Series};
+use super::error::ChartError;
+use super::ticks::rounded_outwards;
+
+/// The part of an axis that is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Scale {
+    pub(super) log: bool,
+    /// Ends as coordinates: values, or their logarithms to base 10.
+    pub(super) low: f64,
+    pub(super) high: f64,
+}
+
+/// Spans of linear axes for which ticks can be computed without overflow.
+const SPANS: std::ops::RangeInclusive<f64> = 1e-290..=1e290;
+/// Spans of linear axes, relative to the larger end, whose ticks f64 resolves.
+const RESOLVED: f64 = 1e-13;
+/// Margin of an axis, relative to its span.
+const MARGIN: f64 = 0.05;
+
+impl Scale {
+    /// A linear scale, if its span can be divided.
+    pub(super) fn linear(low: f64, high: f64) -> Option<Self> {
+        let log = false;
+        let resolved = high - low > RESOLVED * low.abs().max(high.abs());
+        (resolved && SPANS.contains(&(high - low))).then_some(Self { log, low, high })
+    }
+
+    /// Place of a value between the ends, 0 to 1 inside; `None` where the axis
+    /// has no such value.
+    pub(super) fn fraction(&self, value: f64) -> Option<f64> {
+        if !drawable(self.log, value) {
+            return None;
+        }
+        Some(self.place(if self.log { value.log10() } else { value }))
+    }
+
+    /// Place of a coordinate between the ends.
+    pub(super) fn place(&self, coordinate: f64) -> f64 {
+        (coordinate - self.low) / (self.high - self.low)
+    }
+
+    /// The scale of `axis` that shows `low` to `high`, or what the axis asks
+    /// for. `margin` is relative to the span.
+    fn showing(axis: &Axis, (low, high): (f64, f64), margin: f64) -> Result<Self, ChartError> {
+        let given = axis.range.is_some();
+        let (low, high) = axis.range.unwrap_or((low, high));
+        let error = || ChartError::Range {
+            axis: axis.label.clone(),
+            low,
+            high,
+        };
+        let valid = drawable(axis.log, low) && drawable(axis.log, high);
+        if !valid || (given && low >= high) {
+            return Err(error());
+        }
+        let (mut from, mut to) = match axis.log {
+            true => (low.log10(), high.log10()),
+            false => (low, high),
+        };
+        if !given {
+            let pad = padding(axis.log, from, to, margin);
+            (from, to) = (from - pad, to + pad);
+            if margin == 0.0 && !axis.log && Self::linear(from, to).is_some() {
+                (from, to) = rounded_outwards(from, to);
+            }
+        }
+        if axis.log {
+            // Ends as close as this are neighbouring floating-point numbers.
+            let distinct = to - from > 1e-12;
+            let scale = Self {
+                log: true,
+                low: from,
+                high: to,
+            };
+            return distinct.then_some(scale).ok_or_else(error);
+        }
+        Self::linear(from, to).ok_or_else(error)
+    }
+}
+
+/// How far an axis reaches beyond the data. Data that are constant, as far as
+/// ticks could tell, stand in the middle of an axis of a tenth of their
+/// magnitude, of -1 to 1, or of one decade.
+fn padding(log: bool, from: f64, to: f64, margin: f64) -> f64 {
+    let magnitude = from.abs().max(to.abs());
+    if to - from > RESOLVED * magnitude {
+        (to - from) * margin
+    } else if log {
+        0.5
+    } else if magnitude == 0.0 {
+        1.0
+    } else {
+        magnitude * MARGIN
+    }
+}
+
+/// Whether an axis has such a value.
+pub(super) fn drawable(log: bool, value: f64) -> bool {
+    value.is_finite() && (!log || value > 0.0)
+}
+
+/// The scale of the x axis and those of the panels' y axes.
+pub(super) fn scales(chart: &Chart) -> Result<(Scale, Vec<Scale>), ChartError> {
+    if chart.panels.is_empty() {
+        return Err(ChartError::Empty { panel: None });
+    }
+    let mut x_extent = Extent::default();
+    let mut any_symbols = false;
+    for (index, panel) in chart.panels.iter().enumerate() {
+        check(chart, panel, index)?;
+        for series in &panel.series {
+            any_symbols |= series.symbols;
+            samples(series, chart.x.log, panel.y.log).for_each(|(x, _)| x_extent.add(x));
+        }
+        panel.verticals.iter().for_each(|(x, _)| x_extent.add(*x));
+    }
+    // Lines may touch the frame; symbols would be cut in half.
+    let x_margin = if any_symbols { 0.6 * MARGIN } else { 0.0 };
+    let x = Scale::showing(&chart.x, x_extent.ends(), x_margin)?;
+    let y = chart.panels.iter().map(|panel| y_scale(chart, panel, &x));
+    Ok((x, y.collect::<Result<_, _>>()?))
+}
+
+/// The y axis spans the samples in view; all of them where none is in view.
+fn y_scale(chart: &Chart, panel: &Panel, x: &Scale) -> Result<Scale, ChartError> {
+    let mut extents = [Extent::default(), Extent::default()];
+    for series in &panel.series {
+        for (at, y) in samples(series, chart.x.log, panel.y.log) {
+            let place = x.fraction(at).unwrap_or(f64::NAN);
+            extents[0].add(y);
+            if (-1e-9..=1.0 + 1e-9).contains(&place) {
+                extents[1].add(y);
+            }
+        }
+    }
+    let [all, view] = extents;
+    let mut extent = if view.any() { view } else { all };
+    if panel.zero_line {
+        extent.add(0.0);
+    }
+    Scale::showing(&panel.y, extent.ends(), MARGIN)
+}
+
+fn check(chart: &Chart, panel: &Panel, index: usize) -> Result<(), ChartError> {
+    if panel.series.is_empty() {
+        return Err(ChartError::Empty { panel: Some(index) });
+    }
+    for series in &panel.series {
+        if series.x.len() != series.y.len() {
+            return Err(ChartError::LengthMismatch {
+                series: series.label.clone(),
+                x: series.x.len(),
+                y: series.y.len(),
+            });
+        }
+        if samples(series, chart.x.log, panel.y.log).next().is_none() {
+            return Err(ChartError::NothingToDraw {
+                series: series.label.clone(),
+                samples: series.x.len(),
+            });
+        }
+    }
+    for (value, label) in &panel.verticals {
+        if !drawable(chart.x.log, *value) {
+            return Err(ChartError::MarkerLine {
+                label: label.clone(),
+                value: *value,
+            });
+        }
+    }
+    if panel.zero_line && panel.y.log {
+        return Err(ChartError::MarkerLine {
+            label: panel.y.label.clone(),
+            value: 0.0,
+        });
+    }
+    Ok(())
+}
+
+/// The samples that the axes can show.
+fn samples(series: &Series, x_log: bool, y_log: bool) -> impl Iterator<Item = (f64, f64)> {
+    let pairs = series.x.iter().copied().zip(series.y.iter().copied());
+    pairs.filter(move |(x, y)| drawable(x_log, *x) && drawable(y_log, *y))
+}
+
+/// Least and largest of some values.
+#[derive(Clone, Copy, Default)]
+struct Extent(Option<(f64, f64)>);
+
+impl Extent {
+    fn add(&mut self, value: f64) {
+        let (low, high) = self.0.unwrap_or((value, value));
+        self.0 = Some((low.min(value), high.max(value)));
+    }
+
+    fn any(&self) -> bool {
+        self.0.is_some()
+    }
+
+    /// The ends; not numbers, which no axis accepts, where there is no value.
+    fn ends(&self) -> (f64, f64) {
+        self.0.unwrap_or((f64::NAN, f64::NAN))
+    }
+}

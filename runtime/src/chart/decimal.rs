@@ -1,0 +1,55 @@
+/// Whether `digits` times ten to the power `exponent`, with its leading digit
+/// in the decade `leading`, reads better written out than with a power of ten.
+pub(super) const fn reads_plain(leading: i32) -> bool {
+    -3 <= leading && leading <= 4
+}
+
+/// The decade of the leading digit of `digits` x 10^`exponent`; that of the
+/// unit for zero.
+pub(super) fn leading_decade(digits: i64, exponent: i32) -> i32 {
+    match digits.unsigned_abs().checked_ilog10() {
+        Some(log) => exponent + log as i32,
+        None => 0,
+    }
+}
+
+/// `digits` x 10^`exponent` written out, exactly, with a proper minus sign.
+/// Zero is `0`, whatever its exponent.
+pub(super) fn plain(digits: i64, exponent: i32) -> String {
+    if digits == 0 {
+        return "0".into();
+    }
+    let sign = if digits < 0 { "−" } else { "" };
+    let text = digits.unsigned_abs().to_string();
+    if exponent >= 0 {
+        let zeros = "0".repeat(exponent.unsigned_abs() as usize);
+        return format!("{sign}{text}{zeros}");
+    }
+    let decimals = exponent.unsigned_abs() as usize;
+    let padded = format!("{text:0>width$}", width = decimals + 1);
+    let (whole, fraction) = padded.split_at(padded.len() - decimals);
+    format!("{sign}{whole}.{fraction}")
+}
+
+/// The power of ten as label markup.
+pub(super) fn power(exponent: i32) -> String {
+    format!("10^{{{}}}", plain(i64::from(exponent), 0))
+}
+
+/// `digits` x 10^`exponent` as label markup: written out where it reads well,
+/// with a power of ten otherwise.
+pub(super) fn number(mut digits: i64, mut exponent: i32) -> String {
+    while digits != 0 && digits % 10 == 0 {
+        digits /= 10;
+        exponent += 1;
+    }
+    let leading = leading_decade(digits, exponent);
+    if reads_plain(leading) {
+        return plain(digits, exponent);
+    }
+    if digits == 1 {
+        return power(leading);
+    }
+    let mantissa = plain(digits, exponent - leading);
+    format!("{mantissa}×{}", power(leading))
+}

@@ -1,0 +1,247 @@
+use std::fs;
+use std::path::Path;
+
+use super::arrange;
+use super::compose;
+use super::error::ChartError;
+use super::font::Font;
+use super::style::{Color, Dash, Symbol};
+use super::{png, svg};
+
+/// Description of a chart: plain data until it is rendered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    pub(super) title: String,
+    pub(super) x: Axis,
+    pub(super) panels: Vec<Panel>,
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) scale: f64,
+}
+
+/// An axis: its label, its kind and, where given, its range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    pub(super) label: String,
+    pub(super) log: bool,
+    pub(super) range: Option<(f64, f64)>,
+}
+
+/// One set of axes of a chart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    pub(super) y: Axis,
+    pub(super) series: Vec<Series>,
+    pub(super) verticals: Vec<(f64, String)>,
+    pub(super) zero_line: bool,
+}
+
+/// Samples drawn as a line, as symbols, or as both.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    pub(super) label: String,
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    pub(super) joined: bool,
+    pub(super) symbols: bool,
+    pub(super) color: Option<Color>,
+    pub(super) dash: Option<Dash>,
+    pub(super) symbol: Option<Symbol>,
+}
+
+impl Axis {
+    /// A linear axis. The label names quantity and unit: `t (s)`.
+    pub fn linear(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            log: false,
+            range: None,
+        }
+    }
+
+    /// A logarithmic axis, base 10.
+    pub fn log(label: impl Into<String>) -> Self {
+        Self {
+            log: true,
+            ..Self::linear(label)
+        }
+    }
+
+    /// Shows exactly `low` to `high`; what lies outside is cut off. Without a
+    /// range the axis spans the samples in view, with a small margin.
+    pub fn range(mut self, low: f64, high: f64) -> Self {
+        self.range = Some((low, high));
+        self
+    }
+}
+
+impl Series {
+    /// Samples `(x[i], y[i])`, joined by a line in their order. Series of equal
+    /// label share one style and one legend entry; an empty label has none.
+    pub fn line(label: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
+        Self {
+            label: label.into(),
+            x: x.to_vec(),
+            y: y.to_vec(),
+            joined: true,
+            symbols: false,
+            color: None,
+            dash: None,
+            symbol: None,
+        }
+    }
+
+    /// Samples `(x[i], y[i])`, each a symbol, not joined.
+    pub fn points(label: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
+        Self {
+            joined: false,
+            symbols: true,
+            ..Self::line(label, x, y)
+        }
+    }
+
+    /// Adds a symbol at each sample of a line.
+    pub fn with_symbols(mut self) -> Self {
+        self.symbols = true;
+        self
+    }
+
+    /// Draws in this colour instead of the next free one.
+    pub fn color(mut self, color: Color) -> Self {
+        self.color = Some(color);
+        self
+    }
+
+    /// Draws the line with this dash instead of the next free one.
+    pub fn dash(mut self, dash: Dash) -> Self {
+        self.dash = Some(dash);
+        self
+    }
+
+    /// Draws each sample as this symbol.
+    pub fn symbol(mut self, symbol: Symbol) -> Self {
+        self.symbols = true;
+        self.symbol = Some(symbol);
+        self
+    }
+}
+
+impl Panel {
+    /// A panel without series.
+    pub fn new(y: Axis) -> Self {
+        Self {
+            y,
+            series: Vec::new(),
+            verticals: Vec::new(),
+            zero_line: false,
+        }
+    }
+
+    /// Adds a series.
+    pub fn series(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// Adds [`Series::line`].
+    pub fn line(self, label: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
+        self.series(Series::line(label, x, y))
+    }
+
+    /// Adds [`Series::points`].
+    pub fn points(self, label: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
+        self.series(Series::points(label, x, y))
+    }
+
+    /// Adds a vertical marker line at `x`, its label above the panel. The x
+    /// axis extends to it, unless its range is given: then a line outside the
+    /// range is left out.
+    pub fn vertical(mut self, x: f64, label: impl Into<String>) -> Self {
+        self.verticals.push((x, label.into()));
+        self
+    }
+
+    /// Adds a horizontal line at y = 0. The y axis extends to it, unless its
+    /// range is given: then a line outside the range is left out. On a
+    /// logarithmic axis it is [`ChartError::MarkerLine`].
+    pub fn zero_line(mut self) -> Self {
+        self.zero_line = true;
+        self
+    }
+}
+
+impl Chart {
+    /// A chart of 900 x 560 px without panels, whose PNG has 2 pixels per px.
+    pub fn new(title: impl Into<String>, x: Axis) -> Self {
+        Self {
+            title: title.into(),
+            x,
+            panels: Vec::new(),
+            width: 900.0,
+            height: 560.0,
+            scale: 2.0,
+        }
+    }
+
+    /// Adds a panel below those already there.
+    pub fn panel(mut self, panel: Panel) -> Self {
+        self.panels.push(panel);
+        self
+    }
+
+    /// Width and least height in px, at least 320 x 200.
+    pub fn size(mut self, width: f64, height: f64) -> Self {
+        self.width = width;
+        self.height = height;
+        self
+    }
+
+    /// Pixels of the PNG per px.
+    pub fn scale(mut self, scale: f64) -> Self {
+        self.scale = scale;
+        self
+    }
+
+    /// Renders to a self-contained SVG document.
+    ///
+    /// # Errors
+    /// Every variant of [`ChartError`] but `Encode` and `Io`.
+    pub fn to_svg(&self) -> Result<String, ChartError> {
+        let font = Font::embedded()?;
+        let drawing = compose::draw(self, &arrange::arrange(self, &font)?);
+        Ok(svg::document(&drawing))
+    }
+
+    /// Renders to the bytes of a PNG file of `scale` pixels per px, RGBA.
+    ///
+    /// # Errors
+    /// Every variant of [`ChartError`] but `Io`.
+    pub fn to_png(&self) -> Result<Vec<u8>, ChartError> {
+        let font = Font::embedded()?;
+        let drawing = compose::draw(self, &arrange::arrange(self, &font)?);
+        png::encode(&drawing, &font, self.scale)
+    }
+
+    /// Writes [`Chart::to_svg`] to a file, replacing what was there.
+    ///
+    /// # Errors
+    /// As [`Chart::to_svg`], and [`ChartError::Io`].
+    pub fn write_svg(&self, path: impl AsRef<Path>) -> Result<(), ChartError> {
+        write(path.as_ref(), self.to_svg()?.as_bytes())
+    }
+
+    /// Writes [`Chart::to_png`] to a file, replacing what was there.
+    ///
+    /// # Errors
+    /// As [`Chart::to_png`], and [`ChartError::Io`].
+    pub fn write_png(&self, path: impl AsRef<Path>) -> Result<(), ChartError> {
+        write(path.as_ref(), &self.to_png()?)
+    }
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), ChartError> {
+    fs::write(path, bytes).map_err(|source| ChartError::Io {
+        path: path.to_path_buf(),
+        source,
+    })
+}

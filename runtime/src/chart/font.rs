@@ -1,0 +1,136 @@
+use ttf_parser::{Face, GlyphId, OutlineBuilder};
+
+use super::error::ChartError;
+
+const DATA: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
+
+/// The embedded font: metrics for the layout, outlines for the PNG.
+pub(super) struct Font {
+    face: Face<'static>,
+    units_per_em: f64,
+}
+
+impl Font {
+    /// Height of capitals above the baseline, in em.
+    pub(super) const CAP: f64 = 0.73;
+
+    pub(super) fn embedded() -> Result<Self, ChartError> {
+        let face = Face::parse(DATA, 0).map_err(|_| ChartError::Font)?;
+        let units_per_em = f64::from(face.units_per_em());
+        Ok(Self { face, units_per_em })
+    }
+
+    /// Width in em by which a character moves the pen.
+    pub(super) fn advance(&self, character: char) -> f64 {
+        let units = self.face.glyph_hor_advance(self.glyph(character));
+        f64::from(units.unwrap_or(0)) / self.units_per_em
+    }
+
+    /// Outlines of `text`, the pen at `(x, y)` (px, y down).
+    pub(super) fn outline(
+        &self,
+        text: &str,
+        (mut x, y): (f64, f64),
+        size: f64,
+        sink: &mut impl Outline,
+    ) {
+        let scale = size / self.units_per_em;
+        let mut base: Option<(GlyphId, f64)> = None;
+        for character in text.chars() {
+            let glyph = self.glyph(character);
+            let (dx, dy) = match base {
+                Some((base, pen)) if is_combining(character) => {
+                    let (dx, dy) = self.accent_shift(base, glyph);
+                    (pen - x + dx * scale, dy * scale)
+                }
+                _ => (0.0, 0.0),
+            };
+            let mut pen = Pen {
+                origin: (x + dx, y - dy),
+                scale,
+                sink: &mut *sink,
+            };
+            // `None` stands for a glyph without outline, such as a space.
+            let _ = self.face.outline_glyph(glyph, &mut pen);
+            if !is_combining(character) {
+                base = Some((glyph, x));
+            }
+            x += self.advance(character) * size;
+        }
+    }
+
+    /// Shift, in font units and relative to the pen before the base, that
+    /// centres an accent over its base and lifts it clear of a tall one: the
+    /// dot of a velocity would else lie on the theta.
+    fn accent_shift(&self, base: GlyphId, accent: GlyphId) -> (f64, f64) {
+        let boxes = self
+            .face
+            .glyph_bounding_box(base)
+            .zip(self.face.glyph_bounding_box(accent));
+        let Some((base, accent)) = boxes else {
+            return (0.0, 0.0);
+        };
+        let centre = |b: ttf_parser::Rect| f64::from(b.x_min + b.x_max) / 2.0;
+        let clear = f64::from(base.y_max) + 0.06 * self.units_per_em;
+        let lift = (clear - f64::from(accent.y_min)).max(0.0);
+        (centre(base) - centre(accent), lift)
+    }
+
+    fn glyph(&self, character: char) -> GlyphId {
+        self.face.glyph_index(character).unwrap_or_default()
+    }
+}
+
+fn is_combining(character: char) -> bool {
+    ('\u{300}'..='\u{36f}').contains(&character)
+}
+
+/// What takes outlines, in px with y down.
+pub(super) trait Outline {
+    fn move_to(&mut self, x: f32, y: f32);
+    fn line_to(&mut self, x: f32, y: f32);
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32);
+    fn cubic_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32);
+    fn close(&mut self);
+}
+
+/// Takes font units, y up, to px, y down.
+struct Pen<'a, S> {
+    origin: (f64, f64),
+    scale: f64,
+    sink: &'a mut S,
+}
+
+impl<S> Pen<'_, S> {
+    fn at(&self, x: f32, y: f32) -> (f32, f32) {
+        (
+            (self.origin.0 + f64::from(x) * self.scale) as f32,
+            (self.origin.1 - f64::from(y) * self.scale) as f32,
+        )
+    }
+}
+
+impl<S: Outline> OutlineBuilder for Pen<'_, S> {
+    fn move_to(&mut self, x: f32, y: f32) {
+        let (x, y) = self.at(x, y);
+        self.sink.move_to(x, y);
+    }
+    fn line_to(&mut self, x: f32, y: f32) {
+        let (x, y) = self.at(x, y);
+        self.sink.line_to(x, y);
+    }
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        let (x1, y1) = self.at(x1, y1);
+        let (x, y) = self.at(x, y);
+        self.sink.quad_to(x1, y1, x, y);
+    }
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        let (x1, y1) = self.at(x1, y1);
+        let (x2, y2) = self.at(x2, y2);
+        let (x, y) = self.at(x, y);
+        self.sink.cubic_to(x1, y1, x2, y2, x, y);
+    }
+    fn close(&mut self) {
+        self.sink.close();
+    }
+}

@@ -1,0 +1,157 @@
+use super::description::{Chart, Series};
+use super::font::Font;
+use super::label::{Label, widest};
+use super::style::{Dash, Style, automatic};
+
+/// Font size, line height, and sizes of the sample in front of the text, px.
+pub(super) const SIZE: f64 = 12.5;
+pub(super) const LINE: f64 = 16.0;
+pub(super) const SAMPLE: f64 = 30.0;
+pub(super) const GAP: f64 = 7.0;
+/// Space between entries, vertically and horizontally.
+pub(super) const ROW_GAP: f64 = 4.0;
+pub(super) const COLUMN_GAP: f64 = 22.0;
+/// Space between a panel and the legend at its right.
+pub(super) const SIDE_GAP: f64 = 14.0;
+
+/// Part of the chart's width that a legend at the right may take.
+const WIDEST_SIDE: f64 = 0.3;
+
+/// The explanation of the series, with its place.
+pub(super) struct Legend {
+    /// Entries for each panel at whose right they stand. Below, the only list.
+    pub(super) lists: Vec<Vec<Entry>>,
+    pub(super) below: bool,
+    /// Width of the widest entry.
+    pub(super) cell: f64,
+}
+
+pub(super) struct Entry {
+    pub(super) style: Style,
+    pub(super) lines: Vec<Label>,
+}
+
+impl Entry {
+    pub(super) fn height(&self) -> f64 {
+        self.lines.len() as f64 * LINE + ROW_GAP
+    }
+}
+
+impl Legend {
+    /// The legend of panels as high as `heights`: at the right if it is narrow
+    /// enough and no panel's entries are higher than the panel, else below.
+    pub(super) fn plan(
+        chart: &Chart,
+        styles: &[Vec<Style>],
+        font: &Font,
+        width: f64,
+        heights: &[f64],
+    ) -> Self {
+        let at_right = Self::with_text_width(chart, styles, font, f64::INFINITY);
+        let fits =
+            at_right.lists.iter().zip(heights).all(|(list, height)| {
+                list.iter().map(Entry::height).sum::<f64>() <= *height + ROW_GAP
+            });
+        if fits && at_right.cell <= WIDEST_SIDE * chart.width {
+            return at_right;
+        }
+        let text_width = width - SAMPLE - GAP;
+        let below = Self::with_text_width(chart, styles, font, text_width);
+        Self {
+            lists: vec![below.lists.into_iter().flatten().collect()],
+            below: true,
+            cell: below.cell,
+        }
+    }
+
+    /// One entry for each distinct label, in the first panel that has it.
+    fn with_text_width(chart: &Chart, styles: &[Vec<Style>], font: &Font, text_width: f64) -> Self {
+        let mut seen: Vec<&str> = vec![""];
+        let mut lists = Vec::new();
+        let mut cell: f64 = 0.0;
+        for (panel, styles) in chart.panels.iter().zip(styles) {
+            let mut list = Vec::new();
+            for (series, style) in panel.series.iter().zip(styles) {
+                if seen.contains(&series.label.as_str()) {
+                    continue;
+                }
+                seen.push(&series.label);
+                let lines = Label::parse(&series.label).wrap(font, SIZE, text_width);
+                cell = cell.max(SAMPLE + GAP + widest(&lines, font, SIZE));
+                list.push(Entry {
+                    style: *style,
+                    lines,
+                });
+            }
+            lists.push(list);
+        }
+        Self {
+            lists,
+            below: false,
+            cell,
+        }
+    }
+
+    /// Width that the legend takes from the panels.
+    pub(super) fn side_width(&self) -> f64 {
+        if self.below || self.cell == 0.0 {
+            0.0
+        } else {
+            self.cell + SIDE_GAP
+        }
+    }
+
+    /// The rows of a legend below that is `width` wide.
+    pub(super) fn rows(&self, width: f64) -> Vec<&[Entry]> {
+        let columns = (width + COLUMN_GAP) / (self.cell + COLUMN_GAP);
+        let columns = (columns.floor() as usize).max(1);
+        let list = self.lists.first().filter(|_| self.below);
+        list.map_or(&[][..], Vec::as_slice)
+            .chunks(columns)
+            .collect()
+    }
+}
+
+pub(super) fn row_height(row: &[Entry]) -> f64 {
+    row.iter().map(Entry::height).fold(0.0, f64::max)
+}
+
+/// The style of each series of each panel. Distinct labels count on through
+/// all panels, so that a legend for the whole chart is unambiguous; each series
+/// without a label counts as one more.
+pub(super) fn styles(chart: &Chart) -> Vec<Vec<Style>> {
+    let mut known: Vec<&str> = Vec::new();
+    let mut style = |series| automatic_for(series, &mut known);
+    let panels = chart.panels.iter();
+    panels
+        .map(|panel| panel.series.iter().map(&mut style).collect())
+        .collect()
+}
+
+fn automatic_for<'a>(series: &'a Series, known: &mut Vec<&'a str>) -> Style {
+    let label = series.label.as_str();
+    let before = known.iter().position(|l| *l == label && !label.is_empty());
+    let index = before.unwrap_or(known.len());
+    if before.is_none() {
+        known.push(label);
+    }
+    let (color, dash, symbol) = automatic(index);
+    Style {
+        color: series.color.unwrap_or(color),
+        dash: series.joined.then(|| {
+            let dash = if is_noisy(series) { Dash::Solid } else { dash };
+            series.dash.unwrap_or(dash)
+        }),
+        symbol: series.symbols.then(|| series.symbol.unwrap_or(symbol)),
+    }
+}
+
+/// Whether a line turns so often that dashes would be lost in it: about once
+/// in 4 px of a panel of usual width.
+fn is_noisy(series: &Series) -> bool {
+    let turns = series.y.windows(3).filter(|y| match y {
+        [a, b, c] => (a < b && b > c) || (a > b && b < c),
+        _ => false,
+    });
+    turns.count() > 200
+}

@@ -1,0 +1,79 @@
+//! Line charts from one description, as SVG and as PNG.
+//!
+//! A [`Chart`] is a title, a shared x axis and one or more [`Panel`]s stacked
+//! above each other; a panel holds [`Series`], marker lines and a y axis.
+//!
+//! ```no_run
+//! use branched_pendulum::chart::{Axis, Chart, ChartError, Panel};
+//!
+//! # fn main() -> Result<(), ChartError> {
+//! let time = [0.0, 0.1, 0.2, 0.3];
+//! let h_d = [0.0, 1.0e-3, 2.5e-3, 2.0e-3];
+//! let w = [0.0, 1.2e-2, 5.0e-3, -9.0e-3];
+//! let chart = Chart::new("Energy of the antiphase mode", Axis::linear("t (s)"))
+//!     .panel(Panel::new(Axis::linear("H_d (J)")).line("H_d", &time, &h_d))
+//!     .panel(
+//!         Panel::new(Axis::linear("W (W)"))
+//!             .line("W exact", &time, &w)
+//!             .zero_line(),
+//!     );
+//! chart.write_svg("energy.svg")?;
+//! chart.write_png("energy.png")?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Labels
+//! In every label `_` lowers and `^` raises the next character, or the group
+//! in braces that follows: `θ_d`, `f_+`, `10^{−3}`. A backslash takes the
+//! meaning from the character after it (`mid\_range`); a `_` or `^` with
+//! nothing to act on, or with a brace that is never closed, stands for itself.
+//! Line feeds and other control characters become spaces. A character that
+//! the embedded font lacks (it has Latin, Greek, Cyrillic and common
+//! mathematics) is a hollow box in the PNG; the SVG leaves it to the viewer.
+//!
+//! # Samples
+//! A sample whose x or y is not finite, or not positive on a logarithmic axis,
+//! breaks the line: nothing is drawn across the gap, and a sample alone between
+//! two gaps is a dot. A series without a single drawable sample is an error.
+//! Runs of samples within one pixel column are reduced to the first, the
+//! lowest, the highest and the last of them, so that files stay small and no
+//! extreme is lost; of symbols that fall on the same pixel one is drawn.
+//!
+//! # Layout
+//! The legend stands outside the panels, at the right where it fits and below
+//! otherwise; long text wraps. Panels never become lower than a legible
+//! minimum: where title and legend leave less, the chart grows in height.
+//! Series take colours, dashes and symbols in turn; a line that turns more
+//! than 200 times is solid unless its dash is given. The same description
+//! gives the same bytes.
+//!
+//! # Why not a plotting library
+//! plotters 0.3 sets no sub- and superscripts, places legends over the data and
+//! draws thick bitmap lines without smoothing, so layout is ours, while paths
+//! are filled by tiny-skia and glyphs read by ttf-parser: 17 small crates in
+//! pure Rust, where an SVG renderer (resvg) needs 50.
+
+mod arrange;
+mod axis;
+mod clip;
+mod compose;
+mod decimal;
+mod decimate;
+mod description;
+mod drawing;
+mod error;
+mod font;
+mod guides;
+mod label;
+mod legend;
+mod png;
+mod style;
+mod svg;
+#[cfg(test)]
+mod tests;
+mod ticks;
+
+pub use description::{Axis, Chart, Panel, Series};
+pub use error::ChartError;
+pub use style::{Color, Dash, Symbol};

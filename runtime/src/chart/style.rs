@@ -1,0 +1,153 @@
+/// A colour, sRGB.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Color {
+    /// Red.
+    pub red: u8,
+    /// Green.
+    pub green: u8,
+    /// Blue.
+    pub blue: u8,
+}
+
+impl Color {
+    /// A colour from its sRGB components.
+    pub const fn rgb(red: u8, green: u8, blue: u8) -> Self {
+        Self { red, green, blue }
+    }
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dash {
+    /// Without gaps.
+    Solid,
+    /// Long dashes.
+    Dashed,
+    /// Dashes and dots by turns.
+    DashDot,
+    /// Dots.
+    Dotted,
+}
+
+impl Dash {
+    /// Lengths in px of strokes and gaps by turns; empty for a solid line.
+    pub(super) const fn pattern(self) -> &'static [f32] {
+        match self {
+            Self::Solid => &[],
+            Self::Dashed => &[7.0, 3.0],
+            Self::DashDot => &[8.0, 2.5, 2.0, 2.5],
+            Self::Dotted => &[2.0, 2.2],
+        }
+    }
+}
+
+/// Shape of the symbol at a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Symbol {
+    /// A disc.
+    Circle,
+    /// A square.
+    Square,
+    /// A triangle, point up.
+    Triangle,
+    /// A square on its corner.
+    Diamond,
+    /// A triangle, point down.
+    TriangleDown,
+    /// An upright cross.
+    Plus,
+    /// A diagonal cross.
+    Cross,
+}
+
+impl Symbol {
+    /// Corners for a symbol of radius 1, y down; empty for the disc. The sizes
+    /// differ so that the areas look equal.
+    pub(super) const fn corners(self) -> &'static [(f64, f64)] {
+        // Half the thickness of a bar of the crosses, and that bar turned by
+        // 45 degrees.
+        const B: f64 = 0.36;
+        const P: f64 = 1.15;
+        const Q: f64 = 1.02;
+        const R: f64 = 0.51;
+        match self {
+            Self::Circle => &[],
+            Self::Square => &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
+            Self::Triangle => &[(0.0, -1.25), (1.15, 0.8), (-1.15, 0.8)],
+            Self::Diamond => &[(0.0, -1.3), (1.3, 0.0), (0.0, 1.3), (-1.3, 0.0)],
+            Self::TriangleDown => &[(0.0, 1.25), (1.15, -0.8), (-1.15, -0.8)],
+            Self::Plus => &[
+                (-B, -P),
+                (B, -P),
+                (B, -B),
+                (P, -B),
+                (P, B),
+                (B, B),
+                (B, P),
+                (-B, P),
+                (-B, B),
+                (-P, B),
+                (-P, -B),
+                (-B, -B),
+            ],
+            Self::Cross => &[
+                (-Q, -R),
+                (-R, -Q),
+                (0.0, -R),
+                (R, -Q),
+                (Q, -R),
+                (R, 0.0),
+                (Q, R),
+                (R, Q),
+                (0.0, R),
+                (-R, Q),
+                (-Q, R),
+                (-R, 0.0),
+            ],
+        }
+    }
+}
+
+/// What distinguishes one series from the others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Style {
+    pub(super) color: Color,
+    /// `None` where the samples are not joined.
+    pub(super) dash: Option<Dash>,
+    pub(super) symbol: Option<Symbol>,
+}
+
+/// The colours of Okabe and Ito, which people with any of the common forms of
+/// colour blindness can tell apart, without the yellow that is too pale on
+/// white (M. Okabe and K. Ito, Color Universal Design, 2008).
+const PALETTE: [Color; 7] = [
+    Color::rgb(0, 114, 178),
+    Color::rgb(213, 94, 0),
+    Color::rgb(0, 158, 115),
+    Color::rgb(204, 121, 167),
+    Color::rgb(0, 0, 0),
+    Color::rgb(230, 159, 0),
+    Color::rgb(86, 180, 233),
+];
+
+const DASHES: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::DashDot, Dash::Dotted];
+
+const SYMBOLS: [Symbol; 7] = [
+    Symbol::Circle,
+    Symbol::Square,
+    Symbol::Triangle,
+    Symbol::Diamond,
+    Symbol::TriangleDown,
+    Symbol::Plus,
+    Symbol::Cross,
+];
+
+/// Colour, dash and symbol of the `index`-th series. Four dashes against seven
+/// colours: the first 28 series differ pairwise.
+pub(super) fn automatic(index: usize) -> (Color, Dash, Symbol) {
+    (
+        PALETTE[index % PALETTE.len()],
+        DASHES[index % DASHES.len()],
+        SYMBOLS[index % SYMBOLS.len()],
+    )
+}

@@ -1,0 +1,167 @@
+use std::fmt::Write;
+
+use super::drawing::{Anchor, Drawing, Mark, Point, Text};
+use super::label::{Label, Level};
+use super::style::{Color, Dash, Symbol};
+
+/// DejaVu Sans first, of which the layout knows the widths; those after it are
+/// as wide or narrower. Kerning, which the layout leaves out, stays off.
+const FAMILIES: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
+
+/// The drawing as an SVG 1.1 document.
+pub(super) fn document(drawing: &Drawing) -> String {
+    let (width, height) = (Px(drawing.width), Px(drawing.height));
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" \
+         height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+         font-family=\"{FAMILIES}\" style=\"font-kerning:none\">\n<title>{}</title>\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
+        escape(&drawing.title),
+    );
+    for mark in &drawing.marks {
+        match mark {
+            Mark::Lines {
+                lines,
+                color,
+                width,
+                dash,
+            } => push_lines(&mut out, lines, *color, *width, *dash),
+            Mark::Symbols {
+                symbol,
+                at,
+                radius,
+                color,
+            } => push_symbols(&mut out, *symbol, at, *radius, *color),
+            Mark::Text(text) => push_text(&mut out, text),
+        }
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+/// Writes into a string, which cannot fail.
+macro_rules! put {
+    ($out:expr, $($arg:tt)*) => {
+        let _ = write!($out, $($arg)*);
+    };
+}
+
+fn push_lines(out: &mut String, lines: &[Vec<Point>], color: Color, width: f64, dash: Dash) {
+    if lines.is_empty() {
+        return;
+    }
+    out.push_str("<path d=\"");
+    for line in lines {
+        for (index, (x, y)) in line.iter().enumerate() {
+            let command = if index == 0 { "M" } else { " " };
+            put!(out, "{command}{} {}", Px(*x), Px(*y));
+        }
+    }
+    put!(
+        out,
+        "\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"",
+        Hex(color),
+        Px(width)
+    );
+    if !dash.pattern().is_empty() {
+        let lengths: Vec<String> = dash.pattern().iter().map(f32::to_string).collect();
+        put!(out, " stroke-dasharray=\"{}\"", lengths.join(" "));
+    }
+    out.push_str("/>\n");
+}
+
+fn push_symbols(out: &mut String, symbol: Symbol, at: &[Point], radius: f64, color: Color) {
+    if at.is_empty() {
+        return;
+    }
+    out.push_str("<path d=\"");
+    for (x, y) in at {
+        if symbol == Symbol::Circle {
+            let (r, d) = (Px(radius), Px(2.0 * radius));
+            put!(out, "M{} {}", Px(x - radius), Px(*y));
+            put!(out, "a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z");
+        } else {
+            for (index, (dx, dy)) in symbol.corners().iter().enumerate() {
+                let command = if index == 0 { "M" } else { " " };
+                let (x, y) = (x + dx * radius, y + dy * radius);
+                put!(out, "{command}{} {}", Px(x), Px(y));
+            }
+            out.push('z');
+        }
+    }
+    put!(out, "\" fill=\"{}\"/>\n", Hex(color));
+}
+
+fn push_text(out: &mut String, text: &Text) {
+    let (x, y) = (Px(text.at.0), Px(text.at.1));
+    put!(out, "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"", text.size);
+    match text.anchor {
+        Anchor::Start => {}
+        Anchor::Middle => out.push_str(" text-anchor=\"middle\""),
+        Anchor::End => out.push_str(" text-anchor=\"end\""),
+    }
+    if text.upwards {
+        put!(out, " transform=\"rotate(-90 {x} {y})\"");
+    }
+    out.push('>');
+    push_runs(out, &text.label, text.size);
+    out.push_str("</text>\n");
+}
+
+/// Runs follow each other in the flow of the text, shifted only vertically, so
+/// that they stay together in any font.
+fn push_runs(out: &mut String, label: &Label, size: f64) {
+    if let [only] = label.runs.as_slice()
+        && only.level == Level::Line
+    {
+        out.push_str(&escape(&only.text));
+        return;
+    }
+    let mut drop = 0.0;
+    for run in &label.runs {
+        let shift = (run.level.drop() - drop) * size;
+        drop = run.level.drop();
+        let size = run.level.size() * size;
+        put!(
+            out,
+            "<tspan dy=\"{}\" font-size=\"{}\">{}</tspan>",
+            Px(shift),
+            Px(size),
+            escape(&run.text)
+        );
+    }
+}
+
+fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+/// A length with two decimals at most.
+#[derive(Clone, Copy)]
+struct Px(f64);
+
+impl std::fmt::Display for Px {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        // Adding zero turns -0 into 0.
+        write!(f, "{}", (self.0 * 100.0).round() / 100.0 + 0.0)
+    }
+}
+
+struct Hex(Color);
+
+impl std::fmt::Display for Hex {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Color { red, green, blue } = self.0;
+        write!(f, "#{red:02x}{green:02x}{blue:02x}")
+    }
+}

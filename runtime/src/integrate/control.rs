@@ -1,0 +1,201 @@
+//! Choosing the size of the next step.
+//!
+//! Shared by all adaptive methods: a proportional-integral controller and
+//! Hairer's estimate of the first step. Errors are scaled: one is the largest
+//! that the tolerances allow.
+
+use crate::scalar::Real;
+
+/// The constants of a method's step-size control.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ControlConstants {
+    /// The scaled error behaves as the step to this power.
+    pub(crate) order: u32,
+    /// Factor that keeps the aim below the limit.
+    pub(crate) safety: f64,
+    /// A step is at least this multiple of the one before.
+    pub(crate) smallest_factor: f64,
+    /// A step is at most this multiple of the one before.
+    pub(crate) largest_factor: f64,
+    /// Part of the integral gain that the proportional exponent gives up, per
+    /// unit of beta.
+    pub(crate) beta_share: f64,
+}
+
+/// PI step-size control of K. Gustafsson, as in Hairer, Nørsett, Wanner,
+/// *Solving ODEs I*, section II.4, and Hairer, Wanner, *Solving ODEs II*,
+/// section IV.2, eq. (2.43a).
+#[derive(Clone, Debug)]
+pub(crate) struct StepControl<T> {
+    constants: ControlConstants,
+    beta: T,
+    previous_error: T,
+    after_rejection: bool,
+}
+
+impl<T: Real> StepControl<T> {
+    /// A controller without memory of earlier steps; `beta` of zero makes it
+    /// the elementary one.
+    pub(crate) fn new(constants: ControlConstants, beta: T) -> Self {
+        Self {
+            constants,
+            beta,
+            previous_error: T::from_f64(SMALLEST_REMEMBERED_ERROR),
+            after_rejection: false,
+        }
+    }
+
+    /// Factor from a step that was accepted with scaled error `error` <= 1 to
+    /// the next one.
+    pub(crate) fn accept(&mut self, error: T) -> T {
+        let largest = if self.after_rejection {
+            // The error model failed a moment ago: do not trust it to grow.
+            T::ONE
+        } else {
+            T::from_f64(self.constants.largest_factor)
+        };
+        let mut growth = self.error_power(error);
+        if self.beta > T::ZERO {
+            growth = growth / self.previous_error.powf(self.beta);
+        }
+        self.previous_error = error.max(T::from_f64(SMALLEST_REMEMBERED_ERROR));
+        self.after_rejection = false;
+        // Division by a growth of zero gives infinity, which the bound takes.
+        (T::from_f64(self.constants.safety) / growth)
+            .min(largest)
+            .max(T::from_f64(self.constants.smallest_factor))
+    }
+
+    /// Factor from a step that was rejected to the one that is tried in its
+    /// place. An error that is not finite calls for the smallest factor.
+    pub(crate) fn reject(&mut self, error: T) -> T {
+        self.after_rejection = true;
+        let smallest = T::from_f64(self.constants.smallest_factor);
+        if !error.is_finite() {
+            return smallest;
+        }
+        (T::from_f64(self.constants.safety) / self.error_power(error)).max(smallest)
+    }
+
+    /// error^(1/order - share beta).
+    fn error_power(&self, error: T) -> T {
+        if self.beta > T::ZERO {
+            let share = T::from_f64(self.constants.beta_share);
+            let exponent = T::ONE / T::from_f64(f64::from(self.constants.order));
+            error.powf(exponent - share * self.beta)
+        } else {
+            root(error, self.constants.order)
+        }
+    }
+}
+
+/// Below this the memory of the controller does not reach: a step that was far
+/// too short says little about the next.
+const SMALLEST_REMEMBERED_ERROR: f64 = 1e-4;
+
+/// value^(1/order). Square roots where they suffice: they are cheaper than a
+/// power and correctly rounded, so a run does not depend on a library's `pow`.
+fn root<T: Real>(value: T, order: u32) -> T {
+    if order.is_power_of_two() {
+        (0..order.trailing_zeros()).fold(value, |value, _| value.sqrt())
+    } else {
+        value.powf(T::ONE / T::from_f64(f64::from(order)))
+    }
+}
+
+/// What the estimate of the first step knows of the problem, all norms being
+/// Euclidean norms of components divided by their tolerance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FirstStep<T> {
+    /// Norm of the state.
+    pub(crate) state: T,
+    /// Norm of the rates.
+    pub(crate) rates: T,
+    /// The longest step allowed.
+    pub(crate) longest: T,
+}
+
+impl<T: Real> FirstStep<T> {
+    /// Length of an explicit Euler step whose increment is small beside the
+    /// state. Hairer, Nørsett, Wanner, *Solving ODEs I*, section II.4.
+    pub(crate) fn euler(&self) -> T {
+        let negligible = T::from_f64(1e-5);
+        let step = if self.rates <= negligible || self.state <= negligible {
+            T::from_f64(1e-6)
+        } else {
+            T::from_f64(0.01) * self.state / self.rates
+        };
+        step.min(self.longest)
+    }
+
+    /// First step of a method of order `order`, from the norm of the change of
+    /// rates over the Euler step.
+    pub(crate) fn refined(&self, euler: T, change_of_rates: T, order: u32) -> T {
+        let curvature = (change_of_rates / euler).max(self.rates);
+        let step = if curvature <= T::from_f64(1e-15) {
+            T::from_f64(1e-6).max(euler * T::from_f64(1e-3))
+        } else {
+            root(T::from_f64(0.01) / curvature, order)
+        };
+        (T::from_f64(100.0) * euler).min(step).min(self.longest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ControlConstants, StepControl, root};
+
+    const CONSTANTS: ControlConstants = ControlConstants {
+        order: 8,
+        safety: 0.9,
+        smallest_factor: 1.0 / 3.0,
+        largest_factor: 6.0,
+        beta_share: 0.2,
+    };
+
+    #[test]
+    fn roots_by_square_roots_equal_powers() {
+        for value in [1e-30_f64, 1e-4, 0.5, 1.0, 300.0] {
+            for order in [1_u32, 2, 4, 5, 8] {
+                let expected = value.powf(1.0 / f64::from(order));
+                assert!((root(value, order) / expected - 1.0).abs() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn an_error_at_the_limit_shrinks_by_the_safety_factor() {
+        let mut control = StepControl::new(CONSTANTS, 0.0_f64);
+        assert_eq!(control.accept(1.0), 0.9);
+        // 2^8 times too large: half of it, and the safety factor.
+        assert_eq!(control.reject(256.0), 0.45);
+    }
+
+    #[test]
+    fn factors_stay_between_their_limits() {
+        let mut control = StepControl::new(CONSTANTS, 0.0_f64);
+        assert_eq!(control.accept(0.0), 6.0);
+        assert_eq!(control.reject(1e30), 1.0 / 3.0);
+        assert_eq!(control.reject(f64::NAN), 1.0 / 3.0);
+        assert_eq!(control.reject(f64::INFINITY), 1.0 / 3.0);
+    }
+
+    #[test]
+    fn no_growth_directly_after_a_rejection() {
+        let mut control = StepControl::new(CONSTANTS, 0.0_f64);
+        control.reject(2.0);
+        assert_eq!(control.accept(1e-6), 1.0);
+        assert!(control.accept(1e-6) > 1.0);
+    }
+
+    #[test]
+    fn the_integral_part_damps_a_growing_error() {
+        let mut damped = StepControl::new(CONSTANTS, 0.04_f64);
+        let mut plain = StepControl::new(CONSTANTS, 0.0_f64);
+        for control in [&mut damped, &mut plain] {
+            control.accept(0.9);
+        }
+        // Falling from 0.9 to 0.01 in one step, the damped one trusts less.
+        assert!(damped.accept(0.01) < plain.accept(0.01));
+    }
+}

@@ -1,0 +1,100 @@
+//! A run under way: what it works on, its account, and its ends.
+
+use super::arithmetic::NonFiniteRates;
+use super::memory::Memory;
+use crate::integrate::error::IntegrationError;
+use crate::integrate::options::Options;
+use crate::integrate::report::{Report, Solution, StopReason};
+use crate::scalar::Real;
+use crate::system::State;
+
+/// A run under way.
+pub(super) struct Run<'a, T, O: ?Sized> {
+    pub(super) ode: &'a O,
+    pub(super) memory: Memory<T>,
+    pub(super) time: T,
+    pub(super) report: Report<T>,
+}
+
+impl<'a, T: Real, O: ?Sized> Run<'a, T, O> {
+    /// A run of `ode` about to leave `start`.
+    pub(super) fn new(ode: &'a O, options: &Options<T>, start: &State<T>) -> Self {
+        Self {
+            ode,
+            memory: Memory::new(options, &start.values),
+            time: start.time,
+            report: Report::new(),
+        }
+    }
+
+    /// Whether a step of length `step` may be tried; `last` if it reaches the
+    /// end.
+    pub(super) fn check_step(
+        &self,
+        options: &Options<T>,
+        step: T,
+        last: bool,
+    ) -> Result<(), IntegrationError<T>> {
+        let limit = options.step_limit;
+        if self.report.accepted + self.report.rejected >= limit {
+            return Err(IntegrationError::StepLimit {
+                limit,
+                last: self.state(),
+                report: Report {
+                    stop: StopReason::StepLimit,
+                    ..self.report
+                },
+            });
+        }
+        // Below this, time plus step is mostly rounding.
+        let lost = T::from_f64(10.0) * T::EPSILON * self.time.abs();
+        // The end may be as near as it likes.
+        if !last && (step < options.min_step || step <= lost) {
+            return Err(IntegrationError::StepTooSmall {
+                step,
+                shortest: options.min_step.max(lost),
+                last: self.state(),
+                report: Report {
+                    stop: StopReason::StepTooSmall,
+                    ..self.report
+                },
+            });
+        }
+        Ok(())
+    }
+
+    /// The last accepted state.
+    pub(super) fn state(&self) -> State<T> {
+        State {
+            time: self.time,
+            values: self.memory.start.clone(),
+        }
+    }
+
+    /// The error for rates that are not finite, at the state of the stage.
+    pub(super) fn non_finite(&self, rates: NonFiniteRates<T>) -> IntegrationError<T> {
+        IntegrationError::NonFinite {
+            time: rates.time,
+            values: self.memory.stage.clone(),
+            last: self.state(),
+            report: Report {
+                stop: StopReason::NonFinite,
+                ..self.report
+            },
+        }
+    }
+
+    /// The end of a run that went well.
+    pub(super) fn solution(self, stop: StopReason) -> Solution<T> {
+        Solution {
+            state: State {
+                time: self.time,
+                values: self.memory.start,
+            },
+            report: Report {
+                stop,
+                ..self.report
+            },
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! Why an integration did not run, or did not reach its end.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::report::Report;
+use crate::scalar::Real;
+use crate::system::State;
+
+/// A request that no method can answer; nothing was computed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum InputError<T> {
+    /// A tolerance is negative or not finite.
+    Tolerance {
+        /// `"relative"` or `"absolute"`.
+        name: &'static str,
+        /// Index of the component; 0 for a uniform tolerance.
+        component: usize,
+        /// The tolerance given.
+        value: T,
+    },
+    /// Tolerances per component do not fit the state.
+    ToleranceCount {
+        /// `"relative"` or `"absolute"`.
+        name: &'static str,
+        /// Number of components of the state.
+        expected: usize,
+        /// Number of tolerances given.
+        found: usize,
+    },
+    /// Relative and absolute tolerance of a component are both zero.
+    NoTolerance {
+        /// Index of the component.
+        component: usize,
+    },
+    /// A step size in the options is negative or not finite, or zero where it
+    /// must not be.
+    Step {
+        /// `"initial"`, `"longest"` or `"shortest"`.
+        name: &'static str,
+        /// The step given.
+        value: T,
+    },
+    /// The length of a single step is infinite or NaN.
+    FixedStep {
+        /// The step given.
+        value: T,
+    },
+    /// The shortest step allowed is longer than the longest.
+    StepRange {
+        /// Shortest step given.
+        shortest: T,
+        /// Longest step given.
+        longest: T,
+    },
+    /// Beta is outside 0 to 0.2.
+    Beta {
+        /// The beta given.
+        value: T,
+    },
+    /// The state has no components.
+    EmptyState,
+    /// The state does not fit the equations.
+    Dimension {
+        /// Dimension of the equations.
+        expected: usize,
+        /// Number of components given.
+        found: usize,
+    },
+    /// The starting time is infinite or NaN.
+    StartTime {
+        /// The time given.
+        value: T,
+    },
+    /// A component of the starting state is infinite or NaN.
+    StartValue {
+        /// Index of the component.
+        component: usize,
+        /// The value given.
+        value: T,
+    },
+    /// A time to integrate to, or to sample at, is infinite or NaN.
+    Time {
+        /// Index among the times given; 0 for an end time.
+        index: usize,
+        /// The time given.
+        value: T,
+    },
+    /// Times to sample at turn back: they must run one way from the start.
+    TimeOrder {
+        /// Index of the offending time.
+        index: usize,
+        /// The time before it, or the starting time.
+        previous: T,
+        /// The offending time.
+        value: T,
+    },
+}
+
+impl<T: Real> fmt::Display for InputError<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Tolerance {
+                name,
+                component,
+                value,
+            } => write!(
+                f,
+                "{name} tolerance of component {component} is {value}: \
+                 it must be finite and not negative"
+            ),
+            Self::ToleranceCount {
+                name,
+                expected,
+                found,
+            } => {
+                write!(
+                    f,
+                    "{found} {name} tolerances given for a state of {expected} components"
+                )
+            }
+            Self::NoTolerance { component } => write!(
+                f,
+                "relative and absolute tolerance of component {component} are both zero: \
+                 at least one must be positive"
+            ),
+            Self::Step {
+                name: "shortest",
+                value,
+            } => {
+                write!(
+                    f,
+                    "shortest step is {value}: it must be finite and not negative"
+                )
+            }
+            Self::Step { name, value } => {
+                write!(f, "{name} step is {value}: it must be finite and positive")
+            }
+            Self::FixedStep { value } => write!(f, "the length of a step is {value}"),
+            Self::StepRange { shortest, longest } => {
+                write!(
+                    f,
+                    "shortest step {shortest} is longer than the longest step {longest}"
+                )
+            }
+            Self::Beta { value } => write!(f, "beta is {value}: it must be between 0 and 0.2"),
+            Self::EmptyState => write!(f, "the state has no components"),
+            Self::Dimension { expected, found } => {
+                write!(
+                    f,
+                    "the state has {found} components, the equations have {expected}"
+                )
+            }
+            Self::StartTime { value } => write!(f, "the starting time is {value}"),
+            Self::StartValue { component, value } => {
+                write!(f, "component {component} of the starting state is {value}")
+            }
+            Self::Time { index, value } => write!(f, "requested time {index} is {value}"),
+            Self::TimeOrder {
+                index,
+                previous,
+                value,
+            } => write!(
+                f,
+                "requested time {index} is {value}, after {previous}: \
+                 times must run one way from the start"
+            ),
+        }
+    }
+}
+
+impl<T: Real> core::error::Error for InputError<T> {}
+
+/// Why an integration ended before its goal.
+///
+/// Every variant but [`Input`](Self::Input) carries the last state that was
+/// reached within the tolerances: a run can be continued from it.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum IntegrationError<T> {
+    /// The request cannot be answered; nothing was computed.
+    Input(InputError<T>),
+    /// The right-hand side, or the state within a step, became infinite or
+    /// NaN.
+    NonFinite {
+        /// Time of the evaluation, in general inside a step.
+        time: T,
+        /// State at which the rates were evaluated.
+        values: Vec<T>,
+        /// The last accepted state.
+        last: State<T>,
+        /// Account of the run so far.
+        report: Report<T>,
+    },
+    /// The tolerances ask for a step below the shortest allowed.
+    StepTooSmall {
+        /// Length of the step asked for.
+        step: T,
+        /// Shortest step allowed: the option, or what the rounding of the time
+        /// leaves.
+        shortest: T,
+        /// The last accepted state.
+        last: State<T>,
+        /// Account of the run so far.
+        report: Report<T>,
+    },
+    /// The limit on the number of steps was reached.
+    StepLimit {
+        /// The limit.
+        limit: u64,
+        /// The last accepted state.
+        last: State<T>,
+        /// Account of the run so far.
+        report: Report<T>,
+    },
+}
+
+impl<T> IntegrationError<T> {
+    /// The last state reached within the tolerances, to continue from; none
+    /// where nothing was computed.
+    pub fn last_state(&self) -> Option<&State<T>> {
+        match self {
+            Self::Input(_) => None,
+            Self::NonFinite { last, .. }
+            | Self::StepTooSmall { last, .. }
+            | Self::StepLimit { last, .. } => Some(last),
+        }
+    }
+
+    /// The account of the run until it failed; none where nothing was
+    /// computed.
+    pub fn report(&self) -> Option<&Report<T>> {
+        match self {
+            Self::Input(_) => None,
+            Self::NonFinite { report, .. }
+            | Self::StepTooSmall { report, .. }
+            | Self::StepLimit { report, .. } => Some(report),
+        }
+    }
+}
+
+impl<T> From<InputError<T>> for IntegrationError<T> {
+    fn from(error: InputError<T>) -> Self {
+        Self::Input(error)
+    }
+}
+
+impl<T: Real> fmt::Display for IntegrationError<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(error) => error.fmt(f),
+            Self::NonFinite {
+                time,
+                values,
+                last,
+                report: _,
+            } => write!(
+                f,
+                "state or rates are not finite at t = {time}, y = {values:?}; \
+                 last good state at t = {}",
+                last.time
+            ),
+            Self::StepTooSmall {
+                step,
+                shortest,
+                last,
+                report: _,
+            } => write!(
+                f,
+                "a step of {step} at t = {} is below the shortest allowed, {shortest}",
+                last.time
+            ),
+            Self::StepLimit {
+                limit,
+                last,
+                report: _,
+            } => {
+                write!(
+                    f,
+                    "the limit of {limit} steps was reached at t = {}",
+                    last.time
+                )
+            }
+        }
+    }
+}
+
+impl<T: Real> core::error::Error for IntegrationError<T> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Input(error) => Some(error),
+            _ => None,
+        }
+    }
+}

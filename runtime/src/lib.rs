@@ -1,0 +1,94 @@
+//! Integrate and analyse branched pendulums: planar trees of rigid links.
+//!
+//! The attribute `branched_pendulum` (feature `macros`, on by default) derives
+//! the equations of motion of a tree from its description and writes them as
+//! specialised Rust. This crate is what the written code stands on, and what
+//! brings it to life:
+//!
+//! - [`scalar`]: the numbers that emitted code computes with,
+//! - [`system`]: the traits that it implements, and states,
+//! - [`integrate`]: trajectories, with error control and dense output,
+//! - [`analysis`]: linear modes and spectra,
+//! - [`data`]: CSV files.
+//!
+//! SI units throughout; angles are absolute, in radians from the downward
+//! vertical.
+//!
+//! # Example
+//!
+//! A single rod, its equation of motion written by hand: what the attribute
+//! writes for trees. Released from 30°, it is back after one period, which is
+//! longer than that of small oscillations.
+//!
+//! ```
+//! use branched_pendulum::prelude::*;
+//!
+//! /// A uniform rod of length `length`, in metres.
+//! struct Rod {
+//!     length: f64,
+//! }
+//!
+//! impl<T: Scalar> Pendulum<T> for Rod {
+//!     const LINKS: usize = 1;
+//!     const LINK_NAMES: &'static [&'static str] = &["rod"];
+//!
+//!     fn accelerations_into(&self, _time: T, theta: &[T], _omega: &[T], alpha: &mut [T]) {
+//!         // (m length^2 / 3) theta'' = -m g (length / 2) sin(theta)
+//!         let factor = T::from_f64(1.5 * 9.80665 / self.length);
+//!         for (alpha, theta) in alpha.iter_mut().zip(theta) {
+//!             *alpha = -(factor * theta.sin_cos().0);
+//!         }
+//!     }
+//! }
+//!
+//! let rod = Rod { length: 1.0 };
+//! let start = State::at_rest(0.0, &[30.0_f64.to_radians()]);
+//! let times: Vec<f64> = (0..=200).map(|i| 0.01 * f64::from(i)).collect();
+//! let mut angles = Vec::new();
+//! let solution = Dop853::new(Options::with_tolerance(1e-12)).sample(
+//!     &AbsoluteAngles(&rod),
+//!     &start,
+//!     &times,
+//!     |_time, state| angles.push(state[0]),
+//! )?;
+//! println!("{}", solution.report);
+//!
+//! let turn = angles.windows(3).position(|a| a[1] > a[0] && a[1] >= a[2]);
+//! let small = 2.0 * std::f64::consts::PI / (1.5 * 9.80665_f64).sqrt();
+//! assert_eq!(turn.map(|i| times[i + 1]), Some(1.67));
+//! assert!(small < 1.64);
+//! # Ok::<(), IntegrationError<f64>>(())
+//! ```
+//!
+//! # Features
+//!
+//! - `std` (default): all of the crate. Without it, the crate is `no_std` with
+//!   `alloc` and offers [`scalar`], [`system`] and [`integrate`].
+//! - `libm`: elementary functions for builds without `std`; one of the two is
+//!   needed.
+//! - `chart`: line charts as SVG and PNG.
+//! - `macros` (default): the attribute `branched_pendulum`.
+
+#![cfg_attr(not(feature = "std"), no_std)]
+
+extern crate alloc;
+
+#[cfg(feature = "std")]
+pub mod analysis;
+#[cfg(feature = "chart")]
+pub mod chart;
+#[cfg(feature = "std")]
+pub mod data;
+pub mod integrate;
+pub mod model;
+pub mod prelude;
+pub mod scalar;
+pub mod system;
+
+// What emitted code names, at the shortest path.
+pub use model::{ParameterError, Transfer};
+pub use scalar::Scalar;
+pub use system::{Energy, Pendulum, SymmetricPendulum};
+
+#[cfg(feature = "macros")]
+pub use branched_pendulum_macros::branched_pendulum;

@@ -1,0 +1,165 @@
+//! Runs that are stopped and go on.
+
+use core::ops::ControlFlow;
+
+use branched_pendulum::prelude::*;
+
+use crate::problems::{BranchedDouble, kepler, perihelion, watch};
+
+/// A step as it was seen: its ends, bit for bit.
+type Step = (f64, f64, Vec<f64>);
+
+fn record(steps: &mut Vec<Step>, step: &DenseStep<'_, f64>) {
+    steps.push((step.start_time(), step.end_time(), step.end().to_vec()));
+}
+
+#[test]
+fn a_stopped_run_continues_with_the_same_steps() {
+    let pendulum = BranchedDouble::paper();
+    let ode = AbsoluteAngles(&pendulum);
+    let options = Options::with_tolerance(1e-9);
+    let start = State::at_rest(0.0, &[47.8_f64.to_radians(), 1e-3, -1e-3]);
+
+    let mut whole = Vec::new();
+    let end = Dop853::new(options.clone())
+        .integrate(&ode, &start, 5.0, |step| {
+            record(&mut whole, step);
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert!(
+        end.report.rejected > 0,
+        "the case must hold rejections too: {}",
+        end.report
+    );
+
+    let mut parts = Vec::new();
+    let (mut state, mut options) = (start, options);
+    loop {
+        let mut left = 11;
+        let part = Dop853::new(options.clone())
+            .integrate(&ode, &state, 5.0, |step| {
+                record(&mut parts, step);
+                left -= 1;
+                if left == 0 {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            })
+            .unwrap();
+        options.initial_step = Some(part.report.next_step);
+        state = part.state;
+        if part.report.stop == StopReason::EndReached || state.time == 5.0 {
+            break;
+        }
+    }
+    assert!(whole.len() > 30);
+    assert_eq!(parts, whole);
+    assert_eq!(state, end.state);
+}
+
+#[test]
+fn a_run_ended_by_the_step_limit_continues_with_the_same_steps() {
+    let options = Options::with_tolerance(1e-8);
+    let start = perihelion(0.7);
+    let whole = Dop853::new(options.clone())
+        .integrate(&kepler(), &start, 20.0, watch)
+        .unwrap();
+    let limited = Options {
+        step_limit: 9,
+        ..options.clone()
+    };
+    let error = Dop853::new(limited)
+        .integrate(&kepler(), &start, 20.0, watch)
+        .unwrap_err();
+    let (last, report) = (error.last_state().unwrap(), error.report().unwrap());
+    let rest = Dop853::new(Options {
+        initial_step: Some(report.next_step),
+        ..options
+    })
+    .integrate(&kepler(), last, 20.0, watch)
+    .unwrap();
+    assert_eq!(rest.state, whole.state);
+    assert_eq!(
+        report.accepted + rest.report.accepted,
+        whole.report.accepted
+    );
+}
+
+#[test]
+fn equal_runs_are_equal_bit_for_bit() {
+    let run = || {
+        Dop853::new(Options {
+            beta: 0.04,
+            compensated: true,
+            ..Options::with_tolerance(1e-10)
+        })
+        .integrate(&kepler(), &perihelion(0.4), 30.0, watch)
+        .unwrap()
+    };
+    assert_eq!(run(), run());
+}
+
+#[test]
+fn the_observer_stops_at_the_end_of_its_step() {
+    let mut seen = 0.0;
+    let solution = Dop853::new(Options::with_tolerance(1e-9))
+        .integrate(&kepler(), &perihelion(0.2), 30.0, |step| {
+            seen = step.end_time();
+            if step.end_time() > 3.0 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })
+        .unwrap();
+    assert_eq!(solution.report.stop, StopReason::StoppedByObserver);
+    assert_eq!(solution.state.time, seen);
+    assert!(
+        solution
+            .report
+            .to_string()
+            .starts_with("stopped by the observer: ")
+    );
+}
+
+#[test]
+fn the_account_adds_up() {
+    let evaluations = core::cell::Cell::new(0_u64);
+    let ode = OdeFn::new(4, |time: f64, y: &[f64], rates: &mut [f64]| {
+        evaluations.set(evaluations.get() + 1);
+        kepler().rates(time, y, rates);
+    });
+    let mut steps = 0;
+    let Solution { report, .. } = Dop853::new(Options::with_tolerance(1e-7))
+        .integrate(&ode, &perihelion(0.8), 20.0, |step| {
+            steps += 1;
+            step.eval(0.5 * (step.start_time() + step.end_time()), &mut [0.0; 4])
+                .unwrap();
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert_eq!(report.accepted, steps);
+    assert!(report.rejected > 0);
+    // Two for the first step; twelve an accepted, eleven a rejected step; three
+    // for the values inside.
+    assert_eq!(
+        report.evaluations,
+        2 + 15 * report.accepted + 11 * report.rejected
+    );
+    assert_eq!(report.evaluations, evaluations.get());
+    assert!(report.shortest_step > 0.0 && report.shortest_step < report.longest_step);
+}
+
+#[test]
+fn step_limits_in_length_are_kept() {
+    let solution = Dop853::new(Options {
+        max_step: Some(0.05),
+        ..Options::with_tolerance(1e-6)
+    })
+    .integrate(&kepler(), &perihelion(0.2), 4.0, watch)
+    .unwrap();
+    assert!(solution.report.longest_step <= 0.05 * 1.01);
+    assert!(solution.report.accepted >= 79);
+}

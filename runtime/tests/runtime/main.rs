@@ -1,0 +1,15 @@
+//! Tests of the runtime that need no macro: integrator against known answers
+//! and the reference trajectories, its failures, analysis, files.
+
+#![cfg(feature = "std")]
+
+mod accuracy;
+mod continuation;
+mod csv;
+mod failures;
+mod modes;
+mod order;
+mod problems;
+mod reference;
+mod requests;
+mod spectrum;

@@ -1,0 +1,208 @@
+//! Requests that make no sense are refused with the numbers that they hold;
+//! requests for nothing are granted.
+
+use core::cell::Cell;
+
+use branched_pendulum::integrate::InputError;
+use branched_pendulum::prelude::*;
+
+use crate::problems::{harmonic, watch};
+
+fn start() -> State<f64> {
+    State::at_rest(0.0, &[1.0])
+}
+
+fn options() -> Options<f64> {
+    Options::with_tolerance(1e-9)
+}
+
+fn assert_refused(options: Options<f64>, message: &str) {
+    let error = Dop853::new(options)
+        .integrate(&harmonic(), &start(), 10.0, watch)
+        .unwrap_err();
+    assert!(matches!(error, IntegrationError::Input(_)), "{error:?}");
+    assert_eq!(error.to_string(), message);
+    assert!(error.last_state().is_none() && error.report().is_none());
+    assert!(std::error::Error::source(&error).is_some());
+}
+
+#[test]
+fn tolerances_that_make_no_sense() {
+    for value in [-1e-9, f64::NAN, f64::INFINITY] {
+        let relative = Options {
+            relative: Tolerance::Uniform(value),
+            ..options()
+        };
+        assert_refused(
+            relative,
+            &format!(
+                "relative tolerance of component 0 is {value}: it must be finite and not negative"
+            ),
+        );
+        let absolute = Options {
+            absolute: Tolerance::PerComponent(vec![1e-9, value]),
+            ..options()
+        };
+        assert_refused(
+            absolute,
+            &format!(
+                "absolute tolerance of component 1 is {value}: it must be finite and not negative"
+            ),
+        );
+    }
+    assert_refused(
+        Options {
+            relative: Tolerance::PerComponent(vec![1e-9; 3]),
+            ..options()
+        },
+        "3 relative tolerances given for a state of 2 components",
+    );
+    assert_refused(
+        Options {
+            relative: Tolerance::PerComponent(vec![1e-9, 0.0]),
+            absolute: Tolerance::Uniform(0.0),
+            ..options()
+        },
+        "relative and absolute tolerance of component 1 are both zero: \
+         at least one must be positive",
+    );
+}
+
+#[test]
+fn steps_that_make_no_sense() {
+    for value in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+        assert_refused(
+            Options {
+                initial_step: Some(value),
+                ..options()
+            },
+            &format!("initial step is {value}: it must be finite and positive"),
+        );
+        assert_refused(
+            Options {
+                max_step: Some(value),
+                ..options()
+            },
+            &format!("longest step is {value}: it must be finite and positive"),
+        );
+    }
+    assert_refused(
+        Options {
+            min_step: -1.0,
+            ..options()
+        },
+        "shortest step is -1: it must be finite and not negative",
+    );
+    assert_refused(
+        Options {
+            min_step: 0.2,
+            max_step: Some(0.1),
+            ..options()
+        },
+        "shortest step 0.2 is longer than the longest step 0.1",
+    );
+    for value in [-0.01, 0.3, f64::NAN] {
+        assert_refused(
+            Options {
+                beta: value,
+                ..options()
+            },
+            &format!("beta is {value}: it must be between 0 and 0.2"),
+        );
+    }
+}
+
+#[test]
+fn starts_and_times_that_make_no_sense() {
+    let method = Dop853::new(options());
+    let refused = |start: State<f64>, end: f64| match method
+        .integrate(&harmonic(), &start, end, watch)
+        .unwrap_err()
+    {
+        IntegrationError::Input(error) => error.to_string(),
+        error => panic!("{error:?}"),
+    };
+    assert_eq!(
+        refused(State::at_rest(0.0, &[1.0, 2.0]), 1.0),
+        "the state has 4 components, the equations have 2"
+    );
+    assert_eq!(
+        refused(State::at_rest(f64::NAN, &[1.0]), 1.0),
+        "the starting time is NaN"
+    );
+    assert_eq!(
+        refused(State::new(0.0, vec![1.0, f64::INFINITY]), 1.0),
+        "component 1 of the starting state is inf"
+    );
+    assert_eq!(refused(start(), f64::NAN), "requested time 0 is NaN");
+    assert_eq!(refused(start(), f64::INFINITY), "requested time 0 is inf");
+    let empty = OdeFn::new(0, |_time: f64, _y: &[f64], _rates: &mut [f64]| {});
+    let error = method
+        .integrate(&empty, &State::new(0.0, vec![]), 1.0, watch)
+        .unwrap_err();
+    assert_eq!(error, IntegrationError::Input(InputError::EmptyState));
+    assert_eq!(error.to_string(), "the state has no components");
+    let error = method.step(&harmonic(), &start(), f64::NAN).unwrap_err();
+    assert_eq!(error.to_string(), "the length of a step is NaN");
+}
+
+#[test]
+fn sample_times_that_turn_back() {
+    let method = Dop853::new(options());
+    let sample = |times: &[f64]| {
+        method
+            .sample(&harmonic(), &start(), times, |_, _| {
+                panic!("visited before the check")
+            })
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(
+        sample(&[1.0, 2.0, 1.5]),
+        "requested time 2 is 1.5, after 2: times must run one way from the start"
+    );
+    assert_eq!(
+        sample(&[-1.0, 1.0]),
+        "requested time 1 is 1, after -1: times must run one way from the start"
+    );
+    assert_eq!(sample(&[1.0, f64::NAN]), "requested time 1 is NaN");
+}
+
+#[test]
+fn a_span_of_zero_returns_at_once() {
+    let evaluations = Cell::new(0);
+    let counted = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+        evaluations.set(evaluations.get() + 1);
+        rates.copy_from_slice(y);
+    });
+    let method = Dop853::new(options());
+    let solution = method
+        .integrate(&counted, &start(), 0.0, |_| panic!("there is no step"))
+        .unwrap();
+    assert_eq!(solution.state, start());
+    assert_eq!(solution.report.stop, StopReason::EndReached);
+    assert_eq!(
+        (solution.report.accepted, solution.report.evaluations),
+        (0, 0)
+    );
+    let solution = method
+        .sample(&counted, &start(), &[], |_, _| panic!("no time"))
+        .unwrap();
+    assert_eq!(solution.state, start());
+    let mut visits = 0;
+    method
+        .sample(&counted, &start(), &[0.0], |_, _| visits += 1)
+        .unwrap();
+    assert_eq!((visits, evaluations.get()), (1, 0));
+}
+
+#[test]
+fn the_shortest_span_that_times_can_hold() {
+    let begin = State::at_rest(1e6, &[1.0]);
+    let end = 1e6_f64.next_up();
+    let solution = Dop853::new(options())
+        .integrate(&harmonic(), &begin, end, watch)
+        .unwrap();
+    assert_eq!(solution.state.time, end);
+    assert_eq!(solution.report.accepted, 1);
+}
