@@ -33,13 +33,44 @@ pub struct ParameterError {
 }
 
 impl ParameterError {
-    /// The error that `what` is `value` and not what `requirement` says.
-    pub fn new(what: &'static str, value: f64, requirement: &'static str) -> Self {
-        Self {
+    /// Passes a finite value.
+    ///
+    /// # Errors
+    /// The error that `what` is not finite.
+    pub fn require_finite(what: &'static str, value: f64) -> Result<(), Self> {
+        Self::require(what, value, "finite", true)
+    }
+
+    /// Passes a finite value that is not negative.
+    ///
+    /// # Errors
+    /// The error that `what` is negative or not finite.
+    pub fn require_non_negative(what: &'static str, value: f64) -> Result<(), Self> {
+        Self::require(what, value, "zero or positive", value >= 0.0)
+    }
+
+    /// Passes a finite positive value.
+    ///
+    /// # Errors
+    /// The error that `what` is not positive or not finite.
+    pub fn require_positive(what: &'static str, value: f64) -> Result<(), Self> {
+        Self::require(what, value, "positive", value > 0.0)
+    }
+
+    fn require(
+        what: &'static str,
+        value: f64,
+        requirement: &'static str,
+        met: bool,
+    ) -> Result<(), Self> {
+        if met && value.is_finite() {
+            return Ok(());
+        }
+        Err(Self {
             what,
             value,
             requirement,
-        }
+        })
     }
 }
 

@@ -1,1 +1,11 @@
-//! Tests.
+//! Fixtures and oracles that the test binaries share; `README.md` says which
+//! kind of test lives where.
+
+// Emitted code must not cause a warning or need a missing doc in its user's
+// crate: this one compiles all fixture scenes.
+#![deny(warnings, missing_docs)]
+
+pub mod oracle;
+pub mod random;
+pub mod scenes;
+pub mod source;

@@ -44,7 +44,7 @@ impl Expression {
     /// Parses an expression and stops where it ends.
     pub(super) fn parse(input: ParseStream<'_>) -> Result<Self, Fault> {
         let start = input.span();
-        let mut members = vec![Self::term(input, minus(input), start)?];
+        let mut members = vec![Self::term(input)?];
         loop {
             let sign = input.span();
             let negative = if input.peek(Token![+]) {
@@ -56,7 +56,7 @@ impl Expression {
             } else {
                 break;
             };
-            members.push(Self::term(input, negative, sign)?);
+            members.push(Self::term(input)?.signed(negative, sign));
         }
         Ok(single(members).unwrap_or_else(|members| Self {
             span: spanning(start, &members),
@@ -64,10 +64,10 @@ impl Expression {
         }))
     }
 
-    /// Parses a product, or its opposite with the minus at `sign`.
-    fn term(input: ParseStream<'_>, negative: bool, sign: Span) -> Result<Self, Fault> {
+    /// Parses a product.
+    fn term(input: ParseStream<'_>) -> Result<Self, Fault> {
         let start = input.span();
-        let mut factors = vec![Self::power(input)?];
+        let mut factors = vec![Self::factor(input)?];
         let mut divisors = Vec::new();
         let mut last = factors.first().map_or(start, |factor| factor.span);
         loop {
@@ -80,13 +80,11 @@ impl Expression {
             } else {
                 break;
             };
-            let sign = input.span();
-            let negative = minus(input);
-            let factor = Self::power(input)?.signed(negative, sign);
+            let factor = Self::factor(input)?;
             last = factor.span;
             side.push(factor);
         }
-        let term = match single(factors) {
+        Ok(match single(factors) {
             Ok(only) if divisors.is_empty() => only,
             factors => Self {
                 span: start.join(last).unwrap_or(start),
@@ -95,8 +93,14 @@ impl Expression {
                     divisors,
                 },
             },
-        };
-        Ok(term.signed(negative, sign))
+        })
+    }
+
+    /// Parses a power, or its opposite.
+    fn factor(input: ParseStream<'_>) -> Result<Self, Fault> {
+        let sign = input.span();
+        let negative = minus(input);
+        Ok(Self::power(input)?.signed(negative, sign))
     }
 
     /// Parses a primary and its exponent.

@@ -13,17 +13,18 @@
 //! request     = name [ "(" [ form { "," form } [ "," ] ] ")" ]
 //! form        = name [ "=" integer ]
 //!
-//! expression  = [ "-" ] term { ( "+" | "-" ) term }
-//! term        = power { ( "*" | "/" ) [ "-" ] power }
+//! expression  = term { ( "+" | "-" ) term }
+//! term        = factor { ( "*" | "/" ) factor }
+//! factor      = [ "-" ] power
 //! power       = primary [ "^" ( [ "-" ] integer | "(" [ "-" ] integer ")" ) ]
 //! primary     = decimal | name | "(" expression ")"
 //! ```
 //!
-//! `^` binds tighter than `*` and than a leading minus: `-a * b^2` is
-//! `-(a * (b^2))`. A `decimal` is read exactly; a `name` is a parameter of the
-//! model, the same name being the same parameter everywhere. A pair is a point
-//! of a link, `(along, lateral)`; a single value there means `(along, 0)`. Which
-//! properties and requests there are, and what they mean, is the business of
+//! Unlike in Rust, `^` is a power and binds tightest: `-a^2` is `-(a^2)`. A
+//! `decimal` is read exactly; a `name` is a parameter of the model, the same
+//! name being the same parameter everywhere. A pair is a point of a link,
+//! `(along, lateral)`; a single value there means `(along, 0)`. Which properties
+//! and requests there are, and what they mean, is the business of
 //! [`scene`](crate::scene); this module knows their shape only.
 
 mod expression;

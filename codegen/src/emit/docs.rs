@@ -12,6 +12,9 @@ const ROWS: usize = 8;
 /// A formula longer than this is left to `expand --stage mechanics`.
 const LONGEST_FORMULA: usize = 600;
 
+/// Prose of emitted docs is wrapped at this width.
+const WIDTH: usize = 80;
+
 /// A formula: left side and right side.
 struct Formula {
     left: String,
@@ -30,11 +33,11 @@ impl Emission<'_> {
         let mut lines = vec![
             String::new(),
             format!(
-                "A planar tree of {} rigid links; angles are absolute, from the downward vertical, in the order",
-                links.len()
+                "A planar tree of {} rigid {}; angles are absolute, from the downward vertical, in the order {} SI units throughout, angles in radians.",
+                links.len(),
+                if links.len() == 1 { "link" } else { "links" },
+                wrapped_names(&links),
             ),
-            wrapped_names(&links),
-            "SI units throughout, angles in radians.".into(),
         ];
         if let Some(frame) = &self.mechanics.symmetric {
             let names: Vec<&str> = frame
@@ -43,9 +46,10 @@ impl Emission<'_> {
                 .map(|&id| self.mechanics.symbols.get(id).code.as_str())
                 .collect();
             lines.push(String::new());
-            lines.push("Symmetric coordinates, in the order".into());
-            lines.push(wrapped_names(&names));
-            lines.push("with the weights of the links' angles that `from_symmetric` shows.".into());
+            lines.push(format!(
+                "Symmetric coordinates, in the order {} `from_symmetric` shows how they form the angles.",
+                wrapped_names(&names)
+            ));
         }
         if !scene.requests.energies && scene.requests.transfer.is_none() {
             lines.push(String::new());
@@ -229,11 +233,7 @@ impl Emission<'_> {
                 let (row, column) = (name(entry.row), name(entry.column));
                 Formula {
                     left: format!("M[{row}, {column}]"),
-                    left_latex: format!(
-                        "M_{{\\mathrm{{{},{}}}}}",
-                        tex(&row),
-                        tex(&column)
-                    ),
+                    left_latex: format!("M_{{\\mathrm{{{},{}}}}}", tex(&row), tex(&column)),
                     right: entry.value.clone(),
                 }
             })
@@ -259,14 +259,11 @@ impl Emission<'_> {
             left_latex: format!("W_{{{}}}", &name[2..]),
             right: expr.clone(),
         };
-        let mut formulas = vec![
-            named("W_K", &parts.kinetic),
-            named("W_P", &parts.potential),
-        ];
+        let mut formulas = vec![named("W_K", &parts.kinetic), named("W_P", &parts.potential)];
         let mut truncated = false;
         parts.kinetic.for_each_symbol(&mut |id| {
-            truncated |= self.mechanics.symbols.get(id).role
-                == mechanics::expression::Role::Derived;
+            truncated |=
+                self.mechanics.symbols.get(id).role == mechanics::expression::Role::Derived;
         });
         if truncated {
             formulas.extend(self.written_out());
@@ -338,8 +335,30 @@ fn wrapped_names(names: &[&str]) -> String {
     }
 }
 
-fn doc_lines(lines: &[String]) -> TokenStream {
-    let lines = lines.iter().map(|line| {
+/// Doc comments, prose wrapped, blocks as they are.
+pub(super) fn doc_lines(lines: &[String]) -> TokenStream {
+    let mut wrapped: Vec<String> = Vec::new();
+    let mut in_block = false;
+    for line in lines {
+        let fence = line.starts_with("```");
+        in_block ^= fence;
+        if fence || in_block {
+            wrapped.push(line.clone());
+            continue;
+        }
+        let mut current = String::new();
+        for word in line.split(' ') {
+            if !current.is_empty() && current.chars().count() + word.chars().count() >= WIDTH {
+                wrapped.push(std::mem::take(&mut current));
+            }
+            if !current.is_empty() {
+                current.push(' ');
+            }
+            current.push_str(word);
+        }
+        wrapped.push(current);
+    }
+    let lines = wrapped.iter().map(|line| {
         let line = if line.is_empty() {
             String::new()
         } else {

@@ -128,10 +128,13 @@ impl Emission<'_> {
                 .iter()
                 .find(|id| *self.op(**id) == op)
                 .and_then(|id| locals.names.get(id))
-                .map_or_else(|| quote!(_), |name| {
-                    let name = ident(name);
-                    quote!(#name)
-                })
+                .map_or_else(
+                    || quote!(_),
+                    |name| {
+                        let name = ident(name);
+                        quote!(#name)
+                    },
+                )
         };
         let sin = name(Op::Sin(angle));
         let cos = name(Op::Cos(angle));

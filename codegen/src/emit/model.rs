@@ -1,9 +1,10 @@
 //! The model type: constants, constructors, accessors.
 
 use super::Emission;
+use super::docs::doc_lines;
 use super::function::number_tokens;
 use crate::program::{ConstantId, ConstantOp};
-use crate::scene::{Quantity, Sign};
+use crate::scene::{ParameterId, Quantity, Sign};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;
@@ -117,11 +118,14 @@ impl Emission<'_> {
                 if number.is_one() && above.len() > 1 {
                     above.remove(0);
                 }
-                let above = quote!(#(#above)**);
+                let above = joined(&above, &quote!(*));
                 match below.as_slice() {
                     [] => above,
                     [divisor] => quote!(#above / #divisor),
-                    divisors => quote!(#above / (#(#divisors)**)),
+                    divisors => {
+                        let below = joined(divisors, &quote!(*));
+                        quote!(#above / (#below))
+                    }
                 }
             }
             ConstantOp::Add(a, b) => {
@@ -169,14 +173,26 @@ impl Emission<'_> {
             }
         });
         let docs = format!(" Parameters of [`{name}`]. SI units.");
-        let finite = self.scene.parameters.iter().map(|parameter| {
-            let field = format_ident!("{}", parameter.name);
-            let what = format!("parameter `{}`", parameter.name);
-            self.refusal(&what, &quote!(parameters.#field), Sign::Any)
-        });
+        let signed = |index: usize| {
+            self.scene
+                .requirements
+                .iter()
+                .any(|r| r.quantity == Quantity::Parameter(ParameterId(index)))
+        };
+        let finite = self
+            .scene
+            .parameters
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| !signed(*index))
+            .map(|(_, parameter)| {
+                let field = format_ident!("{}", parameter.name);
+                let what = format!("parameter `{}`", parameter.name);
+                self.requirement(&what, &quote!(parameters.#field), Sign::Any)
+            });
         let signs = self.scene.requirements.iter().map(|requirement| {
             let value = self.quantity(&requirement.quantity);
-            self.refusal(&requirement.what, &value, requirement.sign)
+            self.requirement(&requirement.what, &value, requirement.sign)
         });
         let constants = self.constants();
         quote! {
@@ -214,38 +230,26 @@ impl Emission<'_> {
     }
 
     /// Returns an error unless the value meets the condition; a NaN never does.
-    fn refusal(&self, what: &str, value: &TokenStream, sign: Sign) -> TokenStream {
+    fn requirement(&self, what: &str, value: &TokenStream, sign: Sign) -> TokenStream {
         let runtime = self.runtime();
-        let (condition, requirement) = match sign {
-            Sign::Any => (quote!(value.is_finite()), "finite"),
-            Sign::NonNegative => (
-                quote!(value.is_finite() && value >= 0.0),
-                "zero or positive",
-            ),
-            Sign::Positive => (quote!(value.is_finite() && value > 0.0), "positive"),
+        let check = match sign {
+            Sign::Any => quote!(require_finite),
+            Sign::NonNegative => quote!(require_non_negative),
+            Sign::Positive => quote!(require_positive),
         };
-        quote! {
-            let value: f64 = #value;
-            if !(#condition) {
-                return ::core::result::Result::Err(
-                    #runtime::ParameterError::new(#what, value, #requirement),
-                );
-            }
-        }
+        quote!(#runtime::ParameterError::#check(#what, #value)?;)
     }
 
+    /// A quantity computed in f64 from the parameters.
     fn quantity(&self, quantity: &Quantity) -> TokenStream {
-        let fold = |parts: &[Quantity], operator: TokenStream| {
-            let mut parts = parts.iter().map(|part| self.quantity(part));
-            let first = parts.next();
-            let rest = parts.map(|part| quote!(#operator #part));
-            quote!((#first #(#rest)*))
+        let operands = |parts: &[Quantity]| -> Vec<TokenStream> {
+            parts.iter().map(|part| self.operand(part)).collect()
         };
         match quantity {
             Quantity::Exact(number) => {
                 let value = Literal::f64_unsuffixed(number.to_f64().abs());
                 if number.is_negative() {
-                    quote!((-#value))
+                    quote!(-#value)
                 } else {
                     quote!(#value)
                 }
@@ -254,25 +258,35 @@ impl Emission<'_> {
                 let field = format_ident!("{}", self.scene.parameters[id.0].name);
                 quote!(parameters.#field)
             }
-            Quantity::Sum(parts) => fold(parts, quote!(+)),
-            Quantity::Product(parts) => fold(parts, quote!(*)),
+            Quantity::Sum(parts) => joined(&operands(parts), &quote!(+)),
+            Quantity::Product(parts) => joined(&operands(parts), &quote!(*)),
             Quantity::Quotient(a, b) => {
-                let (a, b) = (self.quantity(a), self.quantity(b));
-                quote!((#a / #b))
+                let (a, b) = (self.operand(a), self.operand(b));
+                quote!(#a / #b)
             }
             Quantity::Power(base, exponent) => {
-                let base = self.quantity(base);
-                let factors = vec![base; exponent.unsigned_abs() as usize];
+                let factors = vec![self.operand(base); exponent.unsigned_abs() as usize];
+                let power = joined(&factors, &quote!(*));
                 if *exponent < 0 {
-                    quote!((1.0 / (#(#factors)**)))
+                    quote!(1.0 / (#power))
                 } else {
-                    quote!((#(#factors)**))
+                    power
                 }
             }
             Quantity::Negative(value) => {
-                let value = self.quantity(value);
-                quote!((-#value))
+                let value = self.operand(value);
+                quote!(-#value)
             }
+        }
+    }
+
+    /// A quantity inside another one.
+    fn operand(&self, quantity: &Quantity) -> TokenStream {
+        let value = self.quantity(quantity);
+        match quantity {
+            Quantity::Parameter(_) => value,
+            Quantity::Exact(number) if !number.is_negative() => value,
+            _ => quote!((#value)),
         }
     }
 
@@ -285,16 +299,14 @@ impl Emission<'_> {
             };
             let constant = &self.mechanics.constants[index];
             let symbol = self.mechanics.symbols.get(constant.symbol);
-            let doc = format!(
-                " {} = {}: {} [{}].",
-                symbol.text,
-                self.text(&constant.value),
-                constant.meaning,
-                constant.unit
-            );
+            let docs = doc_lines(&[
+                format!("{} [{}]: {}.", symbol.text, constant.unit, constant.meaning),
+                String::new(),
+                format!("{} = {}", symbol.text, self.text(&constant.value)),
+            ]);
             let name = self.field(id);
             Some(quote! {
-                #[doc = #doc]
+                #docs
                 #[inline]
                 #[must_use]
                 pub fn #name(&self) -> T {
@@ -304,4 +316,12 @@ impl Emission<'_> {
         });
         quote!(#(#accessors)*)
     }
+}
+
+/// Tokens with an operator between them.
+fn joined(parts: &[TokenStream], operator: &TokenStream) -> TokenStream {
+    let mut parts = parts.iter();
+    let first = parts.next();
+    let rest = parts.map(|part| quote!(#operator #part));
+    quote!(#first #(#rest)*)
 }

@@ -93,12 +93,7 @@ impl Emission<'_> {
     fn energy(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let value = |slices: &[&str], call| {
-            self.with_arrays(
-                slices,
-                call,
-                quote!(result),
-                quote!(T::from_f64(f64::NAN)),
-            )
+            self.with_arrays(slices, call, quote!(result), quote!(T::from_f64(f64::NAN)))
         };
         let kinetic = value(
             &["theta", "omega"],

@@ -267,7 +267,10 @@ fn monomial_exponents(key: AtomView<'_>, atoms: &[Atom]) -> Vec<u32> {
 
 fn symbol_id(symbol: AlgebraSymbol) -> SymbolId {
     let name = symbol.get_stripped_name();
-    match name.strip_prefix('x').and_then(|digits| digits.parse().ok()) {
+    match name
+        .strip_prefix('x')
+        .and_then(|digits| digits.parse().ok())
+    {
         Some(id) => SymbolId(id),
         None => unreachable!("the algebra returned a symbol that we did not make: {name}"),
     }

@@ -242,7 +242,11 @@ impl Rotation {
     }
 
     fn times(&self, count: i64) -> Self {
-        let one = if count < 0 { self.inverse() } else { self.clone() };
+        let one = if count < 0 {
+            self.inverse()
+        } else {
+            self.clone()
+        };
         (0..count.abs()).fold(Self::identity(), |sum, _| sum.then(&one))
     }
 }

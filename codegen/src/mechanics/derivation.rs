@@ -59,7 +59,9 @@ impl MassMatrix {
 
     /// Entries of the lower triangle by row, then column.
     pub(super) fn iter(&self) -> impl Iterator<Item = (usize, usize, &Formula)> {
-        self.0.iter().map(|(&(row, column), value)| (row, column, value))
+        self.0
+            .iter()
+            .map(|(&(row, column), value)| (row, column, value))
     }
 
     /// The matrix with every entry replaced; zeros are dropped.
@@ -205,16 +207,16 @@ impl<'s> Derivation<'s> {
     fn slope(&self, symbol: SymbolId, coordinate: SymbolId) -> Option<Formula> {
         let signed = |value: Formula, positive: bool| if positive { value } else { -value };
         match *self.trigonometry.get(&symbol)? {
-            Trigonometric::Cos(a) => {
-                (a == coordinate).then(|| -Formula::symbol(self.sin(a)))
-            }
+            Trigonometric::Cos(a) => (a == coordinate).then(|| -Formula::symbol(self.sin(a))),
             Trigonometric::Sin(a) => (a == coordinate).then(|| Formula::symbol(self.cos(a))),
-            Trigonometric::CosBetween(a, b) if a == coordinate || b == coordinate => {
-                Some(signed(Formula::symbol(self.of_two[&(a, b)].1), b == coordinate))
-            }
-            Trigonometric::SinBetween(a, b) if a == coordinate || b == coordinate => {
-                Some(signed(Formula::symbol(self.of_two[&(a, b)].0), a == coordinate))
-            }
+            Trigonometric::CosBetween(a, b) if a == coordinate || b == coordinate => Some(signed(
+                Formula::symbol(self.of_two[&(a, b)].1),
+                b == coordinate,
+            )),
+            Trigonometric::SinBetween(a, b) if a == coordinate || b == coordinate => Some(signed(
+                Formula::symbol(self.of_two[&(a, b)].0),
+                a == coordinate,
+            )),
             _ => None,
         }
     }

@@ -129,15 +129,10 @@ impl Derivation<'_> {
         } else {
             let off = entry(1, 0);
             let value = &(&entry(0, 0) * &entry(1, 1)) - &off.pow(2);
-            let adjugate = vec![
-                vec![entry(1, 1), -off.clone()],
-                vec![-off, entry(0, 0)],
-            ];
+            let adjugate = vec![vec![entry(1, 1), -off.clone()], vec![-off, entry(0, 0)]];
             (adjugate, value.expand())
         };
-        let determinant = self
-            .symbols
-            .intern(Role::Derived, "determinant", "D", "D");
+        let determinant = self.symbols.intern(Role::Derived, "determinant", "D", "D");
         Some(WrittenOut {
             determinant,
             determinant_value,

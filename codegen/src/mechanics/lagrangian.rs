@@ -90,11 +90,15 @@ impl Derivation<'_> {
         let (orbit_i, orbit_j) = (self.orbit_name(row), self.orbit_name(column));
         if row == column {
             let table = sum.coefficients(&[self.cos(i), self.sin(i)]);
-            let coefficient =
-                |c: u32, s: u32| table.get(&vec![c, s]).cloned().unwrap_or_else(Formula::zero);
+            let coefficient = |c: u32, s: u32| {
+                table
+                    .get(&vec![c, s])
+                    .cloned()
+                    .unwrap_or_else(Formula::zero)
+            };
             let square = coefficient(2, 0);
-            let accounted = usize::from(table.contains_key(&vec![0, 0]))
-                + 2 * usize::from(!square.is_zero());
+            let accounted =
+                usize::from(table.contains_key(&vec![0, 0])) + 2 * usize::from(!square.is_zero());
             assert!(
                 coefficient(0, 2) == square && table.len() == accounted,
                 "diagonal entry of {orbit_i} is not constant: {sum:?}"
@@ -110,8 +114,7 @@ impl Derivation<'_> {
             );
             return constant;
         }
-        let table =
-            sum.coefficients(&[self.cos(i), self.sin(i), self.cos(j), self.sin(j)]);
+        let table = sum.coefficients(&[self.cos(i), self.sin(i), self.cos(j), self.sin(j)]);
         let coefficient = |key: [u32; 4]| {
             table
                 .get(key.as_slice())
@@ -120,8 +123,7 @@ impl Derivation<'_> {
         };
         let cosine = coefficient([1, 0, 1, 0]);
         let sine = coefficient([0, 1, 1, 0]);
-        let accounted =
-            2 * usize::from(!cosine.is_zero()) + 2 * usize::from(!sine.is_zero());
+        let accounted = 2 * usize::from(!cosine.is_zero()) + 2 * usize::from(!sine.is_zero());
         assert!(
             coefficient([0, 1, 0, 1]) == cosine
                 && (&coefficient([1, 0, 0, 1]) + &sine).expand().is_zero()

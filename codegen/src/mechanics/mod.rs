@@ -12,6 +12,7 @@ pub mod expression;
 mod inverse_mass;
 mod lagrangian;
 mod print;
+mod show;
 mod transfer;
 
 pub use algebra::AlgebraError;

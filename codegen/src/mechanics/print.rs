@@ -52,8 +52,7 @@ impl Notation {
                 Expr::Number(number) => {
                     negative = number.is_negative();
                     let size = if negative { -number } else { number.clone() };
-                    let (numerator, denominator) =
-                        (size.numerator_text(), size.denominator_text());
+                    let (numerator, denominator) = (size.numerator_text(), size.denominator_text());
                     if numerator != "1" {
                         above.push(numerator);
                     }
@@ -87,7 +86,11 @@ impl Notation {
             Expr::Number(number) => number_text(number),
             Expr::Symbol(id) => {
                 let symbol = symbols.get(*id);
-                let spelled = if self.latex { &symbol.latex } else { &symbol.text };
+                let spelled = if self.latex {
+                    &symbol.latex
+                } else {
+                    &symbol.text
+                };
                 let function = spelled.trim_start_matches('\\');
                 let is_function = function.starts_with("cos") || function.starts_with("sin");
                 if exponent != 1 && is_function {

@@ -51,12 +51,12 @@ impl Derivation<'_> {
             cosines.push(&weight * &cos);
             sines.push(&weight * &sin);
         }
-        let square = |terms: Vec<Formula>| terms.into_iter().sum::<Formula>().pow(2);
+        // Left as a sum of squares: multiplied out, small differences would
+        // drown in the rounding of terms that cancel.
+        let square = |terms: Vec<Formula>| terms.into_iter().sum::<Formula>().expand().pow(2);
         let modulus = &square(cosines) + &square(sines);
-        let modulus = self.reduce(&modulus, frame, &expansion.differences);
-        let weight = self.gravity_of(orbit);
-        let potential =
-            (&(&weight / &Formula::integer(2 * norm)) * &modulus).expand();
+        let weight = &self.gravity_of(orbit) / &Formula::integer(2 * norm);
+        let potential = &weight * &modulus;
         SubHamiltonian {
             coordinate,
             kinetic,
@@ -144,7 +144,14 @@ impl Derivation<'_> {
             0 => Formula::zero(),
             _ => expansion.first_order(),
         };
-        self.truncated(frame, expansion, energy, &kinetic, Counting::Angle, 0..=order)
+        self.truncated(
+            frame,
+            expansion,
+            energy,
+            &kinetic,
+            Counting::Angle,
+            0..=order,
+        )
     }
 
     /// W to second order in the amplitude: the complete quadratic form in the
@@ -156,7 +163,14 @@ impl Derivation<'_> {
         energy: &SubHamiltonian,
     ) -> Parts {
         let kinetic = expansion.second_order_in_amplitude();
-        self.truncated(frame, expansion, energy, &kinetic, Counting::Amplitude, 2..=2)
+        self.truncated(
+            frame,
+            expansion,
+            energy,
+            &kinetic,
+            Counting::Amplitude,
+            2..=2,
+        )
     }
 
     fn truncated(
@@ -238,11 +252,7 @@ impl Derivation<'_> {
     }
 
     /// The power of friction on H_d: Σ ∂H_d/∂p_s Q_s, Q = −∂R/∂q̇.
-    pub(super) fn friction_power(
-        &self,
-        frame: &Frame,
-        energy: &SubHamiltonian,
-    ) -> Formula {
+    pub(super) fn friction_power(&self, frame: &Frame, energy: &SubHamiltonian) -> Formula {
         let s = energy.coordinate;
         let velocity = energy.kinetic.derivative(frame.momenta[s]);
         let torque = -frame.dissipation.derivative(frame.velocities[s]);

@@ -175,7 +175,8 @@ impl Setup {
         let wanted = name.map_or_else(|| spelling::constant(self, &op), str::to_owned);
         let name = self.unique(wanted, id);
         self.known.insert(op.clone(), id);
-        self.definitions.push(ConstantDefinition { op, exact, name });
+        self.definitions
+            .push(ConstantDefinition { op, exact, name });
         id
     }
 
@@ -185,11 +186,11 @@ impl Setup {
             ConstantOp::Number(number) => Some(number.clone()),
             ConstantOp::Parameter(_) => None,
             ConstantOp::Named(_, a) => exact(*a),
-            ConstantOp::Product(number, powers) => {
-                powers.iter().try_fold(number.clone(), |product, (id, power)| {
+            ConstantOp::Product(number, powers) => powers
+                .iter()
+                .try_fold(number.clone(), |product, (id, power)| {
                     Some(product * exact(*id)?.checked_pow(*power).ok()?)
-                })
-            }
+                }),
             ConstantOp::Add(a, b) => Some(exact(*a)? + exact(*b)?),
             ConstantOp::Sub(a, b) => Some(exact(*a)? - exact(*b)?),
         }

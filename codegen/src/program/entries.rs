@@ -64,7 +64,11 @@ impl EntryList<'_, '_> {
             let value = self.lowering.expr(door, bias);
             self.lowering.builder.name(value, &format!("bias_{name}"));
             let torque = self.lowering.builder.neg(value);
-            right.push(self.lowering.builder.name(torque, &format!("torque_{name}")));
+            right.push(
+                self.lowering
+                    .builder
+                    .name(torque, &format!("torque_{name}")),
+            );
         }
         let solution = self.lowering.builder.solve(mass, right, &names);
         for (&value, name) in solution.iter().zip(&names) {
@@ -133,7 +137,11 @@ impl EntryList<'_, '_> {
             let size = frame.coordinates.len();
             for (name, purpose, entries) in [
                 ("mass_matrix", Purpose::MassMatrix, &frame.mass),
-                ("stiffness_matrix", Purpose::StiffnessMatrix, &frame.stiffness),
+                (
+                    "stiffness_matrix",
+                    Purpose::StiffnessMatrix,
+                    &frame.stiffness,
+                ),
             ] {
                 let dense = self.dense(&mut motion, entries, size);
                 self.push(name, purpose, &[Theta], dense, Shape::Matrix(size));
@@ -141,12 +149,7 @@ impl EntryList<'_, '_> {
         }
     }
 
-    fn dense(
-        &mut self,
-        door: &mut Door<'_>,
-        entries: &[MatrixEntry],
-        size: usize,
-    ) -> Vec<ValueId> {
+    fn dense(&mut self, door: &mut Door<'_>, entries: &[MatrixEntry], size: usize) -> Vec<ValueId> {
         let sparse = self.lowering.matrix(door, entries);
         let zero = self.lowering.builder.integer(0);
         let mut dense = Vec::with_capacity(size * size);

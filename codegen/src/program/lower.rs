@@ -146,18 +146,15 @@ impl Lowering<'_> {
         }
     }
 
-    fn sines_and_cosines(
-        &mut self,
-        door: &mut Door<'_>,
-        a: SymbolId,
-        b: SymbolId,
-    ) -> [ValueId; 4] {
+    fn sines_and_cosines(&mut self, door: &mut Door<'_>, a: SymbolId, b: SymbolId) -> [ValueId; 4] {
         let mechanics = self.mechanics;
-        let find = |wanted: Trigonometric| {
-            match mechanics.trigonometry.iter().find(|(_, t)| **t == wanted) {
-                Some((&symbol, _)) => symbol,
-                None => unreachable!("every coordinate has a sine and a cosine"),
-            }
+        let find = |wanted: Trigonometric| match mechanics
+            .trigonometry
+            .iter()
+            .find(|(_, t)| **t == wanted)
+        {
+            Some((&symbol, _)) => symbol,
+            None => unreachable!("every coordinate has a sine and a cosine"),
         };
         [
             find(Trigonometric::Cos(a)),

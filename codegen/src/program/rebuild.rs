@@ -70,7 +70,9 @@ impl<'a> Rebuilt<'a> {
         Some(match self.program.setup.get(id).op {
             ConstantOp::Number(ref number) => Expr::Number(number.clone()),
             ConstantOp::Parameter(index) => Expr::Symbol(*self.mechanics.parameters.get(index)?),
-            ConstantOp::Named(index, _) => Expr::Symbol(self.mechanics.constants.get(index)?.symbol),
+            ConstantOp::Named(index, _) => {
+                Expr::Symbol(self.mechanics.constants.get(index)?.symbol)
+            }
             ConstantOp::Product(ref number, ref powers) => {
                 let mut factors = vec![Expr::Number(number.clone())];
                 for &(id, power) in powers {

@@ -27,7 +27,10 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Order { definition } => {
-                write!(f, "definition {definition} uses a value that is not earlier")
+                write!(
+                    f,
+                    "definition {definition} uses a value that is not earlier"
+                )
             }
             Self::Outputs { entry } => write!(f, "the outputs of `{entry}` do not fill its shape"),
             Self::Argument { entry } => {
@@ -67,12 +70,13 @@ impl Program {
                     entry: entry.name.clone(),
                 });
             }
-            let reads_only_its_own = self.needed(&entry.outputs).into_iter().all(|id| {
-                match self.definition(id).op {
-                    super::Op::Input(argument, _) => entry.arguments.contains(&argument),
-                    _ => true,
-                }
-            });
+            let reads_only_its_own =
+                self.needed(&entry.outputs)
+                    .into_iter()
+                    .all(|id| match self.definition(id).op {
+                        super::Op::Input(argument, _) => entry.arguments.contains(&argument),
+                        _ => true,
+                    });
             if !reads_only_its_own {
                 return Err(Fault::Argument {
                     entry: entry.name.clone(),

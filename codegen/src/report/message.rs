@@ -217,6 +217,11 @@ pub enum Message {
         /// The first such group.
         group: String,
     },
+    /// Transfer between siblings whose centre of mass lies off their axis.
+    LateralTransfer {
+        /// The first such link.
+        link: String,
+    },
     /// The derivation could not be run.
     Algebra(String),
 }

@@ -254,8 +254,8 @@ impl Message {
             ),
             M::AngleOrder => problem(
                 "order of the angles not available",
-                "orders are 0 and 1",
-                "write `angle = 0` or `angle = 1`, or use `exact`",
+                "the only order is 1",
+                "write `angle = 1`, or use `exact`",
             ),
             M::AmplitudeOrder => problem(
                 "order of the amplitude not available",
@@ -266,6 +266,12 @@ impl Message {
                 format!("`{request}` needs identical siblings"),
                 "no link has copies",
                 "write `child(...) * 2`: links that merely have equal numbers do not count",
+            ),
+            M::LateralTransfer { link } => problem(
+                format!("`transfer` needs the centre of mass of `{link}` on its axis"),
+                "a lateral centre of mass among the copies",
+                "measure the copies' angles from the line through pivot and centre of mass: \
+                   `com = 0.05` instead of `com = (0.04, 0.03)`",
             ),
             M::Algebra(reason) => problem(
                 "the mechanics could not be derived",
@@ -278,7 +284,7 @@ impl Message {
                          have some"
                 ),
                 "tree not supported",
-                "available are all of `transfer(angle = 0 or 1, amplitude = 2, exact)` for \
+                "available are all of `transfer(angle = 1, amplitude = 2, exact)` for \
                    trees whose copied links are leaves; leave it out for this tree",
             ),
         }

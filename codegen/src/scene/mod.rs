@@ -1,6 +1,6 @@
 //! The scene: a description checked and written out link by link.
 //!
-//! [`resolve`] turns a [`Description`](crate::description::Description) into a
+//! [`resolve()`] turns a [`Description`](crate::description::Description) into a
 //! [`Scene`]. Later stages read nothing else and may rely on what is said here:
 //!
 //! - exactly one root; `links` holds every parent before its children, depth

@@ -13,8 +13,8 @@ const OUTPUTS: &[&str] = &["energies", "momenta", "modes", "symmetric", "transfe
 /// All forms of the transfer.
 const FORMS: &[&str] = &["angle", "amplitude", "exact"];
 
-/// Highest order in the difference angles that is derived.
-const MAX_ANGLE_ORDER: u32 = 1;
+/// The order in the difference angles that is derived.
+const ANGLE_ORDER: u32 = 1;
 
 /// The order in the amplitude that is derived.
 const AMPLITUDE_ORDER: u32 = 2;
@@ -91,7 +91,7 @@ fn transfer(
     };
     let Some(forms) = forms else {
         return TransferRequest {
-            angle_order: Some(MAX_ANGLE_ORDER),
+            angle_order: Some(ANGLE_ORDER),
             amplitude_order: Some(AMPLITUDE_ORDER),
             exact: true,
         };
@@ -110,7 +110,7 @@ fn transfer(
         let span = value.map_or(span, |value| value.span);
         match text.as_str() {
             "angle" => {
-                request.angle_order = order.filter(|&order| order <= MAX_ANGLE_ORDER);
+                request.angle_order = order.filter(|&order| order == ANGLE_ORDER);
                 if request.angle_order.is_none() {
                     report.error(span, Message::AngleOrder);
                 }
@@ -169,5 +169,14 @@ pub(super) fn check_symmetry(resolved: &Resolved, expansion: &Expansion, report:
     if let Some(group) = nested {
         let group = group.name.clone();
         report.error(span, Message::NestedGroups { group });
+    }
+    let lopsided = groups
+        .iter()
+        .flat_map(|group| &group.copies)
+        .map(|copy| &links[copy.0])
+        .find(|link| !link.com.lateral.is_zero());
+    if let Some(link) = lopsided {
+        let link = link.name.clone();
+        report.error(span, Message::LateralTransfer { link });
     }
 }

@@ -259,6 +259,13 @@ const CASES: &[(&str, &str)] = &[
     a: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1),
     emit(transfer(exact)))] struct Pendulum;",
     ),
+    (
+        "lateral_transfer",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [
+        b(mass = 1, com = (0.04, 0.03), inertia = 1) * 2
+    ],
+    emit(transfer(exact)))] struct Pendulum;",
+    ),
 ];
 
 /// A source with brackets deeper than any tree needs.

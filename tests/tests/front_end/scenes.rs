@@ -260,7 +260,7 @@ fn the_struct_survives() {
     let (vis, attrs) = (&item.vis, &item.attrs);
     let kept = quote::quote!(#(#attrs)* #vis).to_string();
     let written: proc_macro2::TokenStream =
-        "#[doc = r\" The paper's apparatus.\"] #[derive(Debug)] pub(crate)"
+        "#[doc = \" The paper's apparatus.\"] #[derive(Debug)] pub(crate)"
             .parse()
             .expect("these are tokens");
     assert_eq!(kept, written.to_string());

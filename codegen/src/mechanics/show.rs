@@ -1,0 +1,143 @@
+//! A scene's mechanics as text, for `expand --stage mechanics`.
+
+use super::coordinates::Kind;
+use super::expression::{Expr, SymbolId};
+use super::{Entry, Frame, Mechanics, Parts, text};
+use std::fmt;
+
+impl fmt::Display for Mechanics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "constants")?;
+        for constant in &self.constants {
+            writeln!(
+                f,
+                "  {} = {} [{}]: {}",
+                self.name(constant.symbol),
+                self.text(&constant.value),
+                constant.unit,
+                constant.meaning
+            )?;
+        }
+        writeln!(f, "absolute angles")?;
+        self.frame(f, &self.absolute)?;
+        if let Some(frame) = &self.symmetric {
+            writeln!(f, "symmetric coordinates")?;
+            self.coordinates(f, frame)?;
+            self.frame(f, frame)?;
+        }
+        if let Some(expansion) = &self.expansion {
+            writeln!(f, "in-phase velocities: M⁽⁰⁾ w = p")?;
+            self.matrix(f, "M⁽⁰⁾", &expansion.leading)?;
+            if let Some(written) = &expansion.written_out {
+                for (&symbol, value) in expansion.velocities.iter().zip(&written.velocities) {
+                    self.line(f, &self.name(symbol), value)?;
+                }
+                self.line(
+                    f,
+                    &self.name(written.determinant),
+                    &written.determinant_value,
+                )?;
+                self.dense(f, "M⁻¹", &written.inverse)?;
+                self.dense(f, "first order of M⁻¹", &written.inverse_first_order)?;
+            }
+        }
+        for transfer in &self.transfers {
+            let name = &self.coordinates[transfer.coordinate].name;
+            writeln!(f, "transfer into {name}")?;
+            self.line(f, "T", &transfer.energy.kinetic)?;
+            self.line(f, "V", &transfer.energy.potential)?;
+            self.parts(f, "angle order 1", &transfer.angle)?;
+            self.parts(f, "amplitude order 2", &transfer.amplitude)?;
+            if let Some(form) = &transfer.quadratic_form {
+                for (name, value) in ["a_pp", "a_pq", "a_qq"].iter().zip(form) {
+                    self.line(f, name, value)?;
+                }
+            }
+            self.parts(f, "exact", &transfer.exact)?;
+            if !transfer.friction.is_zero() {
+                self.line(f, "power of friction", &transfer.friction)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Mechanics {
+    fn name(&self, symbol: SymbolId) -> String {
+        self.symbols.get(symbol).text.clone()
+    }
+
+    fn text(&self, expr: &Expr) -> String {
+        text(expr, &self.symbols)
+    }
+
+    fn line(&self, f: &mut fmt::Formatter<'_>, left: &str, right: &Expr) -> fmt::Result {
+        writeln!(f, "  {left} = {}", self.text(right))
+    }
+
+    fn matrix(&self, f: &mut fmt::Formatter<'_>, name: &str, entries: &[Entry]) -> fmt::Result {
+        entries.iter().try_for_each(|entry| {
+            let left = format!("{name}[{}, {}]", entry.row + 1, entry.column + 1);
+            self.line(f, &left, &entry.value)
+        })
+    }
+
+    fn dense(&self, f: &mut fmt::Formatter<'_>, name: &str, rows: &[Vec<Expr>]) -> fmt::Result {
+        for (i, row) in rows.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                if !value.is_zero() {
+                    self.line(f, &format!("{name}[{}, {}]", i + 1, j + 1), value)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn frame(&self, f: &mut fmt::Formatter<'_>, frame: &Frame) -> fmt::Result {
+        self.line(f, "K", &frame.kinetic)?;
+        self.line(f, "U", &frame.potential)?;
+        self.matrix(f, "M", &frame.mass)?;
+        for (index, (&momentum, value)) in frame.momenta.iter().zip(&frame.momentum).enumerate() {
+            self.line(f, &self.name(momentum), value)?;
+            self.line(f, &format!("b[{}]", index + 1), &frame.bias[index])?;
+        }
+        self.matrix(f, "∂²U", &frame.stiffness)
+    }
+
+    fn coordinates(&self, f: &mut fmt::Formatter<'_>, frame: &Frame) -> fmt::Result {
+        for (&symbol, coordinate) in frame.coordinates.iter().zip(&self.coordinates) {
+            let kind = match coordinate.kind {
+                Kind::Mean { .. } => "mean",
+                Kind::Difference { .. } => "difference",
+            };
+            let weights: Vec<String> = coordinate
+                .weights
+                .iter()
+                .map(|(link, weight)| {
+                    format!(
+                        "{weight:+} {}",
+                        self.name(self.absolute.coordinates[link.0])
+                    )
+                })
+                .collect();
+            writeln!(
+                f,
+                "  {} = ({}) / {}, {kind}",
+                self.name(symbol),
+                weights.join(" "),
+                coordinate.norm()
+            )?;
+        }
+        Ok(())
+    }
+
+    fn parts(&self, f: &mut fmt::Formatter<'_>, name: &str, parts: &Option<Parts>) -> fmt::Result {
+        match parts {
+            Some(parts) => {
+                self.line(f, &format!("W_K, {name}"), &parts.kinetic)?;
+                self.line(f, &format!("W_P, {name}"), &parts.potential)
+            }
+            None => Ok(()),
+        }
+    }
+}

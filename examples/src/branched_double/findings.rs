@@ -1,0 +1,282 @@
+//! What a run says: growth, first peak, where the energy came from, and how
+//! far each form of W is from the truth.
+
+use branched_pendulum::Transfer;
+use branched_pendulum::analysis::{Modes, ModesError};
+
+use super::apparatus::{DIFFERENCE, EXACT, FORMS, Flow, MEAN, PUBLISHED, Sample};
+use super::experiment::Run;
+use super::scenes::BranchedDouble;
+
+/// A maximum counts as the first peak of H_d if H_d does not exceed it within
+/// this time before and after, s. H_d grows in pulses, about two seconds apart;
+/// a pulse that the next one dwarfs is on the way to the peak.
+pub const PEAK_REACH: f64 = 2.0;
+
+/// What one run says. `None` stands where a number has no meaning, for example
+/// the growth of a disturbance of zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Findings {
+    /// Largest |θ_d| of the run over |θ_d(0)|. Full turns count.
+    pub growth: Option<f64>,
+    /// The first peak of H_d.
+    pub peak: Option<Peak>,
+    /// For each form of W: the root mean square of its difference from dH_d/dt,
+    /// relative to the root mean square of dH_d/dt. Both are means over one
+    /// sampling interval: ∫W dt over it on one side, the change of H_d on the
+    /// other. With friction, its power on H_d is added to W.
+    pub deviations: [Option<f64>; FORMS.len()],
+    /// Largest difference between the energy and what friction has left of the
+    /// initial energy, relative to the initial energy.
+    pub energy_error: Option<f64>,
+}
+
+/// The first peak of H_d.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// Index of the sample.
+    pub sample: usize,
+    /// Time, s.
+    pub time: f64,
+    /// H_d, J.
+    pub energy: f64,
+    /// Largest |θ_m| until then, rad.
+    pub largest_mean: f64,
+    /// Energy that each form of W says was transferred until then, J, by part.
+    pub transferred: [Transfer<f64>; FORMS.len()],
+    /// Energy of the antiphase mode that friction has taken until then, J: not
+    /// positive.
+    pub friction: f64,
+}
+
+impl Peak {
+    /// The shares of W_K and W_P in the energy that a form of W transferred.
+    pub fn shares(&self, form: usize) -> Option<(f64, f64)> {
+        let transfer = self.transferred.get(form)?;
+        let total = transfer.total();
+        let shares = (transfer.kinetic / total, transfer.potential / total);
+        (shares.0.is_finite() && shares.1.is_finite()).then_some(shares)
+    }
+
+    /// The shares in the form of the paper.
+    pub fn published_shares(&self) -> Option<(f64, f64)> {
+        self.shares(PUBLISHED)
+    }
+
+    /// The shares in the exact form.
+    pub fn exact_shares(&self) -> Option<(f64, f64)> {
+        self.shares(EXACT)
+    }
+}
+
+impl Findings {
+    /// Reads a run.
+    pub fn new(run: &Run) -> Self {
+        Self {
+            growth: growth(&run.samples),
+            peak: peak(run),
+            deviations: std::array::from_fn(|form| deviation(run, form)),
+            energy_error: energy_error(run),
+        }
+    }
+}
+
+fn growth(samples: &[Sample]) -> Option<f64> {
+    let size = |sample: &Sample| sample.coordinates[DIFFERENCE].abs();
+    let largest = samples.iter().map(size).fold(0.0, f64::max);
+    ratio(largest, samples.first().map_or(0.0, size))
+}
+
+fn peak(run: &Run) -> Option<Peak> {
+    let sample = first_peak(&run.samples)?;
+    let until = run.samples.get(..=sample)?;
+    let at = until.last()?;
+    let mut flowed = Flow::default();
+    for flow in run.intervals.iter().take(sample) {
+        flowed.add(1.0, flow);
+    }
+    Some(Peak {
+        sample,
+        time: at.time,
+        energy: at.antiphase_energy,
+        largest_mean: until
+            .iter()
+            .map(|sample| sample.coordinates[MEAN].abs())
+            .fold(0.0, f64::max),
+        transferred: flowed.transfer,
+        friction: flowed.antiphase_friction,
+    })
+}
+
+/// Index of the first sample, neither the first nor the last, whose H_d is not
+/// exceeded within [`PEAK_REACH`] before and after it. Linear in the number of
+/// samples: a sample that is exceeded later is passed over together with all
+/// before the one that exceeds it.
+fn first_peak(samples: &[Sample]) -> Option<usize> {
+    let energy = |index: usize| samples.get(index).map_or(0.0, |s| s.antiphase_energy);
+    let time = |index: usize| samples.get(index).map_or(f64::INFINITY, |s| s.time);
+    let mut best = 0;
+    for index in 1..samples.len() {
+        let old = time(index) - time(best) > PEAK_REACH;
+        if energy(index) > energy(best) && !old {
+            best = index;
+        } else if old && best > 0 {
+            break;
+        } else if old {
+            // H_d has only fallen so far; look for a rise from here.
+            best = index;
+        }
+    }
+    (best > 0 && best + 1 < samples.len() && energy(best) > 0.0).then_some(best)
+}
+
+fn deviation(run: &Run, form: usize) -> Option<f64> {
+    let changes = run.samples.windows(2).zip(&run.intervals);
+    let (mut difference, mut whole) = (0.0, 0.0);
+    for (pair, flow) in changes {
+        let &[before, after] = pair else { continue };
+        let change = after.antiphase_energy - before.antiphase_energy;
+        difference += (flow.antiphase_rate(form) - change).powi(2);
+        whole += change.powi(2);
+    }
+    ratio(difference.sqrt(), whole.sqrt())
+}
+
+fn energy_error(run: &Run) -> Option<f64> {
+    let mut samples = run.samples.iter();
+    let initial = samples.next()?.energy;
+    let mut expected = initial;
+    let mut largest = 0.0_f64;
+    for (sample, flow) in samples.zip(&run.intervals) {
+        expected += flow.friction;
+        largest = largest.max((sample.energy - expected).abs());
+    }
+    ratio(largest, initial)
+}
+
+fn ratio(part: f64, whole: f64) -> Option<f64> {
+    let ratio = part / whole;
+    ratio.is_finite().then_some(ratio)
+}
+
+/// The three eigenfrequencies, Hz.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frequencies {
+    /// f_+: the slower mode in phase.
+    pub plus: f64,
+    /// f_−: the faster mode in phase.
+    pub minus: f64,
+    /// f_d: the antiphase mode.
+    pub antiphase: f64,
+}
+
+impl Frequencies {
+    /// Those that the paper measured.
+    pub const MEASURED: Self = Self {
+        plus: 0.88,
+        minus: 1.58,
+        antiphase: 1.26,
+    };
+
+    /// Those of the linear modes about rest.
+    ///
+    /// # Errors
+    /// As [`Modes::new`].
+    pub fn of(model: &BranchedDouble) -> Result<Self, ModesError> {
+        let rest = [0.0; 3];
+        let modes = Modes::new(&model.mass_matrix(&rest), &model.stiffness_matrix(&rest))?;
+        // In the antiphase mode the children move against each other.
+        let difference = |shape: &[f64]| match shape {
+            &[_, theta_2, theta_3] => (theta_2 - theta_3).abs(),
+            _ => f64::NAN,
+        };
+        let antiphase = (0..modes.shapes.len()).max_by(|&a, &b| {
+            difference(&modes.shapes[a]).total_cmp(&difference(&modes.shapes[b]))
+        });
+        let mut in_phase = Vec::new();
+        let mut frequencies = Self {
+            plus: f64::NAN,
+            minus: f64::NAN,
+            antiphase: f64::NAN,
+        };
+        for (index, &frequency) in modes.frequencies_hz.iter().enumerate() {
+            if Some(index) == antiphase {
+                frequencies.antiphase = frequency;
+            } else {
+                in_phase.push(frequency);
+            }
+        }
+        if let &[plus, minus] = in_phase.as_slice() {
+            (frequencies.plus, frequencies.minus) = (plus, minus);
+        }
+        Ok(frequencies)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Findings, first_peak};
+    use crate::branched_double::{Apparatus, Friction, Run, Sample, Work};
+
+    /// Samples every 0.1 s with this H_d.
+    fn samples(energies: &[f64]) -> Vec<Sample> {
+        let apparatus = Apparatus::new(Friction::default()).unwrap();
+        let rest = apparatus.measure(0.0, [0.0; 3], [0.0; 3]);
+        let numbered = energies.iter().enumerate();
+        numbered
+            .map(|(index, &antiphase_energy)| Sample {
+                time: 0.1 * index as f64,
+                antiphase_energy,
+                ..rest
+            })
+            .collect()
+    }
+
+    fn pulses(length: usize, pulses: &[(usize, f64)]) -> Vec<Sample> {
+        let mut energies = vec![0.0; length];
+        for &(at, height) in pulses {
+            energies[at] = height;
+        }
+        samples(&energies)
+    }
+
+    #[test]
+    fn the_first_peak_is_the_first_that_nothing_near_exceeds() {
+        let cases: [(&[(usize, f64)], Option<usize>); 7] = [
+            (&[(7, 1.0)], Some(7)),
+            // Dwarfed within two seconds, twice.
+            (&[(7, 1.0), (20, 2.0), (38, 3.0)], Some(38)),
+            // The second comes too late.
+            (&[(7, 1.0), (40, 2.0)], Some(7)),
+            (&[(40, 1.0), (30, 2.0)], Some(30)),
+            // Falls from the start, then rises.
+            (&[(0, 5.0), (50, 1.0)], Some(50)),
+            (&[(0, 5.0), (5, 1.0)], None),
+            // Still rising at the end.
+            (&[(98, 1.0), (99, 2.0)], None),
+        ];
+        for (case, expected) in cases {
+            assert_eq!(first_peak(&pulses(100, case)), expected, "{case:?}");
+        }
+        assert_eq!(first_peak(&[]), None);
+    }
+
+    #[test]
+    fn a_pendulum_at_rest_has_no_findings() {
+        let run = Run {
+            angle_deg: 0.0,
+            samples: samples(&[0.0; 50]),
+            intervals: vec![Default::default(); 49],
+            work: Work {
+                steps: 0,
+                rejected: 0,
+                evaluations: 0,
+            },
+        };
+        let findings = Findings::new(&run);
+        assert_eq!(findings.growth, None);
+        assert_eq!(findings.peak, None);
+        assert_eq!(findings.deviations, [None; 3]);
+        assert_eq!(findings.energy_error, None);
+    }
+}

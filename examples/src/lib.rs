@@ -1,0 +1,5 @@
+//! What the example programs do, as a library, so that tests can call it.
+//!
+//! Each program in `src/bin` is a thin shell around one module here.
+
+pub mod branched_double;

@@ -1,0 +1,247 @@
+//! Random trees, twice: as the text of a description, and as bodies in
+//! numbers.
+
+use std::fmt::Write;
+
+use super::random::Random;
+use super::{Link, Tree};
+
+/// What a random tree may look like.
+#[derive(Clone, Copy, Debug)]
+pub struct Recipe {
+    /// Number of links at which the tree stops growing.
+    pub links: usize,
+    /// Numbers of identical siblings to choose from.
+    pub copies: &'static [usize],
+    /// Whether links with copies may have children, so that groups nest.
+    pub nested: bool,
+    /// What stands in `emit(...)`.
+    pub requests: &'static str,
+}
+
+/// A random tree.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// The arguments of the attribute.
+    pub text: String,
+    /// The same in numbers, copies written out.
+    pub tree: Tree,
+}
+
+/// A link for all its copies.
+struct Node {
+    parent: Option<usize>,
+    copies: usize,
+    /// Number of links that the node stands for.
+    instances: usize,
+    /// Shape and properties.
+    text: String,
+    link: Link,
+    /// Where children hang unless they say it themselves.
+    joint: [f64; 2],
+}
+
+/// A tree of at most `recipe.links` links; the same seed gives the same tree.
+pub fn sample(recipe: &Recipe, seed: u64) -> Sample {
+    let mut random = Random::new(seed);
+    let gravity = decimal(&mut random, 1.0, 20.0);
+    let mut nodes = vec![node(&mut random, None, 1)];
+    let mut links = 1;
+    let mut attempts = 0;
+    while links < recipe.links && attempts < 1000 {
+        attempts += 1;
+        // Every other link hangs from the last one, so that trees get deep.
+        let parent = match random.below(2) {
+            0 => nodes.len() - 1,
+            _ => random.below(nodes.len()),
+        };
+        let copies = recipe.copies[random.below(recipe.copies.len())];
+        let instances = nodes[parent].instances * copies;
+        if links + instances > recipe.links || (nodes[parent].instances > 1 && !recipe.nested) {
+            continue;
+        }
+        links += instances;
+        let mut child = node(&mut random, Some((parent, &nodes[parent])), copies);
+        child.instances = instances;
+        nodes.push(child);
+    }
+    let mut text = format!("gravity = {}, ", gravity.0);
+    write_node(&nodes, 0, &mut text);
+    if !recipe.requests.is_empty() {
+        let _ = write!(text, ", emit({})", recipe.requests);
+    }
+    let mut tree = Tree {
+        gravity: gravity.1,
+        links: Vec::new(),
+    };
+    write_links(&nodes, 0, None, &mut tree.links);
+    Sample { text, tree }
+}
+
+/// A decimal number, as text and as the nearest `f64`.
+fn decimal(random: &mut Random, low: f64, high: f64) -> (String, f64) {
+    let value = random.between(low, high);
+    let text = match random.below(3) {
+        0 => format!("{value:.2}"),
+        1 => format!("{value:.3e}"),
+        _ => format!("{value:.7}"),
+    };
+    match text.parse::<f64>() {
+        Ok(value) if value != 0.0 => (text, value),
+        _ => decimal(random, low, high),
+    }
+}
+
+/// Adds `name = value` to a node's text.
+struct Properties<'a> {
+    random: &'a mut Random,
+    text: String,
+}
+
+impl Properties<'_> {
+    fn number(&mut self, name: &str, low: f64, high: f64) -> f64 {
+        let (text, value) = decimal(self.random, low, high);
+        let _ = write!(self.text, "{name} = {text}, ");
+        value
+    }
+
+    /// A point along the link, or with a lateral offset.
+    fn point(&mut self, name: &str) -> [f64; 2] {
+        let (along_text, along) = decimal(self.random, -0.3, 0.8);
+        if self.random.once_in(2) {
+            let _ = write!(self.text, "{name} = {along_text}, ");
+            return [along, 0.0];
+        }
+        let (across_text, across) = decimal(self.random, -0.3, 0.3);
+        let _ = write!(self.text, "{name} = ({along_text}, {across_text}), ");
+        [along, across]
+    }
+}
+
+fn node(random: &mut Random, parent: Option<(usize, &Node)>, copies: usize) -> Node {
+    let shape = random.below(10);
+    let mut properties = Properties {
+        random,
+        text: String::new(),
+    };
+    let (name, mut link, mut joint) = body(&mut properties, shape);
+    // Links with a shape may still have points and an inertia of their own.
+    if shape > 0 && properties.random.once_in(4) {
+        link.com = properties.point("com");
+        link.inertia = properties.number("inertia", 1e-4, 1e-1);
+    }
+    if shape > 0 && properties.random.once_in(4) {
+        joint = properties.point("joint");
+    }
+    if let Some((_, parent)) = parent {
+        link.pivot = parent.joint;
+        if properties.random.once_in(2) {
+            link.pivot = properties.point("at");
+        }
+    }
+    if properties.random.once_in(2) {
+        link.friction = properties.number("friction", 1e-4, 0.5);
+    }
+    Node {
+        parent: parent.map(|(index, _)| index),
+        copies,
+        instances: 1,
+        text: format!("{name}({})", properties.text.trim_end_matches(", ")),
+        link,
+        joint,
+    }
+}
+
+/// A body of the given shape: its name in descriptions, mass, inertia and
+/// centre of mass, and where children hang.
+fn body(properties: &mut Properties<'_>, shape: usize) -> (&'static str, Link, [f64; 2]) {
+    let mass = properties.number("mass", 0.05, 2.0);
+    let link = |mass: f64, inertia: f64, along: f64| Link {
+        parent: None,
+        mass,
+        inertia,
+        com: [along, 0.0],
+        pivot: [0.0; 2],
+        friction: 0.0,
+    };
+    if shape == 0 {
+        let mut plain = link(mass, 0.0, 0.0);
+        plain.inertia = properties.number("inertia", 1e-4, 1e-1);
+        plain.com = properties.point("com");
+        return ("", plain, properties.point("joint"));
+    }
+    let length = properties.number("length", 0.1, 1.0);
+    let end = [length, 0.0];
+    let rod = mass * length * length / 12.0;
+    let squared_radius = |properties: &mut Properties<'_>| {
+        let radius = properties.number("radius", 0.05, 0.3);
+        radius * radius
+    };
+    match shape {
+        1 => (": point", link(mass, 0.0, length), end),
+        2 => (": rod", link(mass, rod, 0.5 * length), end),
+        3 => {
+            // Two bodies in one, by the parallel axis theorem.
+            let bob = properties.number("bob_mass", 0.05, 1.0);
+            let com = (mass * 0.5 * length + bob * length) / (mass + bob);
+            let (to_rod, to_bob) = (com - 0.5 * length, length - com);
+            let inertia = rod + mass * to_rod * to_rod + bob * to_bob * to_bob;
+            (": rod_with_bob", link(mass + bob, inertia, com), end)
+        }
+        4 => {
+            let inertia = rod + 0.25 * mass * squared_radius(properties);
+            (": cylinder", link(mass, inertia, 0.5 * length), end)
+        }
+        5 => {
+            let width = properties.number("width", 0.05, 0.2);
+            let margin = properties.number("margin", 0.01, 0.04);
+            let inertia = rod + mass * width * width / 12.0;
+            let body = link(mass, inertia, 0.5 * length - margin);
+            (": plate", body, [length - 2.0 * margin, 0.0])
+        }
+        round => {
+            let (name, factor) = [
+                (": disc", 0.5),
+                (": ring", 1.0),
+                (": ball", 0.4),
+                (": shell", 2.0 / 3.0),
+            ][round - 6];
+            let inertia = factor * mass * squared_radius(properties);
+            (name, link(mass, inertia, length), end)
+        }
+    }
+}
+
+fn children(nodes: &[Node], parent: usize) -> impl Iterator<Item = usize> {
+    (0..nodes.len()).filter(move |&child| nodes[child].parent == Some(parent))
+}
+
+fn write_node(nodes: &[Node], index: usize, text: &mut String) {
+    let node = &nodes[index];
+    let _ = write!(text, "link_{index}{}", node.text);
+    if children(nodes, index).next().is_some() {
+        text.push_str(" [");
+        for child in children(nodes, index) {
+            write_node(nodes, child, text);
+            text.push_str(", ");
+        }
+        text.push(']');
+    }
+    if node.copies > 1 {
+        let _ = write!(text, " * {}", node.copies);
+    }
+}
+
+/// The copies of a node, each followed by all that hangs from it.
+fn write_links(nodes: &[Node], index: usize, parent: Option<usize>, links: &mut Vec<Link>) {
+    for _ in 0..nodes[index].copies {
+        let own = links.len();
+        links.push(Link {
+            parent,
+            ..nodes[index].link.clone()
+        });
+        for child in children(nodes, index) {
+            write_links(nodes, child, Some(own), links);
+        }
+    }
+}

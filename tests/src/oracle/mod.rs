@@ -1,0 +1,82 @@
+//! Pendulum trees once more, from first principles and in plain numbers: what
+//! the derived mechanics is compared with.
+//!
+//! Nothing here knows the library under test. A tree is a list of bodies with
+//! their masses and vectors; three routes lead from it to accelerations:
+//! Cartesian Jacobians ([`cartesian`]), maximal coordinates with constraint
+//! forces ([`constrained`]), and the closed form of the literature
+//! ([`closed_form`]).
+
+pub mod cartesian;
+pub mod closed_form;
+pub mod constrained;
+pub mod generator;
+pub mod random;
+
+/// A vector in the plane of motion: x to the side, y upwards, m.
+pub type Vector = [f64; 2];
+
+/// A rigid link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// Index of the link that it hangs from, an earlier one; `None` for the
+    /// root.
+    pub parent: Option<usize>,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass, kg m².
+    pub inertia: f64,
+    /// Centre of mass from the pivot: along the link and across it, m.
+    pub com: [f64; 2],
+    /// Pivot on the parent, from the parent's pivot: along the parent and
+    /// across it, m.
+    pub pivot: [f64; 2],
+    /// Viscous friction in the pivot, N m s.
+    pub friction: f64,
+}
+
+/// A tree of links under gravity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree {
+    /// Gravitational acceleration, m/s².
+    pub gravity: f64,
+    /// Links, parents before children.
+    pub links: Vec<Link>,
+}
+
+impl Tree {
+    /// The links from `link` up to the root, both included.
+    pub fn lineage(&self, link: usize) -> Vec<usize> {
+        let mut lineage = vec![link];
+        while let Some(parent) = self.links[lineage[lineage.len() - 1]].parent {
+            lineage.push(parent);
+        }
+        lineage
+    }
+}
+
+/// A point of a link in the plane: at angle 0 `along` points down and `across`
+/// to the side; positive angles turn counter-clockwise.
+fn turned([along, across]: [f64; 2], theta: f64) -> Vector {
+    let (sin, cos) = theta.sin_cos();
+    [along * sin + across * cos, across * sin - along * cos]
+}
+
+/// The sizes of the two terms of each component of [`turned`].
+fn turned_terms([along, across]: [f64; 2], theta: f64) -> Vector {
+    let (sin, cos) = theta.sin_cos();
+    [
+        (along * sin).abs() + (across * cos).abs(),
+        (across * sin).abs() + (along * cos).abs(),
+    ]
+}
+
+/// The vector turned by a right angle, counter-clockwise: the velocity that
+/// unit angular velocity gives to the end of `r`.
+fn perpendicular([x, y]: Vector) -> Vector {
+    [-y, x]
+}
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}

@@ -1,0 +1,19 @@
+//! The six fixture scenes, compiled. Their files under `fixtures/scenes` are
+//! what snapshots show, so that what is read is what is run.
+
+#[path = "../fixtures/scenes/chain.rs"]
+pub mod chain;
+#[path = "../fixtures/scenes/offset.rs"]
+pub mod offset;
+#[path = "../fixtures/scenes/paper.rs"]
+pub mod paper;
+#[path = "../fixtures/scenes/simple.rs"]
+pub mod simple;
+#[path = "../fixtures/scenes/sweep.rs"]
+pub mod sweep;
+#[path = "../fixtures/scenes/triplet.rs"]
+pub mod triplet;
+
+/// The paper's scene as `expand` commits it: built without the macro.
+#[path = "../fixtures/expanded/paper.rs"]
+pub mod paper_expanded;

@@ -1,0 +1,158 @@
+//! Emitted code agrees with its program bit for bit: what the interpreter
+//! computes operation by operation is what the compiled function returns.
+
+use branched_pendulum::Transfer;
+use branched_pendulum_codegen::program::Argument;
+use branched_pendulum_tests::random::Random;
+use branched_pendulum_tests::scenes::{
+    chain::Chain,
+    offset::Offset,
+    paper::Paper,
+    paper_expanded,
+    simple::Simple,
+    sweep::{Sweep, SweepParameters},
+    triplet::Triplet,
+};
+use branched_pendulum_tests::source::scene;
+
+const STATES: usize = 200;
+
+/// What a compiled function returns, as a list.
+trait Values {
+    fn values(self) -> Vec<f64>;
+}
+
+impl Values for f64 {
+    fn values(self) -> Vec<f64> {
+        vec![self]
+    }
+}
+
+impl<const N: usize> Values for [f64; N] {
+    fn values(self) -> Vec<f64> {
+        self.to_vec()
+    }
+}
+
+impl<const N: usize> Values for [[f64; N]; N] {
+    fn values(self) -> Vec<f64> {
+        self.concat()
+    }
+}
+
+impl Values for Transfer<f64> {
+    fn values(self) -> Vec<f64> {
+        vec![self.kinetic, self.potential]
+    }
+}
+
+/// Compares functions of a compiled model with the entries of the same name.
+macro_rules! agree {
+    ($scene:literal, $model:expr, $parameters:expr, $n:literal,
+     two: [$($two:ident),*], one: [$($one:ident),*]) => {{
+        let stages = scene($scene);
+        let model = $model;
+        let parameters: &[f64] = &$parameters;
+        let mut random = Random::new(7);
+        let mut checked = 0;
+        for _ in 0..STATES {
+            let first: [f64; $n] = random.array(-4.0, 4.0);
+            let second: [f64; $n] = random.array(-9.0, 9.0);
+            let input = |argument: Argument, index: usize| match argument {
+                Argument::Omega
+                | Argument::Rates
+                | Argument::AbsoluteMomenta
+                | Argument::Momenta => second[index],
+                _ => first[index],
+            };
+            let compare = |name: &str, compiled: Vec<f64>| {
+                let interpreted = stages.program.evaluate(name, parameters, input);
+                let interpreted = interpreted.unwrap_or_else(|| panic!("no entry {name}"));
+                let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(&compiled), bits(&interpreted), "{name} at {first:?}, {second:?}");
+            };
+            $(compare(stringify!($two), model.$two(&first, &second).values()); checked += 1;)*
+            $(compare(stringify!($one), model.$one(&first).values()); checked += 1;)*
+        }
+        // Every entry of the scene is among those compared.
+        assert_eq!(checked, STATES * stages.program.entries.len());
+    }};
+}
+
+#[test]
+fn simple() {
+    agree!("simple", Simple::new(), [], 1, two: [accelerations], one: []);
+}
+
+#[test]
+fn paper() {
+    agree!("paper", Paper::new(), [], 3,
+        two: [accelerations, kinetic_energy, momenta, velocities, symmetric_accelerations,
+              symmetric_momenta, symmetric_velocities, hamiltonian, antiphase_energy,
+              transfer_angle_1, transfer_amplitude_2, transfer_quadratic_form, transfer_exact,
+              transfer_exact_from_rates],
+        one: [potential_energy, mass_matrix, stiffness_matrix, to_symmetric, from_symmetric]);
+}
+
+#[test]
+fn committed_expansion_of_the_paper() {
+    agree!("paper", paper_expanded::Paper::new(), [], 3,
+        two: [accelerations, kinetic_energy, momenta, velocities, symmetric_accelerations,
+              symmetric_momenta, symmetric_velocities, hamiltonian, antiphase_energy,
+              transfer_angle_1, transfer_amplitude_2, transfer_quadratic_form, transfer_exact,
+              transfer_exact_from_rates],
+        one: [potential_energy, mass_matrix, stiffness_matrix, to_symmetric, from_symmetric]);
+}
+
+#[test]
+fn chain() {
+    agree!("chain", Chain::new(), [], 2,
+        two: [accelerations, kinetic_energy], one: [potential_energy]);
+}
+
+#[test]
+fn triplet() {
+    agree!("triplet", Triplet::new(), [], 4,
+        two: [accelerations, momenta, velocities, symmetric_accelerations, symmetric_momenta,
+              symmetric_velocities, antiphase_energy_d1, antiphase_energy_d2,
+              transfer_amplitude_2_d1, transfer_amplitude_2_d2, transfer_quadratic_form_d1,
+              transfer_quadratic_form_d2, transfer_exact_d1, transfer_exact_d2,
+              transfer_exact_from_rates_d1, transfer_exact_from_rates_d2,
+              antiphase_friction_power_d1, antiphase_friction_power_d2],
+        one: [to_symmetric, from_symmetric]);
+}
+
+#[test]
+fn offset() {
+    agree!("offset", Offset::new(), [], 3,
+        two: [accelerations, kinetic_energy], one: [potential_energy]);
+}
+
+#[test]
+fn sweep() {
+    let parameters = SweepParameters {
+        g: 9.7,
+        trunk_mass: 0.21,
+        c: 3e-3,
+        twig_length: 0.17,
+    };
+    let model = Sweep::new(parameters).expect("possible parameters");
+    agree!("sweep", model, [9.7, 0.21, 3e-3, 0.17], 3,
+        two: [accelerations, momenta, velocities], one: []);
+}
+
+#[test]
+fn single_precision_is_the_same_code() {
+    let (single, double) = (Paper::<f32>::default(), Paper::new());
+    let mut random = Random::new(3);
+    for _ in 0..STATES {
+        let theta: [f32; 3] = random.array(-3.0, 3.0).map(|x: f64| x as f32);
+        let omega: [f32; 3] = random.array(-3.0, 3.0).map(|x: f64| x as f32);
+        let low = single.accelerations(&theta, &omega);
+        let high = double.accelerations(&theta.map(f64::from), &omega.map(f64::from));
+        let scale = high.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+        for (low, high) in low.iter().zip(high) {
+            assert!((f64::from(*low) - high).abs() < 200.0 * f64::from(f32::EPSILON) * scale);
+        }
+    }
+}

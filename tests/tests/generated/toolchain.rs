@@ -1,0 +1,123 @@
+//! Several compilers at once. Symbolica's free mode aborts a second process,
+//! so this test does what a user's machine does: two crates that use the macro
+//! are built at the same time, with an editor's check running beside them.
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::SystemTime;
+
+/// Where cargo put the dependencies of this test.
+fn dependencies() -> PathBuf {
+    let test = std::env::current_exe().expect("the test runs from a file");
+    test.parent().expect("a file has a folder").to_owned()
+}
+
+fn rustc(folder: &Path, name: &str, source: &str, external: &str, emit: &str) -> Command {
+    let file = folder.join(format!("{name}.rs"));
+    std::fs::write(&file, source).expect("the temporary folder is writable");
+    let mut search = std::ffi::OsString::from("dependency=");
+    search.push(dependencies());
+    let mut command = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+    command
+        .args(["--edition", "2024", "--crate-type", "lib", "--crate-name", name])
+        .arg(format!("--emit={emit}"))
+        .args(["--extern", external])
+        .arg("-L")
+        .arg(search)
+        .arg("--out-dir")
+        .arg(folder)
+        .arg(&file)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command
+}
+
+/// The newest build of the runtime that has the macro.
+fn runtime(folder: &Path) -> PathBuf {
+    let mut candidates: Vec<(SystemTime, PathBuf)> = std::fs::read_dir(dependencies())
+        .expect("the folder of the test exists")
+        .filter_map(|entry| {
+            let entry = entry.ok()?;
+            let name = entry.file_name().into_string().ok()?;
+            let right = name.starts_with("libbranched_pendulum-") && name.ends_with(".rlib");
+            right.then_some((entry.metadata().ok()?.modified().ok()?, entry.path()))
+        })
+        .collect();
+    candidates.sort();
+    let probe = "pub use branched_pendulum::branched_pendulum;";
+    for (_, path) in candidates.into_iter().rev() {
+        let external = format!("branched_pendulum={}", path.display());
+        let output = rustc(folder, "probe", probe, &external, "metadata").output();
+        if output.is_ok_and(|output| output.status.success()) {
+            return path;
+        }
+    }
+    panic!("no build of the runtime with the feature `macros`");
+}
+
+const FIRST: &str = r#"
+//! A user's crate.
+#![deny(warnings, missing_docs)]
+use branched_pendulum::prelude::*;
+
+/// The paper's apparatus.
+#[branched_pendulum(
+    gravity = 9.80665,
+    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+    ],
+    emit(energies, momenta, modes, symmetric, transfer(angle = 1, amplitude = 2, exact)),
+)]
+pub struct BranchedDouble;
+"#;
+
+/// Renamed dependency, no standard library, no prelude.
+const SECOND: &str = r#"
+//! Another user's crate.
+#![no_std]
+#![no_implicit_prelude]
+#![deny(warnings, missing_docs)]
+
+/// Three leaves on a plate.
+#[::renamed::branched_pendulum(
+    crate = ::renamed,
+    gravity = 9.80665,
+    plate: plate(mass = 0.3, length = 0.3, width = 0.1, margin = 0.01) [
+        leaf: rod(mass = mass, length = 0.2, friction = 1e-4) * 3
+    ],
+    emit(energies, momenta, modes, symmetric, transfer(amplitude = 2, exact)),
+)]
+pub struct Plate;
+"#;
+
+fn finish(name: &str, child: Child) {
+    let output = child.wait_with_output().expect("the compiler runs");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{name}: {errors}");
+    assert!(errors.is_empty(), "{name} warns: {errors}");
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(printed.is_empty(), "{name} prints: {printed}");
+}
+
+#[test]
+fn two_crates_and_an_editor_at_once() {
+    let folder = std::env::temp_dir().join(format!("branched-pendulum-{}", std::process::id()));
+    let check = folder.join("check");
+    std::fs::create_dir_all(&check).expect("the temporary folder is writable");
+    let runtime = runtime(&folder);
+    let plain = format!("branched_pendulum={}", runtime.display());
+    let renamed = format!("renamed={}", runtime.display());
+    let start = |mut command: Command| command.spawn().expect("the compiler starts");
+    let mut running = Vec::new();
+    for round in 0..3 {
+        let name = |what: &str| format!("{what}_{round}");
+        running.push(start(rustc(&folder, &name("first"), FIRST, &plain, "link")));
+        running.push(start(rustc(&folder, &name("second"), SECOND, &renamed, "link")));
+        running.push(start(rustc(&check, &name("check"), FIRST, &plain, "metadata")));
+    }
+    for child in running {
+        finish("a crate", child);
+    }
+    std::fs::remove_dir_all(&folder).expect("the folder is ours");
+}

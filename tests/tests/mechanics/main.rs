@@ -1,0 +1,5 @@
+//! The mechanics: what is derived and emitted, against independent derivations,
+//! reference numbers and the paper's formulas.
+
+mod random_trees;
+mod support;

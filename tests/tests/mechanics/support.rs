@@ -1,0 +1,106 @@
+//! Runs the pipeline on text and evaluates programs.
+
+use branched_pendulum_codegen::mechanics::Mechanics;
+use branched_pendulum_codegen::program::{Argument, Program};
+use branched_pendulum_codegen::scene::Scene;
+use branched_pendulum_codegen::stages;
+use proc_macro2::{TokenStream, TokenTree};
+
+/// What the pipeline makes of a description; the stages that can be shared
+/// between threads.
+pub(crate) struct Compiled {
+    pub(crate) scene: Scene,
+    pub(crate) mechanics: Mechanics,
+    pub(crate) program: Program,
+}
+
+/// Runs the pipeline on the arguments of an attribute.
+pub(crate) fn compile(text: &str) -> Compiled {
+    let attribute: TokenStream = text.parse().expect("the description has tokens");
+    let item: TokenStream = "struct Sample;".parse().expect("the item has tokens");
+    let stages = stages(attribute, item)
+        .unwrap_or_else(|(report, _)| panic!("{}\n{text}", report.render(text)));
+    Compiled {
+        scene: stages.scene,
+        mechanics: stages.mechanics,
+        program: stages.program,
+    }
+}
+
+/// Runs the pipeline on the arguments of the `branched_pendulum` attribute of
+/// an item.
+pub(crate) fn compile_item(source: &str) -> Compiled {
+    let item: TokenStream = source.parse().expect("the item has tokens");
+    let attributes = item.into_iter().filter_map(|tree| match tree {
+        TokenTree::Group(group) => Some(group.stream().into_iter()),
+        _ => None,
+    });
+    for mut attribute in attributes {
+        let name = attribute.next().map(|name| name.to_string());
+        if name.as_deref() == Some("branched_pendulum")
+            && let Some(TokenTree::Group(arguments)) = attribute.next()
+        {
+            return compile(&arguments.stream().to_string());
+        }
+    }
+    panic!("no attribute on {source}");
+}
+
+impl Compiled {
+    /// The outputs of an entry point of a scene without parameters; `inputs`
+    /// are its arguments in their order.
+    pub(crate) fn evaluate(&self, entry: &str, inputs: &[&[f64]]) -> Vec<f64> {
+        self.evaluate_with(&[], entry, inputs)
+    }
+
+    /// The outputs of an entry point for the given parameters.
+    pub(crate) fn evaluate_with(
+        &self,
+        parameters: &[f64],
+        entry: &str,
+        inputs: &[&[f64]],
+    ) -> Vec<f64> {
+        let arguments = match self.program.entry(entry) {
+            Some(entry) => &entry.arguments,
+            None => panic!("the program has no entry point `{entry}`"),
+        };
+        assert_eq!(arguments.len(), inputs.len(), "arguments of `{entry}`");
+        let input = |argument: Argument, index: usize| {
+            let position = arguments.iter().position(|a| *a == argument);
+            inputs[position.expect("an entry point uses its own arguments")][index]
+        };
+        self.program
+            .evaluate(entry, parameters, input)
+            .expect("the entry point is there")
+    }
+}
+
+/// The largest figure seen and where.
+#[derive(Debug, Default)]
+pub(crate) struct Worst {
+    figure: f64,
+    place: String,
+}
+
+impl Worst {
+    /// Notes `error` in units of `scale`; both must be finite.
+    pub(crate) fn note(&mut self, error: f64, scale: f64, place: impl FnOnce() -> String) {
+        let figure = if error == 0.0 { 0.0 } else { error.abs() / scale };
+        assert!(figure.is_finite(), "{error} of {scale} at {}", place());
+        if figure > self.figure {
+            self.figure = figure;
+            self.place = place();
+        }
+    }
+
+    /// Fails if the largest figure is above `tolerance`.
+    pub(crate) fn assert_below(&self, tolerance: f64, what: &str) {
+        println!("{what}: worst {:.2e} at {}", self.figure, self.place);
+        assert!(
+            self.figure <= tolerance,
+            "{what}: {:.2e} at {}",
+            self.figure,
+            self.place
+        );
+    }
+}

@@ -1,0 +1,5 @@
+//! What every stage says about the fixture scenes, pinned as snapshots, and
+//! that it says the same each time.
+
+mod determinism;
+mod snapshots;

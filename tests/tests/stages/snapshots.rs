@@ -1,0 +1,116 @@
+//! One snapshot a stage and scene; the code of large scenes by function.
+
+use branched_pendulum_tests::source::scene;
+use proc_macro2::TokenStream;
+
+fn pretty(tokens: TokenStream) -> String {
+    let file = syn::parse2(tokens).expect("emitted code is Rust");
+    prettyplease::unparse(&file)
+}
+
+/// The emitted function of that name, with its docs.
+fn function(tokens: &TokenStream, name: &str) -> String {
+    let file: syn::File = syn::parse2(tokens.clone()).expect("emitted code is Rust");
+    for item in file.items {
+        let syn::Item::Impl(block) = item else {
+            continue;
+        };
+        for member in block.items {
+            if let syn::ImplItem::Fn(function) = member
+                && function.sig.ident == name
+            {
+                return pretty(quote::quote!(impl Model { #function }));
+            }
+        }
+    }
+    panic!("no function {name}");
+}
+
+fn stages_of(name: &str) {
+    let stages = scene(name);
+    insta::assert_snapshot!(format!("{name}_description"), stages.description.to_string());
+    insta::assert_snapshot!(format!("{name}_scene"), stages.scene.to_string());
+    insta::assert_snapshot!(format!("{name}_mechanics"), stages.mechanics.to_string());
+}
+
+fn program(name: &str) {
+    insta::assert_snapshot!(format!("{name}_program"), scene(name).program.to_string());
+}
+
+fn code(name: &str) {
+    insta::assert_snapshot!(format!("{name}_code"), pretty(scene(name).tokens));
+}
+
+fn functions(name: &str, functions: &[&str]) {
+    let stages = scene(name);
+    for wanted in functions {
+        let text = function(&stages.tokens, wanted);
+        insta::assert_snapshot!(format!("{name}_code_{wanted}"), text);
+    }
+}
+
+/// What each function costs: a change here is a change of speed.
+fn operations(name: &str) {
+    let program = scene(name).program;
+    let table: String = program
+        .entries
+        .iter()
+        .map(|entry| {
+            let operations = program.operations(&entry.outputs);
+            format!("{:<32}{operations}\n", entry.name)
+        })
+        .collect();
+    insta::assert_snapshot!(format!("{name}_operations"), table);
+}
+
+#[test]
+fn simple() {
+    stages_of("simple");
+    program("simple");
+    code("simple");
+}
+
+#[test]
+fn chain() {
+    stages_of("chain");
+    program("chain");
+    code("chain");
+}
+
+#[test]
+fn offset() {
+    stages_of("offset");
+    operations("offset");
+    functions("offset", &["accelerations"]);
+}
+
+#[test]
+fn sweep() {
+    stages_of("sweep");
+    operations("sweep");
+    functions("sweep", &["new", "from_parameters", "accelerations"]);
+}
+
+#[test]
+fn triplet() {
+    stages_of("triplet");
+    operations("triplet");
+    functions("triplet", &["from_symmetric", "antiphase_energy_d2"]);
+}
+
+#[test]
+fn paper() {
+    stages_of("paper");
+    operations("paper");
+    functions(
+        "paper",
+        &[
+            "default",
+            "accelerations",
+            "symmetric_accelerations",
+            "transfer_angle_1",
+            "transfer_amplitude_2",
+            "transfer_exact_from_rates",
+        ],
+    );
+}
