@@ -77,27 +77,27 @@ impl Emission<'_> {
         };
         let lines: Vec<String> = match purpose {
             Purpose::Accelerations => vec![
-                "Angular accelerations [rad/s²] at angles `theta` [rad] and angular velocities `omega` [rad/s].".into(),
+                "Angular accelerations (in rad/s²) at angles `theta` (in rad) and angular velocities `omega` (in rad/s).".into(),
                 String::new(),
                 "Solves the Euler–Lagrange equations M(θ) θ̈ + b(θ, ω) = 0 by elimination along the tree (Featherstone, Rigid Body Dynamics Algorithms, 2008, §6.5).".into(),
             ],
-            Purpose::KineticEnergy => vec!["Kinetic energy K = ½ ωᵀ M(θ) ω [J].".into()],
+            Purpose::KineticEnergy => vec!["Kinetic energy K = ½ ωᵀ M(θ) ω (in J).".into()],
             Purpose::PotentialEnergy => {
-                vec!["Potential energy U [J], zero where all angles are zero.".into()]
+                vec!["Potential energy U (in J), zero where all angles are zero.".into()]
             }
             Purpose::AbsoluteMomenta => {
-                vec!["Generalized momenta p = M(θ) ω [kg m²/s] that belong to the absolute angles.".into()]
+                vec!["Generalized momenta p = M(θ) ω (in kg m²/s) that belong to the absolute angles.".into()]
             }
             Purpose::AbsoluteVelocities => {
-                vec!["Angular velocities ω [rad/s] that belong to the momenta: solves M(θ) ω = p.".into()]
+                vec!["Angular velocities ω (in rad/s) that belong to the momenta: solves M(θ) ω = p.".into()]
             }
             Purpose::MassMatrix => vec![
-                "Mass matrix M(θ) [kg m²] by rows. Zero between links of different branches.".into(),
+                "Mass matrix M(θ) (in kg m²) by rows. Zero between links of different branches.".into(),
                 String::new(),
                 "With `stiffness_matrix` at an equilibrium, the linear modes solve K v = (2πf)² M v.".into(),
             ],
             Purpose::StiffnessMatrix => {
-                vec!["Stiffness matrix ∂²U/∂θ∂θ [J] by rows.".into()]
+                vec!["Stiffness matrix ∂²U/∂θ∂θ (in J) by rows.".into()]
             }
             Purpose::ToSymmetric => vec![
                 "Symmetric coordinates of absolute angles, or the velocities of the ones from those of the others.".into(),
@@ -106,41 +106,41 @@ impl Emission<'_> {
                 "Absolute angles from symmetric coordinates, or angular velocities from their velocities.".into(),
             ],
             Purpose::SymmetricAccelerations => vec![
-                "Second time derivatives [rad/s²] of the symmetric coordinates at `coordinates` [rad] and `rates` [rad/s].".into(),
+                "Second time derivatives (in rad/s²) of the symmetric coordinates at `coordinates` (in rad) and `rates` (in rad/s).".into(),
                 String::new(),
                 "Solves M̃(q) q̈ + b̃(q, q̇) = 0. A difference that is zero with its rate stays exactly zero.".into(),
             ],
             Purpose::SymmetricMomenta => {
-                vec!["Generalized momenta p = M̃(q) q̇ [kg m²/s] in symmetric coordinates (paper, Eq. 7).".into()]
+                vec!["Generalized momenta p = M̃(q) q̇ (in kg m²/s) in symmetric coordinates (paper, Eq. 10).".into()]
             }
             Purpose::SymmetricVelocities => {
-                vec!["Velocities q̇ [rad/s] of the symmetric coordinates: solves M̃(q) q̇ = p.".into()]
+                vec!["Velocities q̇ (in rad/s) of the symmetric coordinates: solves M̃(q) q̇ = p.".into()]
             }
             Purpose::Hamiltonian => {
-                vec!["Energy H = ½ pᵀ M̃⁻¹ p + U [J] in symmetric coordinates and momenta.".into()]
+                vec!["Energy H = ½ pᵀ M̃⁻¹ p + U (in J) in symmetric coordinates and momenta.".into()]
             }
             Purpose::SubHamiltonian(n) => vec![
-                format!("Energy H_d [J] of the antiphase coordinate `{}` by itself: the sub-Hamiltonian whose growth W explains (paper, Eq. 9; for more than two copies, Parseval's share of the potential energy).", difference(n)),
+                format!("Energy H_d (in J) of the antiphase coordinate `{}` by itself: the sub-Hamiltonian whose growth W explains (paper, Eq. 12; for more than two copies, Parseval's share of the potential energy).", difference(n)),
             ],
             Purpose::AngleTransfer(n) => vec![
-                format!("Energy transfer W [W] into `{}` to first order in the difference angles, momenta untouched: W_K and W_P as published (paper, Eqs. 14–16).", difference(n)),
+                format!("Energy transfer W (in W) into `{}` to first order in the difference angles, momenta untouched: W_K and W_P as published (paper, Eqs. 16b and 16c).", difference(n)),
                 String::new(),
                 "Of first order in the angles only: for an oscillation, where momenta are as small as angles, two of four terms of the leading order are missing; `transfer_amplitude_2` has all four. Remainder O(θ_d) in W_K, O(θ_d³) in W_P.".into(),
             ],
             Purpose::AmplitudeTransfer(n) => vec![
-                format!("Energy transfer W [W] into `{}` to second order in the amplitude of the differences: the complete quadratic form in them and their momenta. Remainder O(ε⁴).", difference(n)),
+                format!("Energy transfer W (in W) into `{}` to second order in the amplitude of the differences: the complete quadratic form in them and their momenta. Remainder O(ε⁴).", difference(n)),
             ],
             Purpose::QuadraticForm(n) => vec![
-                format!("Coefficients [a_pp, a_pq, a_qq] of the quadratic form W ≈ a_pp p² + a_pq p θ + a_qq θ² for `{}`, at the in-phase state given; the difference's own coordinate and momentum are not read.", difference(n)),
+                format!("Coefficients a_pp, a_pq, a_qq of the quadratic form W ≈ a_pp p² + a_pq p θ + a_qq θ² for `{}`, at the in-phase state given; the difference's own coordinate and momentum are not read.", difference(n)),
             ],
             Purpose::ExactTransfer(n) => vec![
-                format!("Energy transfer W = dH_d/dt [W] into `{}` without truncation, from coordinates and momenta: the velocities are solved for, no inverse is expanded. Conservative part; friction's power comes on top.", difference(n)),
+                format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and momenta: the velocities are solved for, no inverse is expanded. Conservative part; friction's power comes on top.", difference(n)),
             ],
             Purpose::ExactTransferFromRates(n) => vec![
-                format!("Energy transfer W = dH_d/dt [W] into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; friction's power comes on top.", difference(n)),
+                format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; friction's power comes on top.", difference(n)),
             ],
             Purpose::FrictionPower(n) => vec![
-                format!("Power [W] of joint friction on H_d of `{}`.", difference(n)),
+                format!("Power (in W) of joint friction on H_d of `{}`.", difference(n)),
             ],
         };
         lines
@@ -302,7 +302,7 @@ impl Emission<'_> {
         let shown = texts.len().min(ROWS);
         lines.push(String::new());
         lines.push("```text".into());
-        lines.extend(texts[..shown].iter().cloned());
+        lines.extend(texts[..shown].iter().flat_map(|text| broken(text)));
         if shown < texts.len() {
             lines.push(format!("… and {} more", texts.len() - shown));
         }
@@ -333,6 +333,38 @@ fn wrapped_names(names: &[&str]) -> String {
     } else {
         format!("{}.", listed.join(", "))
     }
+}
+
+/// A formula on lines of bounded width, broken before the signs of its sum.
+fn broken(formula: &str) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut line = String::new();
+    let mut depth = 0_i32;
+    let mut term = String::new();
+    let mut flush = |term: &mut String, line: &mut String| {
+        if !line.is_empty() && line.chars().count() + term.chars().count() > WIDTH {
+            lines.push(std::mem::replace(line, "    ".into()));
+            line.push_str(term.trim_start());
+        } else {
+            line.push_str(term);
+        }
+        term.clear();
+    };
+    for word in formula.split_inclusive(' ') {
+        if depth == 0 && matches!(word.trim_end(), "+" | "−") {
+            flush(&mut term, &mut line);
+        }
+        for letter in word.chars() {
+            depth += i32::from(letter == '(') - i32::from(letter == ')');
+        }
+        term.push_str(word);
+    }
+    flush(&mut term, &mut line);
+    lines.push(line);
+    lines
+        .iter()
+        .map(|line| line.trim_end().to_owned())
+        .collect()
 }
 
 /// Doc comments, prose wrapped, blocks as they are.

@@ -50,6 +50,9 @@ pub fn emit(
     quote! {
         #model
 
+        // All tokens stand where the attribute does, of many lines: clippy
+        // takes that for arrays whose elements were broken across lines.
+        #[allow(clippy::possible_missing_comma)]
         impl<T: #runtime::Scalar> #name<T> {
             #accessors
             #(#functions)*

@@ -300,7 +300,10 @@ impl Emission<'_> {
             let constant = &self.mechanics.constants[index];
             let symbol = self.mechanics.symbols.get(constant.symbol);
             let docs = doc_lines(&[
-                format!("{} [{}]: {}.", symbol.text, constant.unit, constant.meaning),
+                format!(
+                    "{} (in {}): {}.",
+                    symbol.text, constant.unit, constant.meaning
+                ),
                 String::new(),
                 format!("{} = {}", symbol.text, self.text(&constant.value)),
             ]);

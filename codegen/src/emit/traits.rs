@@ -27,11 +27,10 @@ impl Emission<'_> {
         Literal::usize_unsuffixed(self.scene.links.len())
     }
 
-    /// Copies slices into arrays and calls `method` with them.
+    /// Copies slices into arrays of the same names.
     fn with_arrays(
         &self,
         slices: &[&str],
-        call: TokenStream,
         success: TokenStream,
         failure: TokenStream,
     ) -> TokenStream {
@@ -42,10 +41,7 @@ impl Emission<'_> {
             .collect();
         quote! {
             match (#(<[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
-                (#(::core::result::Result::Ok(#names),)*) => {
-                    let result = #call;
-                    #success
-                }
+                (#(::core::result::Result::Ok(#names),)*) => #success,
                 _ => #failure,
             }
         }
@@ -55,8 +51,7 @@ impl Emission<'_> {
         let links = self.links();
         let body = self.with_arrays(
             slices,
-            call,
-            quote!(#output.copy_from_slice(&result);),
+            quote!(#output.copy_from_slice(&#call)),
             quote!(#output.fill(T::from_f64(f64::NAN))),
         );
         quote! {
@@ -92,9 +87,8 @@ impl Emission<'_> {
 
     fn energy(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let value = |slices: &[&str], call| {
-            self.with_arrays(slices, call, quote!(result), quote!(T::from_f64(f64::NAN)))
-        };
+        let value =
+            |slices: &[&str], call| self.with_arrays(slices, call, quote!(T::from_f64(f64::NAN)));
         let kinetic = value(
             &["theta", "omega"],
             quote!(self.kinetic_energy(&theta, &omega)),

@@ -219,9 +219,9 @@ impl Derivation<'_> {
     }
 
     /// W exactly, with velocities at hand: dF/dt = Σ ∂F/∂q q̇ + ∂F/∂p ∂L/∂q.
-    /// Kinetic part {H_d, K − T} = Σ_s ∂V/∂q_s (q̇_s − ∂T/∂p_s)
-    /// + ∂T/∂p_s ∂K/∂q_s|_q̇, potential part {H_d, U − V}. Conservative: what
-    /// friction takes comes separately.
+    /// Kinetic part: {H_d, K − T}, a sum over the differences s of
+    /// ∂V/∂q_s (q̇_s − ∂T/∂p_s) and ∂T/∂p_s ∂K/∂q_s at fixed q̇. Potential
+    /// part: {H_d, U − V}. Conservative: what friction takes is separate.
     pub(super) fn exact_transfer(
         &mut self,
         frame: &Frame,

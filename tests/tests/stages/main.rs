@@ -2,4 +2,5 @@
 //! that it says the same each time.
 
 mod determinism;
+mod pages;
 mod snapshots;

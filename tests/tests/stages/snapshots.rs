@@ -3,7 +3,7 @@
 use branched_pendulum_tests::source::scene;
 use proc_macro2::TokenStream;
 
-fn pretty(tokens: TokenStream) -> String {
+pub(super) fn pretty(tokens: TokenStream) -> String {
     let file = syn::parse2(tokens).expect("emitted code is Rust");
     prettyplease::unparse(&file)
 }

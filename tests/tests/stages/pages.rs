@@ -1,0 +1,25 @@
+//! Pages of `docs/` that show output show the output of today.
+
+use branched_pendulum_tests::source::{fixture, scene};
+
+#[test]
+fn pipeline_shows_every_stage() {
+    let page = std::fs::read_to_string(fixture("../../docs/pipeline.md")).expect("it exists");
+    let source = std::fs::read_to_string(fixture("scenes/simple.rs")).expect("it exists");
+    let stages = scene("simple");
+    let code = super::snapshots::pretty(stages.tokens);
+    let start = code.find("    /// Angular accelerations").expect("it is documented");
+    let end = code.find("impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Pendulum");
+    let function = &code[start..end.expect("the trait follows")];
+    let function = function.trim_end().trim_end_matches('}').trim_end();
+    for (what, text) in [
+        ("source", source.as_str()),
+        ("description", &stages.description.to_string()),
+        ("scene", &stages.scene.to_string()),
+        ("mechanics", &stages.mechanics.to_string()),
+        ("program", &stages.program.to_string()),
+        ("code", function),
+    ] {
+        assert!(!text.is_empty() && page.contains(text), "{what}:\n{text}");
+    }
+}
