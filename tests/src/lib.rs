@@ -9,3 +9,8 @@ pub mod oracle;
 pub mod random;
 pub mod scenes;
 pub mod source;
+
+/// The front page compiles and holds.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct FrontPage;

@@ -20,6 +20,11 @@ impl Random {
         z ^ (z >> 31)
     }
 
+    /// A whole number below `limit`, which is not 0.
+    pub fn below(&mut self, limit: usize) -> usize {
+        (self.bits() % limit as u64) as usize
+    }
+
     /// A number between `low` and `high`, uniformly.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
@@ -29,5 +34,10 @@ impl Random {
     /// An array of numbers between `low` and `high`.
     pub fn array<const N: usize>(&mut self, low: f64, high: f64) -> [f64; N] {
         std::array::from_fn(|_| self.between(low, high))
+    }
+
+    /// `count` numbers between `-size` and `size`.
+    pub fn around_zero(&mut self, count: usize, size: f64) -> Vec<f64> {
+        (0..count).map(|_| self.between(-size, size)).collect()
     }
 }

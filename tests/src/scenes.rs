@@ -15,5 +15,6 @@ pub mod sweep;
 pub mod triplet;
 
 /// The paper's scene as `expand` commits it: built without the macro.
+#[rustfmt::skip]
 #[path = "../fixtures/expanded/paper.rs"]
 pub mod paper_expanded;

@@ -13,6 +13,7 @@ mod inverse_mass;
 mod lagrangian;
 mod print;
 mod show;
+mod symmetric;
 mod transfer;
 
 pub use algebra::AlgebraError;

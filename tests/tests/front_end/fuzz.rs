@@ -1,7 +1,8 @@
-//! No input makes the front end panic, and none gets away without a scene or a
-//! message.
+//! No input makes the macro panic, and none gets away without code or a message.
 
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+
+use branched_pendulum_codegen::stages;
 
 use crate::support::{Outcome, Random, run, split};
 
@@ -124,12 +125,13 @@ fn mutated_descriptions_give_a_scene_or_messages() {
             }
         }
         let attribute: TokenStream = attribute.into_iter().collect();
+        let item: TokenStream = item.into_iter().collect();
         let shown = attribute.to_string();
         let Outcome {
             description,
             scene,
             report,
-        } = run(attribute, item.into_iter().collect());
+        } = run(attribute.clone(), item.clone());
         assert_ne!(scene.is_some(), !report.is_empty(), "{shown}");
         // Texts must not fail either.
         messages += report.diagnostics().len();
@@ -140,6 +142,15 @@ fn mutated_descriptions_give_a_scene_or_messages() {
             Some(scene) => {
                 assert!(!scene.to_string().is_empty());
                 scenes += 1;
+                // Larger ones take long and say no more.
+                if scene.links.len() <= 8 {
+                    let stages = stages(attribute, item);
+                    let tokens = stages
+                        .map(|stages| stages.tokens)
+                        .map_err(|(report, _)| report);
+                    let tokens = tokens.unwrap_or_else(|report| panic!("{report:?}: {shown}"));
+                    assert!(syn::parse2::<syn::File>(tokens).is_ok(), "{shown}");
+                }
             }
             None => refusals += 1,
         }

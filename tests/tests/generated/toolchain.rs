@@ -19,7 +19,14 @@ fn rustc(folder: &Path, name: &str, source: &str, external: &str, emit: &str) ->
     search.push(dependencies());
     let mut command = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
     command
-        .args(["--edition", "2024", "--crate-type", "lib", "--crate-name", name])
+        .args([
+            "--edition",
+            "2024",
+            "--crate-type",
+            "lib",
+            "--crate-name",
+            name,
+        ])
         .arg(format!("--emit={emit}"))
         .args(["--extern", external])
         .arg("-L")
@@ -113,11 +120,78 @@ fn two_crates_and_an_editor_at_once() {
     for round in 0..3 {
         let name = |what: &str| format!("{what}_{round}");
         running.push(start(rustc(&folder, &name("first"), FIRST, &plain, "link")));
-        running.push(start(rustc(&folder, &name("second"), SECOND, &renamed, "link")));
-        running.push(start(rustc(&check, &name("check"), FIRST, &plain, "metadata")));
+        running.push(start(rustc(
+            &folder,
+            &name("second"),
+            SECOND,
+            &renamed,
+            "link",
+        )));
+        running.push(start(rustc(
+            &check,
+            &name("check"),
+            FIRST,
+            &plain,
+            "metadata",
+        )));
     }
     for child in running {
         finish("a crate", child);
     }
+    std::fs::remove_dir_all(&folder).expect("the folder is ours");
+}
+
+/// One mistake, and a program that uses all that the description asked for.
+const WRONG: &str = r#"
+//! A user's crate in the middle of an edit.
+use branched_pendulum::prelude::*;
+
+/// A mass below zero.
+#[branched_pendulum(
+    gravity = 9.80665,
+    parent(mass = 0.1, com = 0.1, inertia = 1e-3, joint = 0.3) [
+        child(mass = -0.1, com = 0.04, inertia = 1e-4) * 2
+    ],
+    emit(energies, momenta, modes, symmetric, transfer),
+)]
+pub struct Wrong;
+
+/// Calls everything.
+pub fn use_it() -> f64 {
+    let model = Wrong::new();
+    let q = [0.1, 0.2, 0.3];
+    let mut rates = [0.0; 6];
+    AbsoluteAngles(&model).rates(0.0, &[0.0; 6], &mut rates);
+    SymmetricCoordinates(&model).rates(0.0, &[0.0; 6], &mut rates);
+    let p = model.symmetric_momenta(&model.to_symmetric(&q), &model.accelerations(&q, &q));
+    let v = model.symmetric_velocities(&q, &model.velocities(&q, &model.momenta(&q, &p)));
+    let energy = model.kinetic_energy(&q, &v) + model.potential_energy(&q);
+    let transfer = model.transfer_angle_1(&q, &p).total()
+        + model.transfer_amplitude_2(&q, &p).kinetic
+        + model.transfer_exact(&q, &p).potential
+        + model.transfer_exact_from_rates(&q, &v).total();
+    energy + transfer + model.hamiltonian(&q, &p) + model.antiphase_energy(&q, &p)
+        + model.mass_matrix(&q)[0][0] + model.stiffness_matrix(&q)[1][2]
+        + model.from_symmetric(&model.transfer_quadratic_form(&q, &p))[0]
+}
+"#;
+
+#[test]
+fn one_mistake_is_one_error() {
+    let folder = std::env::temp_dir().join(format!("branched-pendulum-w{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("the temporary folder is writable");
+    let external = format!("branched_pendulum={}", runtime(&folder).display());
+    let output = rustc(&folder, "wrong", WRONG, &external, "metadata")
+        .output()
+        .expect("the compiler runs");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    let lines: Vec<&str> = errors.lines().filter(|l| l.starts_with("error")).collect();
+    assert!(
+        matches!(lines.as_slice(), [mistake, last] if mistake.contains("mass of `child`")
+            && last.contains("aborting due to 1 previous error")),
+        "{errors}"
+    );
+    // At the value, not at the attribute.
+    assert!(errors.contains("wrong.rs:9:22"), "{errors}");
     std::fs::remove_dir_all(&folder).expect("the folder is ours");
 }

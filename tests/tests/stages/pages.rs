@@ -8,7 +8,9 @@ fn pipeline_shows_every_stage() {
     let source = std::fs::read_to_string(fixture("scenes/simple.rs")).expect("it exists");
     let stages = scene("simple");
     let code = super::snapshots::pretty(stages.tokens);
-    let start = code.find("    /// Angular accelerations").expect("it is documented");
+    let start = code
+        .find("    /// Angular accelerations")
+        .expect("it is documented");
     let end = code.find("impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Pendulum");
     let function = &code[start..end.expect("the trait follows")];
     let function = function.trim_end().trim_end_matches('}').trim_end();

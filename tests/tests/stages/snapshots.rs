@@ -28,7 +28,10 @@ fn function(tokens: &TokenStream, name: &str) -> String {
 
 fn stages_of(name: &str) {
     let stages = scene(name);
-    insta::assert_snapshot!(format!("{name}_description"), stages.description.to_string());
+    insta::assert_snapshot!(
+        format!("{name}_description"),
+        stages.description.to_string()
+    );
     insta::assert_snapshot!(format!("{name}_scene"), stages.scene.to_string());
     insta::assert_snapshot!(format!("{name}_mechanics"), stages.mechanics.to_string());
 }

@@ -1,0 +1,154 @@
+//! The formulas behind each entry point, for its docs.
+
+use super::Emission;
+use crate::mechanics::expression::{Expr, Role, SymbolId};
+use crate::mechanics::{Frame, Parts, Transfer, WrittenOut};
+use crate::program::Purpose;
+
+/// A formula: left side and right side.
+pub(super) struct Formula {
+    pub(super) left: String,
+    pub(super) left_latex: String,
+    pub(super) right: Expr,
+}
+
+impl Emission<'_> {
+    pub(super) fn formulas(&self, purpose: Purpose) -> Vec<Formula> {
+        let mechanics = self.mechanics;
+        let absolute = &mechanics.absolute;
+        let symmetric = mechanics.symmetric.as_ref();
+        let simple = |left: &str, right: &Expr| {
+            vec![Formula {
+                left: left.to_owned(),
+                left_latex: left.to_owned(),
+                right: right.clone(),
+            }]
+        };
+        match purpose {
+            Purpose::Accelerations => self.equations(absolute),
+            Purpose::KineticEnergy => simple("K", &absolute.kinetic),
+            Purpose::PotentialEnergy => simple("U", &absolute.potential),
+            Purpose::AbsoluteMomenta => self.rows(&absolute.momenta, &absolute.momentum),
+            Purpose::SymmetricAccelerations => symmetric
+                .map(|frame| self.equations(frame))
+                .unwrap_or_default(),
+            Purpose::SymmetricMomenta => symmetric
+                .map(|frame| self.rows(&frame.momenta, &frame.momentum))
+                .unwrap_or_default(),
+            Purpose::SubHamiltonian(n) => {
+                let energy = &mechanics.transfers[n].energy;
+                let sum = Expr::Sum(vec![energy.kinetic.clone(), energy.potential.clone()]);
+                simple("H_d", &sum)
+            }
+            Purpose::AngleTransfer(n) => self.transfer(&mechanics.transfers[n], |t| &t.angle),
+            Purpose::AmplitudeTransfer(n) => {
+                self.transfer(&mechanics.transfers[n], |t| &t.amplitude)
+            }
+            Purpose::ExactTransfer(n) | Purpose::ExactTransferFromRates(n) => {
+                self.transfer(&mechanics.transfers[n], |t| &t.exact)
+            }
+            Purpose::QuadraticForm(n) => match &mechanics.transfers[n].quadratic_form {
+                Some(form) => ["a_pp", "a_pq", "a_qq"]
+                    .iter()
+                    .zip(form)
+                    .map(|(name, expr)| Formula {
+                        left: (*name).to_owned(),
+                        left_latex: format!("a_{{{}}}", &name[2..]),
+                        right: expr.clone(),
+                    })
+                    .chain(self.written_out())
+                    .collect(),
+                None => Vec::new(),
+            },
+            Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
+            Purpose::AbsoluteVelocities
+            | Purpose::MassMatrix
+            | Purpose::StiffnessMatrix
+            | Purpose::ToSymmetric
+            | Purpose::FromSymmetric
+            | Purpose::SymmetricVelocities
+            | Purpose::Hamiltonian => Vec::new(),
+        }
+    }
+
+    fn rows(&self, symbols: &[SymbolId], exprs: &[Expr]) -> Vec<Formula> {
+        symbols
+            .iter()
+            .zip(exprs)
+            .map(|(&id, expr)| {
+                let symbol = self.mechanics.symbols.get(id);
+                Formula {
+                    left: symbol.text.clone(),
+                    left_latex: symbol.latex.clone(),
+                    right: expr.clone(),
+                }
+            })
+            .collect()
+    }
+
+    /// Entries of M below the diagonal and on it, and the rows of b.
+    fn equations(&self, frame: &Frame) -> Vec<Formula> {
+        let name = |index: usize| {
+            let code = &self.mechanics.symbols.get(frame.coordinates[index]).code;
+            code.strip_prefix("theta_").unwrap_or(code).to_owned()
+        };
+        let tex = |name: &str| name.replace('_', "\\_");
+        let mut formulas: Vec<Formula> = frame
+            .mass
+            .iter()
+            .map(|entry| {
+                let (row, column) = (name(entry.row), name(entry.column));
+                Formula {
+                    left: format!("M[{row}, {column}]"),
+                    left_latex: format!("M_{{\\mathrm{{{},{}}}}}", tex(&row), tex(&column)),
+                    right: entry.value.clone(),
+                }
+            })
+            .collect();
+        formulas.extend(frame.bias.iter().enumerate().map(|(index, bias)| Formula {
+            left: format!("b[{}]", name(index)),
+            left_latex: format!("b_{{\\mathrm{{{}}}}}", tex(&name(index))),
+            right: bias.clone(),
+        }));
+        formulas
+    }
+
+    fn transfer(&self, transfer: &Transfer, form: fn(&Transfer) -> &Option<Parts>) -> Vec<Formula> {
+        let Some(parts) = form(transfer) else {
+            return Vec::new();
+        };
+        let named = |name: &str, expr: &Expr| Formula {
+            left: name.to_owned(),
+            left_latex: format!("W_{{{}}}", &name[2..]),
+            right: expr.clone(),
+        };
+        let mut formulas = vec![named("W_K", &parts.kinetic), named("W_P", &parts.potential)];
+        let mut truncated = false;
+        parts.kinetic.for_each_symbol(&mut |id| {
+            truncated |= self.mechanics.symbols.get(id).role == Role::Derived;
+        });
+        if truncated {
+            formulas.extend(self.written_out());
+        }
+        formulas
+    }
+
+    /// w and D, where they are written out.
+    fn written_out(&self) -> Vec<Formula> {
+        let Some(expansion) = &self.mechanics.expansion else {
+            return Vec::new();
+        };
+        let Some(WrittenOut {
+            determinant,
+            determinant_value,
+            velocities,
+            ..
+        }) = &expansion.written_out
+        else {
+            return Vec::new();
+        };
+        let mut formulas = self.rows(&expansion.velocities, velocities);
+        formulas.extend(self.rows(&[*determinant], std::slice::from_ref(determinant_value)));
+        formulas
+    }
+}

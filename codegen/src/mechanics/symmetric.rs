@@ -1,0 +1,225 @@
+//! The Lagrangian in symmetric coordinates (physics §3), by substitution into
+//! the absolute one.
+
+use super::algebra::Formula;
+use super::coordinates::Coordinate;
+use super::derivation::{Derivation, Frame, MassMatrix};
+use super::expression::SymbolId;
+use crate::scene::LinkId;
+use std::collections::BTreeMap;
+
+/// cos and sin of an integer combination of angles, by angle addition.
+#[derive(Clone)]
+struct Rotation {
+    cos: Formula,
+    sin: Formula,
+}
+
+impl Rotation {
+    fn identity() -> Self {
+        Self {
+            cos: Formula::integer(1),
+            sin: Formula::zero(),
+        }
+    }
+
+    fn then(&self, other: &Self) -> Self {
+        Self {
+            cos: (&(&self.cos * &other.cos) - &(&self.sin * &other.sin)).expand(),
+            sin: (&(&self.sin * &other.cos) + &(&self.cos * &other.sin)).expand(),
+        }
+    }
+
+    fn inverse(&self) -> Self {
+        Self {
+            cos: self.cos.clone(),
+            sin: -self.sin.clone(),
+        }
+    }
+
+    fn times(&self, count: i64) -> Self {
+        let one = if count < 0 {
+            self.inverse()
+        } else {
+            self.clone()
+        };
+        (0..count.abs()).fold(Self::identity(), |sum, _| sum.then(&one))
+    }
+}
+
+impl Derivation<'_> {
+    /// The Lagrangian in symmetric coordinates, by substitution of
+    /// θ = J q into the absolute one: M̃ = Jᵀ M J.
+    pub(super) fn symmetric_frame(
+        &mut self,
+        absolute: &Frame,
+        coordinates: &[Coordinate],
+    ) -> Frame {
+        let ids: Vec<SymbolId> = coordinates
+            .iter()
+            .map(|c| self.coordinate(&c.name))
+            .collect();
+        let velocities: Vec<SymbolId> =
+            coordinates.iter().map(|c| self.velocity(&c.name)).collect();
+        let momenta: Vec<SymbolId> = coordinates.iter().map(|c| self.momentum(&c.name)).collect();
+
+        let mut rows: Vec<Vec<(usize, i64)>> = vec![Vec::new(); absolute.coordinates.len()];
+        for (column, coordinate) in coordinates.iter().enumerate() {
+            for &(LinkId(link), weight) in &coordinate.weights {
+                rows[link].push((column, weight));
+            }
+        }
+        let replacements = self.substitution(absolute, &ids, &rows);
+
+        let mut mass = MassMatrix::default();
+        for (i, j, entry) in absolute.mass.iter() {
+            let entry = entry.substitute(&replacements).expand();
+            let pairs: &[(usize, usize)] = if i == j { &[(i, i)] } else { &[(i, j), (j, i)] };
+            for &(i, j) in pairs {
+                for &(a, weight_a) in &rows[i] {
+                    for &(b, weight_b) in rows[j].iter().filter(|(b, _)| *b <= a) {
+                        mass.add(a, b, &Formula::integer(weight_a * weight_b) * &entry);
+                    }
+                }
+            }
+        }
+        let velocity_of = |link: usize| -> Formula {
+            rows[link]
+                .iter()
+                .map(|&(c, w)| &Formula::integer(w) * &Formula::symbol(velocities[c]))
+                .sum()
+        };
+        let velocity_replacements: Vec<(SymbolId, Formula)> = absolute
+            .velocities
+            .iter()
+            .enumerate()
+            .map(|(link, &id)| (id, velocity_of(link)))
+            .collect();
+        Frame {
+            mass: mass.map(|_, _, sum| sum.expand()),
+            potential: self.symmetric_potential(absolute, &replacements),
+            dissipation: absolute
+                .dissipation
+                .substitute(&velocity_replacements)
+                .expand(),
+            coordinates: ids,
+            velocities,
+            momenta,
+        }
+    }
+
+    /// cos and sin of every absolute angle, and of every difference that the
+    /// mass matrix holds, in the new coordinates.
+    fn substitution(
+        &mut self,
+        absolute: &Frame,
+        ids: &[SymbolId],
+        rows: &[Vec<(usize, i64)>],
+    ) -> Vec<(SymbolId, Formula)> {
+        let mut replacements = Vec::new();
+        let known: Vec<_> = self.trigonometry.iter().map(|(k, v)| (*k, *v)).collect();
+        for (symbol, meaning) in known {
+            use super::derivation::Trigonometric::{Cos, CosBetween, Sin, SinBetween};
+            let (i, j) = match meaning {
+                Cos(a) | Sin(a) => (a, None),
+                CosBetween(a, b) | SinBetween(a, b) => (a, Some(b)),
+            };
+            let position = |id| absolute.coordinates.iter().position(|&c| c == id);
+            let Some(link) = position(i) else { continue };
+            let rotation = match j {
+                None => self.rotation(ids, &rows[link], None),
+                Some(j) => {
+                    let Some(other) = position(j) else { continue };
+                    self.rotation(ids, &rows[link], Some(&rows[other]))
+                }
+            };
+            let value = match meaning {
+                Cos(_) | CosBetween(..) => rotation.cos,
+                Sin(_) | SinBetween(..) => rotation.sin,
+            };
+            replacements.push((symbol, value));
+        }
+        replacements
+    }
+
+    /// The rotation by a link's angle, or by the difference of two links'
+    /// angles. Means enter as one difference, so that code and formulas keep
+    /// cos(θ_m − θ_1) whole.
+    fn rotation(
+        &mut self,
+        ids: &[SymbolId],
+        link: &[(usize, i64)],
+        other: Option<&[(usize, i64)]>,
+    ) -> Rotation {
+        let (mean, differences) = split(link);
+        let start = match other {
+            None => self.single(ids[mean]),
+            Some(other) => {
+                let (other_mean, _) = split(other);
+                let (cos, sin) = self.between(ids[mean], ids[other_mean]);
+                Rotation {
+                    cos: Formula::symbol(cos),
+                    sin: Formula::symbol(sin),
+                }
+            }
+        };
+        let mut total: BTreeMap<usize, i64> = differences.iter().copied().collect();
+        if let Some(other) = other {
+            for &(coordinate, weight) in split(other).1 {
+                *total.entry(coordinate).or_default() -= weight;
+            }
+        }
+        total
+            .into_iter()
+            .filter(|&(_, weight)| weight != 0)
+            .fold(start, |sum, (coordinate, weight)| {
+                sum.then(&self.single(ids[coordinate]).times(weight))
+            })
+    }
+
+    fn single(&self, coordinate: SymbolId) -> Rotation {
+        Rotation {
+            cos: Formula::symbol(self.cos(coordinate)),
+            sin: Formula::symbol(self.sin(coordinate)),
+        }
+    }
+
+    /// U orbit by orbit as G (n − Σ cos θ): the sum over an orbit is what
+    /// becomes short, and the difference from its rest value stays one.
+    fn symmetric_potential(
+        &self,
+        absolute: &Frame,
+        replacements: &[(SymbolId, Formula)],
+    ) -> Formula {
+        let mut terms = Vec::new();
+        for orbit in &self.scene.orbits {
+            let count = Formula::integer(orbit.links.len() as i64);
+            let sum = |function: fn(&Self, SymbolId) -> SymbolId| -> Formula {
+                orbit
+                    .links
+                    .iter()
+                    .map(|link| Formula::symbol(function(self, absolute.coordinates[link.0])))
+                    .sum::<Formula>()
+                    .substitute(replacements)
+                    .expand()
+            };
+            let constant = |function: fn(&Self, SymbolId) -> SymbolId| {
+                let one = function(self, absolute.coordinates[orbit.links[0].0]);
+                absolute.potential.derivative(one)
+            };
+            let weight = -constant(Self::cos);
+            terms.push(&weight * &(&count - &sum(Self::cos)));
+            terms.push(&constant(Self::sin) * &sum(Self::sin));
+        }
+        terms.into_iter().sum()
+    }
+}
+
+/// The mean of a link's row, and its differences. Means come before
+/// differences in the order of coordinates.
+fn split(row: &[(usize, i64)]) -> (usize, &[(usize, i64)]) {
+    match row.split_first() {
+        Some((&(mean, _), differences)) => (mean, differences),
+        None => unreachable!("every link has the mean of its orbit among its coordinates"),
+    }
+}
