@@ -1,17 +1,80 @@
-//! Main job (being written).
-use branched_pendulum::prelude::*;
+//! The paper's experiment, from the release to tables and charts.
+//!
+//! `branched-double --help` lists the options.
 
-/// Paper.
-#[branched_pendulum(
-    gravity = 9.80665,
-    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
-        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
-    ],
-    emit(energies, momenta, modes, symmetric, transfer(angle = 1, amplitude = 2, exact)),
-)]
-pub struct BranchedDouble;
+use std::error::Error;
+use std::io::{self, IsTerminal};
+use std::process::ExitCode;
 
-fn main() {
-    let m = BranchedDouble::new();
-    println!("{:?}", m.transfer_exact(&[0.5, 0.3, 0.01], &[0.01, 0.02, 0.001]));
+use branched_pendulum_examples::branched_double::help::HELP;
+use branched_pendulum_examples::branched_double::progress::ProgressBar;
+use branched_pendulum_examples::branched_double::{
+    Arguments, Failure, Findings, Frequencies, Request, Run, charts, files, scenes, table,
+};
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::parse(std::env::args().skip(1)) {
+        Ok(Request::Run(arguments)) => arguments,
+        Ok(Request::Help) => {
+            print!("{HELP}");
+            return ExitCode::SUCCESS;
+        }
+        Err(error) => {
+            eprintln!("branched-double: {error}\nTry `branched-double --help`.");
+            return ExitCode::from(2);
+        }
+    };
+    match run(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprint!("branched-double: {failure}");
+            let mut cause = failure.source();
+            while let Some(error) = cause {
+                eprint!(": {error}");
+                cause = error.source();
+            }
+            eprintln!();
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), Failure> {
+    // Before the work, so that a folder that cannot be made costs none.
+    files::make_folder(&arguments.output)?;
+    let frequencies = Frequencies::of(&scenes::BranchedDouble::new())?;
+    let runs = experiments(arguments)?;
+    let findings: Vec<Findings> = runs.iter().map(Findings::new).collect();
+    print!(
+        "{}",
+        table::report(arguments, frequencies, &runs, &findings)
+    );
+
+    let mut written = Vec::new();
+    for run in &runs {
+        written.push(files::write_samples(&arguments.output, run)?);
+    }
+    written.extend(charts::write_charts(
+        &arguments.output,
+        arguments,
+        frequencies,
+        &runs,
+    )?);
+    print!("\n{}", table::file_list(&written));
+    Ok(())
+}
+
+fn experiments(arguments: &Arguments) -> Result<Vec<Run>, Failure> {
+    let mut bar = ProgressBar::new(io::stderr(), io::stderr().is_terminal());
+    let count = arguments.angles_deg.len() as f64;
+    let runs = arguments.angles_deg.iter().enumerate();
+    let runs = runs
+        .map(|(index, &angle)| {
+            Run::new(angle, arguments, |part| {
+                bar.show((index as f64 + part) / count, &format!("{angle:?}°"));
+            })
+        })
+        .collect();
+    bar.clear();
+    runs
 }

@@ -1,5 +1,8 @@
 //! What is measured on the apparatus at one instant.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::fmt;
+
 use branched_pendulum::{ParameterError, Transfer};
 
 use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
@@ -27,6 +30,26 @@ impl Friction {
             friction_root: self.root,
             friction_children: self.children,
         }
+    }
+}
+
+impl fmt::Display for Friction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { root, children } = *self;
+        if self.is_zero() {
+            return write!(f, "no friction");
+        }
+        let (root, children) = (decimal(root), decimal(children));
+        write!(f, "friction {root} (root), {children} (children) N·m·s")
+    }
+}
+
+/// A number as one writes it: with an exponent where it is small.
+pub(super) fn decimal(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-3 {
+        format!("{value:e}")
+    } else {
+        value.to_string()
     }
 }
 
@@ -92,6 +115,12 @@ pub struct Sample {
     pub flow: Flow,
 }
 
+/// An angle between −π/2 and π/2, equal to the given one up to a multiple of π:
+/// θ_d is no better known, because θ_2 and θ_3 are known up to multiples of 2π.
+pub fn folded(angle: f64) -> f64 {
+    (angle - PI * (angle / PI).round()).clamp(-FRAC_PI_2, FRAC_PI_2)
+}
+
 impl Apparatus {
     /// The apparatus with this friction.
     ///
@@ -133,8 +162,7 @@ impl Apparatus {
             rates,
             momenta,
             antiphase_energy: self.ideal.antiphase_energy(&coordinates, &momenta),
-            energy: self.ideal.kinetic_energy(&theta, &omega)
-                + self.ideal.potential_energy(&theta),
+            energy: self.ideal.kinetic_energy(&theta, &omega) + self.ideal.potential_energy(&theta),
             flow: self.flow(&coordinates, &rates),
         }
     }
@@ -160,7 +188,10 @@ impl Apparatus {
             antiphase_friction: self.damped.map_or(0.0, |damped| {
                 damped.antiphase_friction_power(coordinates, rates)
             }),
-            friction: -(self.friction.root * omega_1.powi(2) + self.friction.children * children),
+            // A difference, because minus zero would show in tables.
+            friction: 0.0
+                - self.friction.root * omega_1.powi(2)
+                - self.friction.children * children,
         }
     }
 }
@@ -187,7 +218,7 @@ impl Flow {
 
 #[cfg(test)]
 mod tests {
-    use super::{Apparatus, EXACT, Friction};
+    use super::{Apparatus, EXACT, Friction, decimal};
 
     const COORDINATES: [f64; 3] = [0.7, -0.4, 0.3];
     const RATES: [f64; 3] = [1.2, -2.1, 0.9];
@@ -225,16 +256,30 @@ mod tests {
                     .symmetric_accelerations(&COORDINATES, &RATES),
             };
             let sample = apparatus.measure(0.0, COORDINATES, RATES);
-            let energy = rate_along_the_motion(accelerations, |q, v| {
-                apparatus.measure(0.0, *q, *v).energy
-            });
-            let antiphase = rate_along_the_motion(accelerations, |q, v| {
-                apparatus.antiphase_energy(q, v)
-            });
+            let energy =
+                rate_along_the_motion(accelerations, |q, v| apparatus.measure(0.0, *q, *v).energy);
+            let antiphase =
+                rate_along_the_motion(accelerations, |q, v| apparatus.antiphase_energy(q, v));
             assert!((sample.flow.friction - energy).abs() < 1e-6);
             assert!((sample.flow.antiphase_rate(EXACT) - antiphase).abs() < 1e-6);
             assert_eq!(friction.is_zero(), energy.abs() < 1e-6);
         }
+    }
+
+    #[test]
+    fn numbers_are_written_as_one_writes_them() {
+        assert_eq!(decimal(3e-5), "3e-5");
+        assert_eq!(decimal(0.01), "0.01");
+        assert_eq!(decimal(0.0), "0");
+        let friction = Friction {
+            root: 0.0,
+            children: 3.5e-5,
+        };
+        assert_eq!(
+            friction.to_string(),
+            "friction 0 (root), 3.5e-5 (children) N·m·s"
+        );
+        assert_eq!(Friction::default().to_string(), "no friction");
     }
 
     #[test]

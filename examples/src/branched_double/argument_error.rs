@@ -70,20 +70,20 @@ impl ArgumentError {
     }
 }
 
-/// The option that shares the longest beginning with `word`, if that is more
-/// than the dashes and a letter.
+/// The option whose beginning and end together share the most letters with
+/// `word`, if they are more than half of it.
 fn nearest(word: &str) -> Option<&'static str> {
     let letters = word.trim_start_matches('-');
-    let shared = |option: &str| {
+    let shared = |option: &&str| {
         let option = option.trim_start_matches('-');
-        letters
-            .chars()
-            .zip(option.chars())
-            .take_while(|(a, b)| a.eq_ignore_ascii_case(b))
-            .count()
+        let equal = |(a, b): &(char, char)| a.eq_ignore_ascii_case(b);
+        let beginning = letters.chars().zip(option.chars());
+        let end = letters.chars().rev().zip(option.chars().rev());
+        beginning.take_while(equal).count() + end.take_while(equal).count()
     };
-    let best = OPTIONS.into_iter().rev().max_by_key(|option| shared(option))?;
-    (shared(best) > 1).then_some(best)
+    // The last of equals is taken, which is here the first in the list.
+    let best = OPTIONS.into_iter().rev().max_by_key(shared)?;
+    (2 * shared(&best) > letters.chars().count()).then_some(best)
 }
 
 impl fmt::Display for ArgumentError {

@@ -29,16 +29,17 @@ impl Precision {
     /// digits to spare.
     fn tolerance(self) -> f64 {
         match self {
-            Self::Single => 1e-6,
+            Self::Single => 1e-5,
             Self::Double => 1e-12,
         }
     }
 
-    /// The distance from one to the next number.
-    fn epsilon(self) -> f64 {
+    /// The least tolerance: some ten times the rounding error of a number.
+    /// Below, steps only get shorter, in the end too short to be taken.
+    fn least_tolerance(self) -> f64 {
         match self {
-            Self::Single => f32::EPSILON.into(),
-            Self::Double => f64::EPSILON,
+            Self::Single => 1e-6,
+            Self::Double => 2e-15,
         }
     }
 }
@@ -88,37 +89,6 @@ impl Default for Arguments {
     }
 }
 
-/// The help text.
-pub const HELP: &str = "\
-The paper's branched double pendulum: a parent link with two equal children,
-released from rest with the children hanging straight down. Does the antiphase
-mode θ_d = (θ_2 − θ_3)/2 grow, and which energy transfer W feeds it?
-
-Usage: branched-double [OPTION VALUE]...
-
-  --angles DEG[,DEG]...    initial angles θ_1(0) of the parent link, degrees
-                           [39.5,45,46.4,47.6,47.8,48.6: the paper's range]
-  --disturbance RAD        θ_d(0), rad: child 2 starts at +RAD, child 3 at −RAD
-                           [0.01: about what waiting for rest by eye leaves; as
-                           long as θ_d is small, its growth factor does not
-                           depend on it]
-  --duration S             time observed after the release, s
-                           [32: the span of the paper's spectrum]
-  --friction-root C        viscous friction in the parent's pivot, N m s [0]
-  --friction-children C    viscous friction in each child's pivot, N m s
-                           [0; 3e-5 brings onset and peak near the paper's]
-  --rate HZ                samples per second in tables and charts [100]
-  --precision f64|f32      numbers in which the motion is integrated [f64]
-  --tolerance TOL          relative error allowed in one integration step
-                           [1e-12 for f64, 1e-6 for f32]
-  --output FOLDER          where tables and charts go; files of the same name
-                           there are replaced [branched-double-output]
-  --help                   this text
-
-It prints the eigenfrequencies and one row for each initial angle, and writes
-one CSV file for each angle and four charts as SVG and PNG into FOLDER.
-";
-
 pub(super) const ANGLES: &str = "--angles";
 const DISTURBANCE: &str = "--disturbance";
 pub(super) const DURATION: &str = "--duration";
@@ -130,7 +100,7 @@ const TOLERANCE: &str = "--tolerance";
 const OUTPUT: &str = "--output";
 const HELP_OPTION: &str = "--help";
 
-/// All options, as [`HELP`] lists them.
+/// All options, as the help lists them.
 pub const OPTIONS: [&str; 10] = [
     ANGLES,
     DISTURBANCE,
@@ -156,6 +126,17 @@ impl Arguments {
         // `parse` holds the product between 1 and a million; a rounding error
         // must not cost the last sample.
         (self.duration * self.rate * (1.0 + f64::EPSILON)) as usize
+    }
+
+    /// Absolute tolerance of an integration step, in rad and rad/s. It decides
+    /// how small a θ_d keeps its relative accuracy; in single precision it must
+    /// not be lost in the rounding errors of angles and rates of order one.
+    pub fn absolute_tolerance(&self) -> f64 {
+        let share = match self.precision {
+            Precision::Single => 0.1,
+            Precision::Double => 1e-3,
+        };
+        share * self.tolerance
     }
 
     /// Time of a sample, s.
@@ -212,7 +193,7 @@ impl Arguments {
         }
         let precision = arguments.precision;
         arguments.tolerance = match tolerance {
-            Some(value) => within(TOLERANCE, value, precision.epsilon()..=1e-2, "")?,
+            Some(value) => within(TOLERANCE, value, precision.least_tolerance()..=1e-2, "")?,
             None => precision.tolerance(),
         };
         let samples = arguments.duration * arguments.rate;
@@ -254,7 +235,12 @@ fn within(
 fn read_angles(value: &str) -> Result<Vec<f64>, ArgumentError> {
     let mut angles = Vec::new();
     for part in value.split(',') {
-        let angle = within(ANGLES, read_number(ANGLES, part)?, -180.0..=180.0, "degrees")?;
+        let angle = within(
+            ANGLES,
+            read_number(ANGLES, part)?,
+            -180.0..=180.0,
+            "degrees",
+        )?;
         if angles.contains(&angle) {
             return Err(ArgumentError::RepeatedAngle { angle });
         }
@@ -275,7 +261,7 @@ fn read_precision(value: &str) -> Result<Precision, ArgumentError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Arguments, HELP, OPTIONS, Precision, Request};
+    use super::{Arguments, Precision, Request};
 
     fn parse(line: &str) -> Result<Request, String> {
         let words = line.split_whitespace().map(str::to_owned);
@@ -309,7 +295,7 @@ mod tests {
     #[test]
     fn defaults_hold_where_nothing_is_said() {
         assert_eq!(run(""), Arguments::default());
-        assert_eq!(run("--precision f32").tolerance, 1e-6);
+        assert_eq!(run("--precision f32").tolerance, 1e-5);
         assert_eq!(parse("--angles 3 -h"), Ok(Request::Help));
     }
 
@@ -325,30 +311,12 @@ mod tests {
     }
 
     #[test]
-    fn the_help_lists_every_option_and_every_default() {
-        for option in OPTIONS {
-            assert!(HELP.contains(&format!("\n  {option} ")), "{option}");
-        }
-        let defaults = Arguments::default();
-        let angles: Vec<String> = defaults.angles_deg.iter().map(f64::to_string).collect();
-        for default in [
-            angles.join(","),
-            format!("[{}: about", defaults.disturbance),
-            format!("[{}: the span", defaults.duration),
-            format!("tables and charts [{}]", defaults.rate),
-            format!("[{}]", defaults.precision),
-            format!("[{:e} for f64, {:e} for f32]", defaults.tolerance, 1e-6),
-            format!("[{}]", defaults.output.display()),
-        ] {
-            assert!(HELP.contains(&default), "{default}");
-        }
-        assert!(HELP.lines().all(|line| line.chars().count() <= 80));
-    }
-
-    #[test]
     fn mistakes_are_named() {
         for (line, message) in [
-            ("--angel 3", "there is no option `--angel`; did you mean `--angles`?"),
+            (
+                "--Angels 3",
+                "there is no option `--Angels`; did you mean `--angles`?",
+            ),
             ("--xyz 3", "there is no option `--xyz`"),
             (
                 "47.8",
@@ -361,8 +329,14 @@ mod tests {
             ("--rate 50 --rate 50", "`--rate` is given twice"),
             ("--angles 3,4,3", "`--angles` has 3 degrees twice"),
             ("--angles 3,,4", "`--angles` needs a number, but got ``"),
-            ("--duration soon", "`--duration` needs a number, but got `soon`"),
-            ("--duration inf", "`--duration` needs a number, but got `inf`"),
+            (
+                "--duration soon",
+                "`--duration` needs a number, but got `soon`",
+            ),
+            (
+                "--duration inf",
+                "`--duration` needs a number, but got `inf`",
+            ),
             (
                 "--angles 200",
                 "`--angles` is 200.0, but must be from -180.0 to 180.0 degrees",
@@ -373,9 +347,12 @@ mod tests {
             ),
             (
                 "--precision f32 --tolerance 1e-9",
-                "`--tolerance` is 1e-9, but must be from 1.1920928955078125e-7 to 0.01",
+                "`--tolerance` is 1e-9, but must be from 1e-6 to 0.01",
             ),
-            ("--precision f16", "`--precision` is `f64` or `f32`, but got `f16`"),
+            (
+                "--precision f16",
+                "`--precision` is `f64` or `f32`, but got `f16`",
+            ),
             (
                 "--duration 1e5 --rate 1000",
                 "`--duration` times `--rate` makes 1e8 samples a run, but 1e6 is the most",

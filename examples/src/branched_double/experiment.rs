@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::integrate::DenseError;
 use branched_pendulum::prelude::{
-    DenseStep, Dop853, IntegrationError, Ode, Options, Real, State, SymmetricCoordinates,
+    DenseStep, Dop853, IntegrationError, Ode, Options, Real, State, SymmetricCoordinates, Tolerance,
 };
 
 use super::apparatus::{Apparatus, Flow, Sample};
@@ -107,6 +107,7 @@ fn integrate<T: Real>(
     recorder.sample(&start.values);
     let end = arguments.sample_time(arguments.intervals());
     let options = Options {
+        absolute: Tolerance::Uniform(T::from_f64(arguments.absolute_tolerance())),
         // The length of a run is the user's choice, not the method's.
         step_limit: u64::MAX,
         ..Options::with_tolerance(T::from_f64(arguments.tolerance))

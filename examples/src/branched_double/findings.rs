@@ -4,7 +4,7 @@
 use branched_pendulum::Transfer;
 use branched_pendulum::analysis::{Modes, ModesError};
 
-use super::apparatus::{DIFFERENCE, EXACT, FORMS, Flow, MEAN, PUBLISHED, Sample};
+use super::apparatus::{DIFFERENCE, EXACT, FORMS, Flow, MEAN, PUBLISHED, Sample, folded};
 use super::experiment::Run;
 use super::scenes::BranchedDouble;
 
@@ -13,18 +13,23 @@ use super::scenes::BranchedDouble;
 /// a pulse that the next one dwarfs is on the way to the peak.
 pub const PEAK_REACH: f64 = 2.0;
 
+/// The forms of W are compared until |θ_d| first exceeds this, rad: all but the
+/// exact one are made for small θ_d, and mean nothing for children that tumble.
+pub const SMALL_ANGLE: f64 = 0.5;
+
 /// What one run says. `None` stands where a number has no meaning, for example
 /// the growth of a disturbance of zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {
-    /// Largest |θ_d| of the run over |θ_d(0)|. Full turns count.
+    /// Largest |θ_d| of the run, folded to π/2 at most, over |θ_d(0)|.
     pub growth: Option<f64>,
     /// The first peak of H_d.
     pub peak: Option<Peak>,
     /// For each form of W: the root mean square of its difference from dH_d/dt,
     /// relative to the root mean square of dH_d/dt. Both are means over one
     /// sampling interval: ∫W dt over it on one side, the change of H_d on the
-    /// other. With friction, its power on H_d is added to W.
+    /// other. With friction, its power on H_d is added to W. Until |θ_d| first
+    /// exceeds [`SMALL_ANGLE`].
     pub deviations: [Option<f64>; FORMS.len()],
     /// Largest difference between the energy and what friction has left of the
     /// initial energy, relative to the initial energy.
@@ -82,7 +87,7 @@ impl Findings {
 }
 
 fn growth(samples: &[Sample]) -> Option<f64> {
-    let size = |sample: &Sample| sample.coordinates[DIFFERENCE].abs();
+    let size = |sample: &Sample| folded(sample.coordinates[DIFFERENCE]).abs();
     let largest = samples.iter().map(size).fold(0.0, f64::max);
     ratio(largest, samples.first().map_or(0.0, size))
 }
@@ -108,30 +113,30 @@ fn peak(run: &Run) -> Option<Peak> {
     })
 }
 
-/// Index of the first sample, neither the first nor the last, whose H_d is not
-/// exceeded within [`PEAK_REACH`] before and after it. Linear in the number of
-/// samples: a sample that is exceeded later is passed over together with all
-/// before the one that exceeds it.
+/// Index of the first maximum of H_d that is not exceeded within [`PEAK_REACH`]
+/// before and after it, as far as the samples go.
 fn first_peak(samples: &[Sample]) -> Option<usize> {
-    let energy = |index: usize| samples.get(index).map_or(0.0, |s| s.antiphase_energy);
-    let time = |index: usize| samples.get(index).map_or(f64::INFINITY, |s| s.time);
-    let mut best = 0;
-    for index in 1..samples.len() {
-        let old = time(index) - time(best) > PEAK_REACH;
-        if energy(index) > energy(best) && !old {
-            best = index;
-        } else if old && best > 0 {
-            break;
-        } else if old {
-            // H_d has only fallen so far; look for a rise from here.
-            best = index;
-        }
-    }
-    (best > 0 && best + 1 < samples.len() && energy(best) > 0.0).then_some(best)
+    let is_peak = |index: usize| {
+        let (before, rest) = samples.split_at_checked(index)?;
+        let (at, after) = rest.split_first()?;
+        let near = |other: &&Sample| (other.time - at.time).abs() <= PEAK_REACH;
+        let neighbours = before.iter().rev().take_while(near);
+        let mut neighbours = neighbours.chain(after.iter().take_while(near));
+        let rises = before.last()?.antiphase_energy < at.antiphase_energy;
+        let falls = after.first()?.antiphase_energy <= at.antiphase_energy;
+        let lower = |other: &Sample| other.antiphase_energy <= at.antiphase_energy;
+        (rises && falls && neighbours.all(lower)).then_some(index)
+    };
+    (0..samples.len()).find_map(is_peak)
 }
 
 fn deviation(run: &Run, form: usize) -> Option<f64> {
-    let changes = run.samples.windows(2).zip(&run.intervals);
+    let is_small = |pair: &&[Sample]| {
+        let mut angles = pair.iter().map(|sample| sample.coordinates[DIFFERENCE]);
+        angles.all(|angle| angle.abs() <= SMALL_ANGLE)
+    };
+    let changes = run.samples.windows(2).take_while(is_small);
+    let changes = changes.zip(&run.intervals);
     let (mut difference, mut whole) = (0.0, 0.0);
     for (pair, flow) in changes {
         let &[before, after] = pair else { continue };
@@ -190,9 +195,8 @@ impl Frequencies {
             &[_, theta_2, theta_3] => (theta_2 - theta_3).abs(),
             _ => f64::NAN,
         };
-        let antiphase = (0..modes.shapes.len()).max_by(|&a, &b| {
-            difference(&modes.shapes[a]).total_cmp(&difference(&modes.shapes[b]))
-        });
+        let antiphase = (0..modes.shapes.len())
+            .max_by(|&a, &b| difference(&modes.shapes[a]).total_cmp(&difference(&modes.shapes[b])));
         let mut in_phase = Vec::new();
         let mut frequencies = Self {
             plus: f64::NAN,
@@ -242,8 +246,8 @@ mod tests {
 
     #[test]
     fn the_first_peak_is_the_first_that_nothing_near_exceeds() {
-        let cases: [(&[(usize, f64)], Option<usize>); 7] = [
-            (&[(7, 1.0)], Some(7)),
+        for (case, expected) in [
+            (&[(7, 1.0)][..], Some(7)),
             // Dwarfed within two seconds, twice.
             (&[(7, 1.0), (20, 2.0), (38, 3.0)], Some(38)),
             // The second comes too late.
@@ -254,8 +258,7 @@ mod tests {
             (&[(0, 5.0), (5, 1.0)], None),
             // Still rising at the end.
             (&[(98, 1.0), (99, 2.0)], None),
-        ];
-        for (case, expected) in cases {
+        ] {
             assert_eq!(first_peak(&pulses(100, case)), expected, "{case:?}");
         }
         assert_eq!(first_peak(&[]), None);

@@ -6,7 +6,7 @@
 //! Y. Toda and T. Ooshida, "Experimental detection of energy transfer into the
 //! anti-phase mode in a branched double pendulum", called *the paper* below.
 //!
-//! - [`arguments`]: the command line,
+//! - [`arguments`], [`help`]: the command line,
 //! - [`apparatus`]: the two scenes, and what is measured at one instant,
 //! - [`experiment`]: one run from release to the last sample,
 //! - [`findings`]: what a run says,
@@ -20,6 +20,7 @@ pub mod experiment;
 pub mod failure;
 pub mod files;
 pub mod findings;
+pub mod help;
 pub mod progress;
 pub mod scenes;
 pub mod table;
