@@ -3,8 +3,8 @@
 
 use std::fmt::Write;
 
-use super::random::Random;
 use super::{Link, Tree};
+use crate::random::Random;
 
 /// What a random tree may look like.
 #[derive(Clone, Copy, Debug)]
@@ -108,7 +108,7 @@ impl Properties<'_> {
     /// A point along the link, or with a lateral offset.
     fn point(&mut self, name: &str) -> [f64; 2] {
         let (along_text, along) = decimal(self.random, -0.3, 0.8);
-        if self.random.once_in(2) {
+        if self.random.below(2) == 0 {
             let _ = write!(self.text, "{name} = {along_text}, ");
             return [along, 0.0];
         }
@@ -126,20 +126,20 @@ fn node(random: &mut Random, parent: Option<(usize, &Node)>, copies: usize) -> N
     };
     let (name, mut link, mut joint) = body(&mut properties, shape);
     // Links with a shape may still have points and an inertia of their own.
-    if shape > 0 && properties.random.once_in(4) {
+    if shape > 0 && properties.random.below(4) == 0 {
         link.com = properties.point("com");
         link.inertia = properties.number("inertia", 1e-4, 1e-1);
     }
-    if shape > 0 && properties.random.once_in(4) {
+    if shape > 0 && properties.random.below(4) == 0 {
         joint = properties.point("joint");
     }
     if let Some((_, parent)) = parent {
         link.pivot = parent.joint;
-        if properties.random.once_in(2) {
+        if properties.random.below(2) == 0 {
             link.pivot = properties.point("at");
         }
     }
-    if properties.random.once_in(2) {
+    if properties.random.below(2) == 0 {
         link.friction = properties.number("friction", 1e-4, 0.5);
     }
     Node {

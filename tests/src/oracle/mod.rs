@@ -11,7 +11,6 @@ pub mod cartesian;
 pub mod closed_form;
 pub mod constrained;
 pub mod generator;
-pub mod random;
 
 /// A vector in the plane of motion: x to the side, y upwards, m.
 pub type Vector = [f64; 2];

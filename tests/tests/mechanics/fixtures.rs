@@ -1,5 +1,5 @@
-//! Scenes that the compiler has compiled: the attribute stands on real types,
-//! and the text of each is kept for the pipeline.
+//! Compiled scenes beside those of the library: the attribute stands on real
+//! types, and the text of each is kept for the pipeline.
 
 #![allow(missing_docs)]
 
@@ -12,18 +12,6 @@ macro_rules! fixture {
 
         pub(crate) const $text: &str = stringify!($($item)*);
     };
-}
-
-fixture! { PAPER,
-    /// The paper's apparatus (physics §6).
-    #[branched_pendulum(
-        gravity = 9.80665,
-        parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
-            child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
-        ],
-        emit(energies, momenta, modes, symmetric, transfer),
-    )]
-    pub struct Paper;
 }
 
 fixture! { FRICTIONAL,
@@ -51,12 +39,12 @@ fixture! { NAMED,
 }
 
 fixture! { TRIPLE,
-    /// Three children with friction beside a fourth that is unlike them, all
-    /// with lateral offsets.
+    /// Three children with friction beside a fourth that is unlike them, on a
+    /// parent with lateral offsets.
     #[branched_pendulum(
         gravity = 9.80665,
         parent(mass = 0.3, com = (0.1, 0.02), inertia = 2e-3, joint = (0.25, -0.03), friction = 5e-4) [
-            child(mass = 0.1, com = (0.05, 0.01), inertia = 0.4e-3, friction = 6e-5) * 3,
+            child(mass = 0.1, com = 0.05, inertia = 0.4e-3, friction = 6e-5) * 3,
             other: rod(mass = 0.08, length = 0.2, at = 0.1),
         ],
         emit(energies, momenta, symmetric, transfer),
@@ -64,16 +52,14 @@ fixture! { TRIPLE,
     pub struct Triple;
 }
 
-fixture! { NESTED,
-    /// Two arms with two hands each.
-    #[branched_pendulum(
-        gravity = 9.80665,
-        body: rod(mass = 0.4, length = 0.3) [
-            arm: rod(mass = 0.2, length = 0.2) [
-                hand: point(mass = 0.1, length = 0.1) * 2,
-            ] * 2,
-        ],
-        emit(energies, momenta, symmetric),
-    )]
-    pub struct Nested;
-}
+/// Two arms with two hands each.
+#[branched_pendulum(
+    gravity = 9.80665,
+    body: rod(mass = 0.4, length = 0.3) [
+        arm: rod(mass = 0.2, length = 0.2) [
+            hand: point(mass = 0.1, length = 0.1) * 2,
+        ] * 2,
+    ],
+    emit(energies, momenta, symmetric),
+)]
+pub struct Nested;

@@ -1,5 +1,15 @@
 //! The mechanics: what is derived and emitted, against independent derivations,
 //! reference numbers and the paper's formulas.
 
+mod exactness;
+mod fixtures;
+mod formulas;
+mod letters;
+mod paper;
+mod parameters;
 mod random_trees;
+mod rebuilt;
+mod reference;
 mod support;
+mod symmetric;
+mod transfer;

@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, Sample, sample};
-use branched_pendulum_tests::oracle::random::Random;
-use branched_pendulum_tests::oracle::{closed_form, constrained};
+use branched_pendulum_tests::oracle::{Link, Tree, closed_form, constrained};
+use branched_pendulum_tests::random::Random;
 use nalgebra::DVector;
 
 use crate::support::{Compiled, Worst, compile};
@@ -18,7 +18,11 @@ const STATES: usize = 1000;
 static SAMPLES: LazyLock<Vec<(Sample, Compiled)>> = LazyLock::new(|| {
     (0..TREES)
         .map(|seed| {
-            let links = if seed % 3 == 0 { 12 } else { 3 + seed as usize % 9 };
+            let links = if seed % 3 == 0 {
+                12
+            } else {
+                3 + seed as usize % 9
+            };
             let recipe = Recipe {
                 links,
                 copies: &[1, 1, 1, 2, 3],
@@ -167,4 +171,54 @@ fn the_closed_form_agrees_with_cartesian_jacobians() {
     }
     mass.assert_below(1e-14, "mass matrix");
     bias.assert_below(1e-14, "bias");
+}
+
+/// A trunk with three generations by rule, written out by hand.
+#[test]
+fn generations_by_rule() {
+    let compiled = compile(
+        "gravity = 9.8, trunk: rod(mass = 1.1, length = 0.7) [
+            branch: generations(count = 3, branching = 2, shape = rod, mass = 0.4, length = 0.5,
+                mass_ratio = 1 / 2, length_ratio = 0.8, friction = 1e-3, at = 0.6),
+        ]",
+    );
+    let rod = |parent: Option<usize>, mass: f64, length: f64, at: f64| Link {
+        parent,
+        mass,
+        inertia: mass * length * length / 12.0,
+        com: [length / 2.0, 0.0],
+        pivot: [at, 0.0],
+        friction: if parent.is_some() { 1e-3 } else { 0.0 },
+    };
+    let second = |parent: usize| rod(Some(parent), 0.2, 0.4, 0.5);
+    let third = |parent: usize| rod(Some(parent), 0.1, 0.32, 0.4);
+    let tree = Tree {
+        gravity: 9.8,
+        links: vec![
+            rod(None, 1.1, 0.7, 0.0),
+            rod(Some(0), 0.4, 0.5, 0.6),
+            second(1),
+            third(2),
+            third(2),
+            second(1),
+            third(5),
+            third(5),
+        ],
+    };
+    assert_eq!(compiled.scene.links.len(), tree.links.len());
+    let mut worst = Worst::default();
+    let mut random = Random::new(5000);
+    for count in 0..100 {
+        let (theta, omega) = state(&mut random, tree.links.len());
+        let motion = Motion::new(&tree, &theta, &omega);
+        let expected = motion.accelerations();
+        let sensitivity = motion.sensitivity(&expected);
+        let found = compiled.evaluate("accelerations", &[&theta, &omega]);
+        for link in 0..found.len() {
+            worst.note(found[link] - expected[link], sensitivity[link], || {
+                format!("state {count}, link {link}")
+            });
+        }
+    }
+    worst.assert_below(1e-12, "accelerations");
 }

@@ -1,10 +1,10 @@
 //! Runs the pipeline on text and evaluates programs.
 
+use branched_pendulum_codegen::Stages;
 use branched_pendulum_codegen::mechanics::Mechanics;
 use branched_pendulum_codegen::program::{Argument, Program};
 use branched_pendulum_codegen::scene::Scene;
-use branched_pendulum_codegen::stages;
-use proc_macro2::{TokenStream, TokenTree};
+use branched_pendulum_tests::source;
 
 /// What the pipeline makes of a description; the stages that can be shared
 /// between threads.
@@ -14,36 +14,29 @@ pub(crate) struct Compiled {
     pub(crate) program: Program,
 }
 
-/// Runs the pipeline on the arguments of an attribute.
-pub(crate) fn compile(text: &str) -> Compiled {
-    let attribute: TokenStream = text.parse().expect("the description has tokens");
-    let item: TokenStream = "struct Sample;".parse().expect("the item has tokens");
-    let stages = stages(attribute, item)
-        .unwrap_or_else(|(report, _)| panic!("{}\n{text}", report.render(text)));
-    Compiled {
-        scene: stages.scene,
-        mechanics: stages.mechanics,
-        program: stages.program,
+impl From<Stages> for Compiled {
+    fn from(stages: Stages) -> Self {
+        Self {
+            scene: stages.scene,
+            mechanics: stages.mechanics,
+            program: stages.program,
+        }
     }
 }
 
-/// Runs the pipeline on the arguments of the `branched_pendulum` attribute of
-/// an item.
+/// Runs the pipeline on the arguments of an attribute.
+pub(crate) fn compile(arguments: &str) -> Compiled {
+    compile_item(&format!("#[branched_pendulum({arguments})] struct Sample;"))
+}
+
+/// Runs the pipeline on an item with its attribute.
 pub(crate) fn compile_item(source: &str) -> Compiled {
-    let item: TokenStream = source.parse().expect("the item has tokens");
-    let attributes = item.into_iter().filter_map(|tree| match tree {
-        TokenTree::Group(group) => Some(group.stream().into_iter()),
-        _ => None,
-    });
-    for mut attribute in attributes {
-        let name = attribute.next().map(|name| name.to_string());
-        if name.as_deref() == Some("branched_pendulum")
-            && let Some(TokenTree::Group(arguments)) = attribute.next()
-        {
-            return compile(&arguments.stream().to_string());
-        }
-    }
-    panic!("no attribute on {source}");
+    source::stages_of(source).into()
+}
+
+/// The library's fixture of the paper's apparatus.
+pub(crate) fn compile_paper() -> Compiled {
+    source::scene("paper").into()
 }
 
 impl Compiled {
@@ -85,7 +78,11 @@ pub(crate) struct Worst {
 impl Worst {
     /// Notes `error` in units of `scale`; both must be finite.
     pub(crate) fn note(&mut self, error: f64, scale: f64, place: impl FnOnce() -> String) {
-        let figure = if error == 0.0 { 0.0 } else { error.abs() / scale };
+        let figure = if error == 0.0 {
+            0.0
+        } else {
+            error.abs() / scale
+        };
         assert!(figure.is_finite(), "{error} of {scale} at {}", place());
         if figure > self.figure {
             self.figure = figure;
