@@ -4,7 +4,7 @@ use super::Emission;
 use super::docs::doc_lines;
 use super::function::number_tokens;
 use crate::program::{ConstantId, ConstantOp};
-use crate::scene::{ParameterId, Quantity, Sign};
+use crate::scene::{LinkId, Offset, ParameterId, Quantity, Sign};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;
@@ -194,6 +194,7 @@ impl Emission<'_> {
             let value = self.quantity(&requirement.quantity);
             self.requirement(&requirement.what, &value, requirement.sign)
         });
+        let regular = self.regularity();
         let constants = self.constants();
         quote! {
             #[doc = #docs]
@@ -206,13 +207,15 @@ impl Emission<'_> {
                 /// The model for the given parameters, in double precision.
                 ///
                 /// # Errors
-                /// A parameter that is not finite, or one that makes a mass,
-                /// an inertia or a friction coefficient impossible.
+                /// A parameter that is not finite, one that makes a mass, an
+                /// inertia or a friction coefficient impossible, or ones that
+                /// make the mass matrix singular.
                 pub fn new(
                     parameters: #parameters<f64>,
                 ) -> ::core::result::Result<Self, #runtime::ParameterError> {
                     #(#finite)*
                     #(#signs)*
+                    #regular
                     ::core::result::Result::Ok(Self::from_parameters(parameters))
                 }
             }
@@ -238,6 +241,42 @@ impl Emission<'_> {
             Sign::Positive => quote!(require_positive),
         };
         quote!(#runtime::ParameterError::#check(#what, #value)?;)
+    }
+
+    /// Refuses parameters that make the mass matrix singular.
+    fn regularity(&self) -> TokenStream {
+        let runtime = self.runtime();
+        let bodies = self.scene.links.iter().map(|link| {
+            let what = format!(
+                "moment of inertia of `{}` about its pivot, in some configuration,",
+                link.name
+            );
+            let parent = match link.parent {
+                Some(LinkId(index)) => {
+                    let index = Literal::usize_unsuffixed(index);
+                    quote!(::core::option::Option::Some(#index))
+                }
+                None => quote!(::core::option::Option::None),
+            };
+            let point = |offset: &Offset| {
+                let (along, lateral) =
+                    (self.quantity(&offset.along), self.quantity(&offset.lateral));
+                quote!([#along, #lateral])
+            };
+            let (mass, inertia) = (self.quantity(&link.mass), self.quantity(&link.inertia));
+            let (com, pivot) = (point(&link.com), point(&link.pivot));
+            quote! {
+                #runtime::model::LinkBody {
+                    what: #what,
+                    parent: #parent,
+                    mass: #mass,
+                    inertia: #inertia,
+                    com: #com,
+                    pivot: #pivot,
+                }
+            }
+        });
+        quote!(#runtime::model::require_regular(&[#(#bodies),*])?;)
     }
 
     /// A quantity computed in f64 from the parameters.

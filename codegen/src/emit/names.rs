@@ -7,6 +7,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Longer generated names say less than a number.
 const LONGEST_NAME: usize = 48;
 
+/// Operations inside one another in one expression, at most: readers tire, and
+/// the compiler recurses.
+const DEEPEST: usize = 16;
+
 /// Which values of a function get a `let`, and what they are called.
 pub(super) struct Locals {
     pub(super) names: BTreeMap<ValueId, String>,
@@ -34,9 +38,15 @@ impl Emission<'_> {
                 .map(|argument| argument.name().to_owned())
                 .collect(),
         };
+        let mut depths: BTreeMap<ValueId, usize> = BTreeMap::new();
         for &id in needed {
             let definition = self.program.definition(id);
-            let several = uses.get(&id).is_some_and(|count| *count > 1);
+            let inside = definition
+                .op
+                .operands()
+                .filter_map(|operand| depths.get(&operand));
+            let depth = 1 + inside.copied().max().unwrap_or(0);
+            let several = uses.get(&id).is_some_and(|count| *count > 1) || depth > DEEPEST;
             let wanted = match (&definition.op, &definition.name) {
                 (Op::Constant(_), _) => continue,
                 (Op::Input(argument, index), _) => Some(self.input_name(*argument, *index)),
@@ -44,7 +54,10 @@ impl Emission<'_> {
                 (Op::Sin(_) | Op::Cos(_), Some(name)) => Some(name.clone()),
                 (_, Some(name)) => Some(name.clone()),
                 (_, None) if several => self.describe(id, &locals),
-                (_, None) => continue,
+                (_, None) => {
+                    depths.insert(id, depth);
+                    continue;
+                }
             };
             let number = matches!(definition.op, Op::Number(_));
             if number && !several {

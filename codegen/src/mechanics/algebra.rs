@@ -180,6 +180,11 @@ impl Formula {
         self.0.is_zero()
     }
 
+    /// Whether the formula is no sum.
+    pub fn is_term(&self) -> bool {
+        !matches!(self.0.as_view(), AtomView::Add(_))
+    }
+
     /// Products multiplied out.
     pub fn expand(&self) -> Self {
         Self(self.0.expand())

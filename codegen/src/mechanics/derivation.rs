@@ -8,6 +8,13 @@ use super::lagrangian::latex_name;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
 
+/// Index of a [`Combination`] in its table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct CombinationId(pub usize);
+
+/// A sum of coordinates with integer weights, the first one positive.
+pub type Combination = Vec<(SymbolId, i64)>;
+
 /// What a trigonometric symbol means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trigonometric {
@@ -15,6 +22,10 @@ pub enum Trigonometric {
     Cos(SymbolId),
     /// sin of a coordinate.
     Sin(SymbolId),
+    /// 1 − cos of a combination of differences, accurate where that is small.
+    VersineOf(CombinationId),
+    /// sin of a combination of differences.
+    SineOf(CombinationId),
     /// cos of the difference of two coordinates.
     CosBetween(SymbolId, SymbolId),
     /// sin of the difference of two coordinates.
@@ -38,6 +49,9 @@ pub(super) struct Derivation<'s> {
     names: BTreeMap<SymbolId, String>,
     of_one: BTreeMap<SymbolId, (SymbolId, SymbolId)>,
     of_two: BTreeMap<(SymbolId, SymbolId), (SymbolId, SymbolId)>,
+    pub(super) combinations: Vec<Combination>,
+    pub(super) groups_of: BTreeMap<SymbolId, usize>,
+    of_combination: Vec<(SymbolId, SymbolId)>,
 }
 
 /// Lower triangle of a symmetric matrix, sparse.
@@ -106,6 +120,9 @@ impl<'s> Derivation<'s> {
             names: BTreeMap::new(),
             of_one: BTreeMap::new(),
             of_two: BTreeMap::new(),
+            combinations: Vec::new(),
+            groups_of: BTreeMap::new(),
+            of_combination: Vec::new(),
         }
     }
 
@@ -174,6 +191,54 @@ impl<'s> Derivation<'s> {
         self.of_one[&coordinate].1
     }
 
+    /// 1 − cos and sin of a combination as symbols of their own: expanded in
+    /// those of single coordinates, nested differences would fill pages.
+    pub(super) fn combination(&mut self, combination: &Combination) -> (SymbolId, SymbolId) {
+        if let Some(known) = self.combinations.iter().position(|c| c == combination) {
+            return self.of_combination[known];
+        }
+        let id = CombinationId(self.combinations.len());
+        let (mut code, mut text, mut latex) = (String::new(), String::new(), String::new());
+        for (place, &(coordinate, weight)) in combination.iter().enumerate() {
+            let symbol = self.symbols.get(coordinate);
+            let (word, sign) = match (place, weight < 0) {
+                (0, false) => ("", ""),
+                (_, false) => ("_plus_", " + "),
+                (_, true) => ("_minus_", " − "),
+            };
+            let size = weight.abs();
+            let (number, factor) = match size {
+                1 => (String::new(), String::new()),
+                _ => (format!("{size}_"), format!("{size} ")),
+            };
+            code.push_str(&format!("{word}{number}{}", self.names[&coordinate]));
+            text.push_str(&format!("{sign}{factor}{}", symbol.text));
+            latex.push_str(&format!("{sign}{factor}{}", symbol.latex).replace('−', "-"));
+        }
+        if combination.len() > 1 || text.contains(' ') {
+            text = format!("({text})");
+            latex = format!("({latex})");
+        } else {
+            text = format!(" {text}");
+        }
+        let mut make = |function: &str, command: &str, meaning| {
+            let symbol = self.symbols.intern(
+                Role::Trigonometric,
+                &format!("{function}_{code}"),
+                &format!("{function}{text}"),
+                &format!("{command}{latex}"),
+            );
+            // The sine of a single coordinate is there already.
+            self.trigonometry.entry(symbol).or_insert(meaning);
+            symbol
+        };
+        let versine = make("vers", "\\operatorname{vers}", Trigonometric::VersineOf(id));
+        let sine = make("sin", "\\sin", Trigonometric::SineOf(id));
+        self.combinations.push(combination.clone());
+        self.of_combination.push((versine, sine));
+        (versine, sine)
+    }
+
     /// cos(a − b) and sin(a − b) as symbols of their own: the mass matrix
     /// depends on differences alone, and written in them it stays as short as
     /// on paper.
@@ -208,7 +273,17 @@ impl<'s> Derivation<'s> {
         let signed = |value: Formula, positive: bool| if positive { value } else { -value };
         match *self.trigonometry.get(&symbol)? {
             Trigonometric::Cos(a) => (a == coordinate).then(|| -Formula::symbol(self.sin(a))),
-            Trigonometric::Sin(a) => (a == coordinate).then(|| Formula::symbol(self.cos(a))),
+            Trigonometric::Sin(a) => (a == coordinate).then(|| self.cosine(a)),
+            Trigonometric::VersineOf(id) => {
+                let weight = self.weight(id, coordinate)?;
+                let sine = Formula::symbol(self.of_combination[id.0].1);
+                Some(&Formula::integer(weight) * &sine)
+            }
+            Trigonometric::SineOf(id) => {
+                let weight = self.weight(id, coordinate)?;
+                let versine = Formula::symbol(self.of_combination[id.0].0);
+                Some(&Formula::integer(weight) * &(&Formula::integer(1) - &versine))
+            }
             Trigonometric::CosBetween(a, b) if a == coordinate || b == coordinate => Some(signed(
                 Formula::symbol(self.of_two[&(a, b)].1),
                 b == coordinate,
@@ -218,6 +293,26 @@ impl<'s> Derivation<'s> {
                 a == coordinate,
             )),
             _ => None,
+        }
+    }
+
+    fn weight(&self, id: CombinationId, coordinate: SymbolId) -> Option<i64> {
+        let found = self.combinations[id.0]
+            .iter()
+            .find(|(c, _)| *c == coordinate);
+        found.map(|(_, weight)| *weight)
+    }
+
+    /// cos of a coordinate as it is written in this derivation: 1 − vers where
+    /// that is in use.
+    fn cosine(&self, coordinate: SymbolId) -> Formula {
+        let alone = vec![(coordinate, 1)];
+        match self.combinations.iter().position(|c| *c == alone) {
+            Some(known) => {
+                let versine = Formula::symbol(self.of_combination[known].0);
+                &Formula::integer(1) - &versine
+            }
+            None => Formula::symbol(self.cos(coordinate)),
         }
     }
 
@@ -241,6 +336,9 @@ impl<'s> Derivation<'s> {
         for symbol in formula.symbols() {
             match self.trigonometry.get(&symbol) {
                 Some(Trigonometric::Cos(a) | Trigonometric::Sin(a)) => found.push(*a),
+                Some(Trigonometric::VersineOf(id) | Trigonometric::SineOf(id)) => {
+                    found.extend(self.combinations[id.0].iter().map(|(c, _)| *c));
+                }
                 Some(Trigonometric::CosBetween(a, b) | Trigonometric::SinBetween(a, b)) => {
                     found.extend([*a, *b]);
                 }

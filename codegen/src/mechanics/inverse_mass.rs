@@ -4,7 +4,7 @@
 
 use super::algebra::Formula;
 use super::coordinates::{Coordinate, Kind};
-use super::derivation::{Derivation, Frame, MassMatrix};
+use super::derivation::{Derivation, Frame, MassMatrix, Trigonometric};
 use super::expression::{Role, SymbolId};
 use super::lagrangian::latex_name;
 
@@ -71,6 +71,24 @@ impl Derivation<'_> {
             if counting == Counting::Amplitude {
                 replacements.push((p, &small * &Formula::symbol(p)));
             }
+        }
+        for symbol in formula.symbols() {
+            let (id, versine) = match self.trigonometry.get(&symbol) {
+                Some(Trigonometric::VersineOf(id)) => (id, true),
+                Some(Trigonometric::SineOf(id)) => (id, false),
+                _ => continue,
+            };
+            let angle: Formula = self.combinations[id.0]
+                .iter()
+                .map(|&(c, w)| &Formula::integer(w) * &Formula::symbol(c))
+                .sum();
+            let (cos, sin) = series(&(&small * &angle), order);
+            let value = if versine {
+                &Formula::integer(1) - &cos
+            } else {
+                sin
+            };
+            replacements.push((symbol, value));
         }
         let table = formula.substitute(&replacements).coefficients(&[epsilon]);
         (0..=order)

@@ -18,7 +18,7 @@ mod transfer;
 
 pub use algebra::AlgebraError;
 pub use coordinates::Coordinate;
-pub use derivation::Trigonometric;
+pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use print::{latex, text};
 
 use crate::exact::Rational;
@@ -147,6 +147,8 @@ pub struct Mechanics {
     pub parameters: Vec<SymbolId>,
     /// Meaning of every trigonometric symbol.
     pub trigonometry: BTreeMap<SymbolId, Trigonometric>,
+    /// Combinations of differences whose sine and versine appear.
+    pub combinations: Vec<Combination>,
     /// Constants of the model, in the order of their symbols.
     pub constants: Vec<Constant>,
     /// The mechanics in absolute angles.
@@ -183,6 +185,7 @@ impl Derivation<'_> {
             symbols: Symbols::default(),
             parameters: self.parameters.clone(),
             trigonometry: BTreeMap::new(),
+            combinations: Vec::new(),
             constants: Vec::new(),
             absolute: self.frame(&absolute),
             coordinates: Vec::new(),
@@ -213,6 +216,7 @@ impl Derivation<'_> {
             })
             .collect();
         mechanics.trigonometry = self.trigonometry;
+        mechanics.combinations = self.combinations;
         mechanics.symbols = self.symbols;
         mechanics
     }

@@ -2,17 +2,17 @@
 //! the absolute one.
 
 use super::algebra::Formula;
-use super::coordinates::Coordinate;
+use super::coordinates::{Coordinate, Kind};
 use super::derivation::{Derivation, Frame, MassMatrix};
 use super::expression::SymbolId;
-use crate::scene::LinkId;
+use crate::scene::{Group, LinkId};
 use std::collections::BTreeMap;
 
 /// cos and sin of an integer combination of angles, by angle addition.
 #[derive(Clone)]
-struct Rotation {
-    cos: Formula,
-    sin: Formula,
+pub(super) struct Rotation {
+    pub(super) cos: Formula,
+    pub(super) sin: Formula,
 }
 
 impl Rotation {
@@ -36,15 +36,6 @@ impl Rotation {
             sin: -self.sin.clone(),
         }
     }
-
-    fn times(&self, count: i64) -> Self {
-        let one = if count < 0 {
-            self.inverse()
-        } else {
-            self.clone()
-        };
-        (0..count.abs()).fold(Self::identity(), |sum, _| sum.then(&one))
-    }
 }
 
 impl Derivation<'_> {
@@ -67,6 +58,11 @@ impl Derivation<'_> {
         for (column, coordinate) in coordinates.iter().enumerate() {
             for &(LinkId(link), weight) in &coordinate.weights {
                 rows[link].push((column, weight));
+            }
+        }
+        for (coordinate, &id) in coordinates.iter().zip(&ids) {
+            if let Kind::Difference { group, .. } = coordinate.kind {
+                self.groups_of.insert(id, group);
             }
         }
         let replacements = self.substitution(absolute, &ids, &rows);
@@ -119,8 +115,11 @@ impl Derivation<'_> {
         let mut replacements = Vec::new();
         let known: Vec<_> = self.trigonometry.iter().map(|(k, v)| (*k, *v)).collect();
         for (symbol, meaning) in known {
-            use super::derivation::Trigonometric::{Cos, CosBetween, Sin, SinBetween};
+            use super::derivation::Trigonometric::{
+                Cos, CosBetween, Sin, SinBetween, SineOf, VersineOf,
+            };
             let (i, j) = match meaning {
+                VersineOf(_) | SineOf(_) => continue,
                 Cos(a) | Sin(a) => (a, None),
                 CosBetween(a, b) | SinBetween(a, b) => (a, Some(b)),
             };
@@ -135,7 +134,7 @@ impl Derivation<'_> {
             };
             let value = match meaning {
                 Cos(_) | CosBetween(..) => rotation.cos,
-                Sin(_) | SinBetween(..) => rotation.sin,
+                _ => rotation.sin,
             };
             replacements.push((symbol, value));
         }
@@ -169,12 +168,74 @@ impl Derivation<'_> {
                 *total.entry(coordinate).or_default() -= weight;
             }
         }
-        total
+        total.retain(|_, weight| *weight != 0);
+        let share: Vec<(SymbolId, i64)> = total
             .into_iter()
-            .filter(|&(_, weight)| weight != 0)
-            .fold(start, |sum, (coordinate, weight)| {
-                sum.then(&self.single(ids[coordinate]).times(weight))
+            .map(|(coordinate, weight)| (ids[coordinate], weight))
+            .collect();
+        start.then(&self.share(&share))
+    }
+
+    /// The rotation by a sum of differences, group by group.
+    ///
+    /// Written as 1 − vers, what must vanish while the copies of a group are
+    /// in phase has only terms that vanish one by one, whatever the groups
+    /// around it do: the ones cancel exactly, before any number is rounded.
+    /// Cosines would have to cancel by rounding, and leave a remainder between
+    /// more than two copies (2 cos + cos − 3 cos) and between the cosines of
+    /// different groups. Where neither occurs they stay, as short as on paper.
+    pub(super) fn share(&mut self, share: &[(SymbolId, i64)]) -> Rotation {
+        let mut by_group: BTreeMap<usize, Vec<(SymbolId, i64)>> = BTreeMap::new();
+        for &(coordinate, weight) in share {
+            let group = self.groups_of[&coordinate];
+            by_group
+                .entry(group)
+                .or_default()
+                .push((coordinate, weight));
+        }
+        let plain = self.has_plain_cosines();
+        by_group
+            .into_values()
+            .fold(Rotation::identity(), |turned, combination| {
+                turned.then(&self.group_share(&combination, plain))
             })
+    }
+
+    /// Whether all groups have two copies and none hangs in another.
+    fn has_plain_cosines(&self) -> bool {
+        let groups = &self.scene.groups;
+        let nested = |group: &Group| {
+            let mut at = group.parent;
+            while let Some(link) = at {
+                if groups.iter().any(|outer| outer.copies.contains(&link)) {
+                    return true;
+                }
+                at = self.scene.links[link.0].parent;
+            }
+            false
+        };
+        groups
+            .iter()
+            .all(|group| group.copies.len() == 2 && !nested(group))
+    }
+
+    fn group_share(&mut self, share: &[(SymbolId, i64)], plain: bool) -> Rotation {
+        let (first, weight) = share[0];
+        if let ([_], 1 | -1, true) = (share, weight, plain) {
+            let single = self.single(first);
+            return if weight < 0 { single.inverse() } else { single };
+        }
+        let turned = weight < 0;
+        let combination = share
+            .iter()
+            .map(|&(c, w)| (c, if turned { -w } else { w }))
+            .collect();
+        let (versine, sine) = self.combination(&combination);
+        let rotation = Rotation {
+            cos: &Formula::integer(1) - &Formula::symbol(versine),
+            sin: Formula::symbol(sine),
+        };
+        if turned { rotation.inverse() } else { rotation }
     }
 
     fn single(&self, coordinate: SymbolId) -> Rotation {

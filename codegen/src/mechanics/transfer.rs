@@ -55,6 +55,8 @@ impl Derivation<'_> {
         // drown in the rounding of terms that cancel.
         let square = |terms: Vec<Formula>| terms.into_iter().sum::<Formula>().expand().pow(2);
         let modulus = &square(cosines) + &square(sines);
+        let reduced = self.reduce(&modulus, frame, &expansion.differences);
+        let modulus = if reduced.is_term() { reduced } else { modulus };
         let weight = &self.gravity_of(orbit) / &Formula::integer(2 * norm);
         let potential = &weight * &modulus;
         SubHamiltonian {
@@ -66,31 +68,22 @@ impl Derivation<'_> {
 
     /// cos and sin of θ_link − θ_mean: the differences' share of an angle.
     fn relative_rotation(
-        &self,
+        &mut self,
         frame: &Frame,
         coordinates: &[Coordinate],
         link: LinkId,
     ) -> (Formula, Formula) {
-        let (mut cos, mut sin) = (Formula::integer(1), Formula::zero());
-        for (index, coordinate) in coordinates.iter().enumerate() {
-            if !matches!(coordinate.kind, Kind::Difference { .. }) {
-                continue;
-            }
-            let weight = coordinate
-                .weights
-                .iter()
-                .find(|(l, _)| *l == link)
-                .map_or(0, |(_, weight)| *weight);
-            let c = Formula::symbol(self.cos(frame.coordinates[index]));
-            let s = Formula::symbol(self.sin(frame.coordinates[index]));
-            let s = if weight < 0 { -s } else { s };
-            for _ in 0..weight.abs() {
-                let turned = &(&cos * &c) - &(&sin * &s);
-                sin = &(&sin * &c) + &(&cos * &s);
-                cos = turned;
-            }
-        }
-        (cos.expand(), sin.expand())
+        let share: Vec<(SymbolId, i64)> = coordinates
+            .iter()
+            .zip(&frame.coordinates)
+            .filter(|(coordinate, _)| matches!(coordinate.kind, Kind::Difference { .. }))
+            .filter_map(|(coordinate, &id)| {
+                let weight = coordinate.weights.iter().find(|(l, _)| *l == link)?.1;
+                Some((id, weight))
+            })
+            .collect();
+        let rotation = self.share(&share);
+        (rotation.cos, rotation.sin)
     }
 
     /// cos² → 1 − sin² of every difference, so that equal formulas look equal.

@@ -5,12 +5,12 @@
 //! what is, when it is first needed.
 
 use super::builder::Builder;
-use super::constants::{ConstantId, Setup};
+use super::constants::ConstantId;
 use super::solve::Matrix;
 use super::{Argument, Program, ValueId, entries};
 use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
-use crate::mechanics::{Entry as MatrixEntry, Frame, Mechanics, Trigonometric};
+use crate::mechanics::{CombinationId, Entry as MatrixEntry, Frame, Mechanics, Trigonometric};
 use crate::scene::Scene;
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
 pub(super) struct Lowering<'a> {
     pub(super) mechanics: &'a Mechanics,
     pub(super) builder: Builder,
-    constants: BTreeMap<SymbolId, ConstantId>,
+    pub(super) constants: BTreeMap<SymbolId, ConstantId>,
 }
 
 /// How symbols of one frame are supplied: handed over by the caller, or formed
@@ -121,6 +121,18 @@ impl Lowering<'_> {
     fn trigonometric(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
         let mechanics = self.mechanics;
         match mechanics.trigonometry[&symbol] {
+            Trigonometric::VersineOf(CombinationId(id)) => {
+                self.combination(door, &mechanics.combinations[id]).versine
+            }
+            Trigonometric::SineOf(CombinationId(id)) => {
+                self.combination(door, &mechanics.combinations[id]).sine
+            }
+            Trigonometric::Cos(a) if self.is_combined(a) => {
+                let versine = self.by_half_angle(door, a).versine;
+                let one = self.builder.integer(1);
+                self.builder.sub(one, versine)
+            }
+            Trigonometric::Sin(a) if self.is_combined(a) => self.by_half_angle(door, a).sine,
             Trigonometric::Cos(a) => {
                 let angle = self.symbol(door, a);
                 self.builder.cos(angle)
@@ -337,62 +349,5 @@ impl Lowering<'_> {
             self.builder.op(value),
             super::Op::Constant(_) | super::Op::Number(_)
         )
-    }
-
-    /// The constant of the setup that a parameter or constant symbol stands
-    /// for.
-    fn constant(&mut self, symbol: SymbolId) -> ConstantId {
-        if let Some(&id) = self.constants.get(&symbol) {
-            return id;
-        }
-        let mechanics = self.mechanics;
-        let code = &mechanics.symbols.get(symbol).code;
-        let parameter = mechanics.parameters.iter().position(|&p| p == symbol);
-        let constant = mechanics.constants.iter().position(|c| c.symbol == symbol);
-        let id = match (parameter, constant) {
-            (Some(index), _) => self.builder.setup.parameter(index, code),
-            (None, Some(index)) => {
-                let value = mechanics.constants[index].value.clone();
-                let formed = self.constant_expr(&value);
-                self.builder.setup.named(index, formed, code)
-            }
-            (None, None) => unreachable!("{code} is neither parameter nor constant"),
-        };
-        self.constants.insert(symbol, id);
-        id
-    }
-
-    /// An expression in parameters as a constant of the setup.
-    fn constant_expr(&mut self, expr: &Expr) -> ConstantId {
-        match expr {
-            Expr::Number(number) => self.builder.setup.number(number.clone()),
-            Expr::Symbol(symbol) => self.constant(*symbol),
-            Expr::Sum(terms) => self.constant_fold(terms, Setup::add, 0),
-            Expr::Product(factors) => self.constant_fold(factors, Setup::mul, 1),
-            Expr::Power(base, exponent) => {
-                let base = self.constant_expr(base);
-                let mut power = self.builder.setup.number(Rational::from(1));
-                for _ in 0..exponent.unsigned_abs() {
-                    power = match *exponent > 0 {
-                        true => self.builder.setup.mul(power, base),
-                        false => self.builder.setup.div(power, base),
-                    };
-                }
-                power
-            }
-        }
-    }
-
-    fn constant_fold(
-        &mut self,
-        parts: &[Expr],
-        operation: fn(&mut Setup, ConstantId, ConstantId) -> ConstantId,
-        start: i64,
-    ) -> ConstantId {
-        let start = self.builder.setup.number(Rational::from(start));
-        parts.iter().fold(start, |total, part| {
-            let value = self.constant_expr(part);
-            operation(&mut self.builder.setup, total, value)
-        })
     }
 }

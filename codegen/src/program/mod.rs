@@ -11,10 +11,12 @@ mod count;
 mod entries;
 mod interpret;
 mod lower;
+mod named;
 mod rebuild;
 mod solve;
 mod spelling;
 mod text;
+mod turns;
 mod verify;
 
 pub use constants::{ConstantId, ConstantOp, Setup};

@@ -1,0 +1,66 @@
+//! Parameters and named constants of the mechanics become constants of the
+//! setup.
+
+use super::constants::{ConstantId, Setup};
+use super::lower::Lowering;
+use crate::exact::Rational;
+use crate::mechanics::expression::{Expr, SymbolId};
+
+impl Lowering<'_> {
+    /// The constant of the setup that a parameter or constant symbol stands
+    /// for.
+    pub(super) fn constant(&mut self, symbol: SymbolId) -> ConstantId {
+        if let Some(&id) = self.constants.get(&symbol) {
+            return id;
+        }
+        let mechanics = self.mechanics;
+        let code = &mechanics.symbols.get(symbol).code;
+        let parameter = mechanics.parameters.iter().position(|&p| p == symbol);
+        let constant = mechanics.constants.iter().position(|c| c.symbol == symbol);
+        let id = match (parameter, constant) {
+            (Some(index), _) => self.builder.setup.parameter(index, code),
+            (None, Some(index)) => {
+                let value = mechanics.constants[index].value.clone();
+                let formed = self.constant_expr(&value);
+                self.builder.setup.named(index, formed, code)
+            }
+            (None, None) => unreachable!("{code} is neither parameter nor constant"),
+        };
+        self.constants.insert(symbol, id);
+        id
+    }
+
+    /// An expression in parameters as a constant of the setup.
+    fn constant_expr(&mut self, expr: &Expr) -> ConstantId {
+        match expr {
+            Expr::Number(number) => self.builder.setup.number(number.clone()),
+            Expr::Symbol(symbol) => self.constant(*symbol),
+            Expr::Sum(terms) => self.constant_fold(terms, Setup::add, 0),
+            Expr::Product(factors) => self.constant_fold(factors, Setup::mul, 1),
+            Expr::Power(base, exponent) => {
+                let base = self.constant_expr(base);
+                let mut power = self.builder.setup.number(Rational::from(1));
+                for _ in 0..exponent.unsigned_abs() {
+                    power = match *exponent > 0 {
+                        true => self.builder.setup.mul(power, base),
+                        false => self.builder.setup.div(power, base),
+                    };
+                }
+                power
+            }
+        }
+    }
+
+    fn constant_fold(
+        &mut self,
+        parts: &[Expr],
+        operation: fn(&mut Setup, ConstantId, ConstantId) -> ConstantId,
+        start: i64,
+    ) -> ConstantId {
+        let start = self.builder.setup.number(Rational::from(start));
+        parts.iter().fold(start, |total, part| {
+            let value = self.constant_expr(part);
+            operation(&mut self.builder.setup, total, value)
+        })
+    }
+}
