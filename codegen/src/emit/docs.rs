@@ -3,6 +3,7 @@
 use super::Emission;
 use super::formulas::Formula;
 use crate::mechanics;
+use crate::mechanics::coordinates::Kind;
 use crate::mechanics::expression::Expr;
 use crate::program::{Entry, Purpose};
 use proc_macro2::TokenStream;
@@ -64,6 +65,18 @@ impl Emission<'_> {
         doc_lines(&lines)
     }
 
+    /// Exchanging two copies turns the sign of their difference, which leaves no
+    /// odd orders; between more copies there are cubic terms.
+    fn remainder(&self, transfer: usize) -> &'static str {
+        let coordinate = self.mechanics.transfers[transfer].coordinate;
+        match self.mechanics.coordinates[coordinate].kind {
+            Kind::Difference { group, .. } if self.scene.groups[group].copies.len() > 2 => {
+                "Remainder O(ε³)."
+            }
+            _ => "Remainder O(ε⁴).",
+        }
+    }
+
     fn meaning(&self, purpose: Purpose) -> Vec<String> {
         let difference = |number: usize| {
             let coordinate = self.mechanics.transfers[number].coordinate;
@@ -122,7 +135,7 @@ impl Emission<'_> {
                 "Of first order in the angles only: for an oscillation, where momenta are as small as angles, two of four terms of the leading order are missing; `transfer_amplitude_2` has all four. Remainder O(θ_d) in W_K, O(θ_d³) in W_P.".into(),
             ],
             Purpose::AmplitudeTransfer(n) => vec![
-                format!("Energy transfer W (in W) into `{}` to second order in the amplitude of the differences: the complete quadratic form in them and their momenta. Remainder O(ε⁴).", difference(n)),
+                format!("Energy transfer W (in W) into `{}` to second order in the amplitude of the differences: the complete quadratic form in them and their momenta. {}", difference(n), self.remainder(n)),
             ],
             Purpose::QuadraticForm(n) => vec![
                 format!("Coefficients a_pp, a_pq, a_qq of the quadratic form W ≈ a_pp p² + a_pq p θ + a_qq θ² for `{}`, at the in-phase state given; the difference's own coordinate and momentum are not read.", difference(n)),

@@ -26,14 +26,20 @@ impl Emission<'_> {
         };
         match purpose {
             Purpose::Accelerations => self.equations(absolute),
-            Purpose::KineticEnergy => simple("K", &absolute.kinetic),
-            Purpose::PotentialEnergy => simple("U", &absolute.potential),
-            Purpose::AbsoluteMomenta => self.rows(&absolute.momenta, &absolute.momentum),
+            Purpose::KineticEnergy => match &absolute.energies {
+                Some(energies) => simple("K", &energies.kinetic),
+                None => Vec::new(),
+            },
+            Purpose::PotentialEnergy => match &absolute.energies {
+                Some(energies) => simple("U", &energies.potential),
+                None => Vec::new(),
+            },
+            Purpose::AbsoluteMomenta => self.momenta(absolute),
             Purpose::SymmetricAccelerations => symmetric
                 .map(|frame| self.equations(frame))
                 .unwrap_or_default(),
             Purpose::SymmetricMomenta => symmetric
-                .map(|frame| self.rows(&frame.momenta, &frame.momentum))
+                .map(|frame| self.momenta(frame))
                 .unwrap_or_default(),
             Purpose::SubHamiltonian(n) => {
                 let energy = &mechanics.transfers[n].energy;
@@ -68,6 +74,13 @@ impl Emission<'_> {
             | Purpose::FromSymmetric
             | Purpose::SymmetricVelocities
             | Purpose::Hamiltonian => Vec::new(),
+        }
+    }
+
+    fn momenta(&self, frame: &Frame) -> Vec<Formula> {
+        match &frame.momentum {
+            Some(momentum) => self.rows(&frame.momenta, momentum),
+            None => Vec::new(),
         }
     }
 

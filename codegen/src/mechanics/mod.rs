@@ -53,6 +53,15 @@ pub struct Entry {
     pub value: Expr,
 }
 
+/// Kinetic and potential energy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Energies {
+    /// K in coordinates and velocities.
+    pub kinetic: Expr,
+    /// U in coordinates.
+    pub potential: Expr,
+}
+
 /// The Lagrangian in one set of generalized coordinates and what follows from
 /// it. Equations of motion: Σ_j M_ij q̈_j + bias_i = 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,14 +74,14 @@ pub struct Frame {
     pub momenta: Vec<SymbolId>,
     /// Mass matrix, lower triangle without zeros, by row.
     pub mass: Vec<Entry>,
-    /// Second derivatives of the potential energy, likewise.
-    pub stiffness: Vec<Entry>,
-    /// Kinetic energy in coordinates and velocities.
-    pub kinetic: Expr,
-    /// Potential energy, zero where all coordinates are zero.
-    pub potential: Expr,
-    /// p_i = ∂L/∂v_i in coordinates and velocities.
-    pub momentum: Vec<Expr>,
+    /// Second derivatives of the potential energy, likewise, if modes are asked
+    /// for.
+    pub stiffness: Option<Vec<Entry>>,
+    /// Kinetic energy in coordinates and velocities and potential energy, zero
+    /// where all coordinates are zero; if energies are asked for.
+    pub energies: Option<Energies>,
+    /// p_i = ∂L/∂v_i in coordinates and velocities, if momenta are asked for.
+    pub momentum: Option<Vec<Expr>>,
     /// Centrifugal, gravity and friction terms of the Euler–Lagrange equations.
     pub bias: Vec<Expr>,
 }
@@ -242,16 +251,21 @@ impl Derivation<'_> {
     }
 
     fn frame(&self, frame: &DerivedFrame) -> Frame {
-        let kinetic: Formula = frame.kinetic_terms().map(|(_, _, term)| term).sum();
+        let requests = &self.scene.requests;
         Frame {
             coordinates: frame.coordinates.clone(),
             velocities: frame.velocities.clone(),
             momenta: frame.momenta.clone(),
             mass: self.entries(&frame.mass),
-            stiffness: self.entries(&self.stiffness(frame)),
-            kinetic: self.expr(&kinetic.expand()),
-            potential: self.expr(&frame.potential),
-            momentum: self.exprs(&frame.momentum()),
+            stiffness: requests.modes.then(|| self.entries(&self.stiffness(frame))),
+            energies: requests.energies.then(|| {
+                let kinetic: Formula = frame.kinetic_terms().map(|(_, _, term)| term).sum();
+                Energies {
+                    kinetic: self.expr(&kinetic.expand()),
+                    potential: self.expr(&frame.potential),
+                }
+            }),
+            momentum: requests.momenta.then(|| self.exprs(&frame.momentum())),
             bias: self.exprs(&frame.bias(self)),
         }
     }

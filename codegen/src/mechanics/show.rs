@@ -94,14 +94,21 @@ impl Mechanics {
     }
 
     fn frame(&self, f: &mut fmt::Formatter<'_>, frame: &Frame) -> fmt::Result {
-        self.line(f, "K", &frame.kinetic)?;
-        self.line(f, "U", &frame.potential)?;
-        self.matrix(f, "M", &frame.mass)?;
-        for (index, (&momentum, value)) in frame.momenta.iter().zip(&frame.momentum).enumerate() {
-            self.line(f, &self.name(momentum), value)?;
-            self.line(f, &format!("b[{}]", index + 1), &frame.bias[index])?;
+        if let Some(energies) = &frame.energies {
+            self.line(f, "K", &energies.kinetic)?;
+            self.line(f, "U", &energies.potential)?;
         }
-        self.matrix(f, "∂²U", &frame.stiffness)
+        self.matrix(f, "M", &frame.mass)?;
+        for (index, bias) in frame.bias.iter().enumerate() {
+            self.line(f, &format!("b[{}]", index + 1), bias)?;
+        }
+        for (&symbol, value) in frame.momenta.iter().zip(frame.momentum.iter().flatten()) {
+            self.line(f, &self.name(symbol), value)?;
+        }
+        match &frame.stiffness {
+            Some(stiffness) => self.matrix(f, "∂²U", stiffness),
+            None => Ok(()),
+        }
     }
 
     fn coordinates(&self, f: &mut fmt::Formatter<'_>, frame: &Frame) -> fmt::Result {

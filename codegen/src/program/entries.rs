@@ -13,10 +13,10 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Vec<Entry> 
         lowering,
         entries: Vec::new(),
     };
-    list.absolute(scene, mechanics);
+    list.absolute(mechanics);
     if let Some(symmetric) = &mechanics.symmetric {
         list.transforms(scene, mechanics);
-        list.symmetric(scene, symmetric);
+        list.symmetric(symmetric);
         for (number, transfer) in mechanics.transfers.iter().enumerate() {
             list.transfer(mechanics, symmetric, number, transfer);
         }
@@ -79,7 +79,7 @@ impl EntryList<'_, '_> {
         solution
     }
 
-    fn absolute(&mut self, scene: &Scene, mechanics: &Mechanics) {
+    fn absolute(&mut self, mechanics: &Mechanics) {
         use Argument::{AbsoluteMomenta, Omega, Theta};
         let frame = &mechanics.absolute;
         let mut motion = Door::new(frame, Theta, Some(Omega), None);
@@ -92,9 +92,9 @@ impl EntryList<'_, '_> {
             alpha,
             Shape::Vector,
         );
-        if scene.requests.energies {
-            let kinetic = self.lowering.expr(&mut motion, &frame.kinetic);
-            let potential = self.lowering.expr(&mut motion, &frame.potential);
+        if let Some(energies) = &frame.energies {
+            let kinetic = self.lowering.expr(&mut motion, &energies.kinetic);
+            let potential = self.lowering.expr(&mut motion, &energies.potential);
             self.push(
                 "kinetic_energy",
                 Purpose::KineticEnergy,
@@ -110,8 +110,8 @@ impl EntryList<'_, '_> {
                 Shape::Scalar,
             );
         }
-        if scene.requests.momenta {
-            let momenta = self.exprs(&mut motion, &frame.momentum);
+        if let Some(momentum) = &frame.momentum {
+            let momenta = self.exprs(&mut motion, momentum);
             self.push(
                 "momenta",
                 Purpose::AbsoluteMomenta,
@@ -133,15 +133,11 @@ impl EntryList<'_, '_> {
                 Shape::Vector,
             );
         }
-        if scene.requests.modes {
+        if let Some(stiffness) = &frame.stiffness {
             let size = frame.coordinates.len();
             for (name, purpose, entries) in [
                 ("mass_matrix", Purpose::MassMatrix, &frame.mass),
-                (
-                    "stiffness_matrix",
-                    Purpose::StiffnessMatrix,
-                    &frame.stiffness,
-                ),
+                ("stiffness_matrix", Purpose::StiffnessMatrix, stiffness),
             ] {
                 let dense = self.dense(&mut motion, entries, size);
                 self.push(name, purpose, &[Theta], dense, Shape::Matrix(size));
@@ -204,7 +200,7 @@ impl EntryList<'_, '_> {
         );
     }
 
-    fn symmetric(&mut self, scene: &Scene, frame: &Frame) {
+    fn symmetric(&mut self, frame: &Frame) {
         use Argument::{Coordinates, Momenta, Rates};
         let mut motion = Door::new(frame, Coordinates, Some(Rates), None);
         let accelerations = self.accelerations(&mut motion, "alpha");
@@ -215,8 +211,8 @@ impl EntryList<'_, '_> {
             accelerations,
             Shape::Vector,
         );
-        if scene.requests.momenta {
-            let momenta = self.exprs(&mut motion, &frame.momentum);
+        if let Some(momentum) = &frame.momentum {
+            let momenta = self.exprs(&mut motion, momentum);
             self.push(
                 "symmetric_momenta",
                 Purpose::SymmetricMomenta,
@@ -230,7 +226,7 @@ impl EntryList<'_, '_> {
                 .iter()
                 .map(|&v| self.lowering.symbol(&mut phase, v))
                 .collect();
-            if scene.requests.energies {
+            if let Some(energies) = &frame.energies {
                 // H = ½ pᵀ q̇ + U
                 let builder = &mut self.lowering.builder;
                 let mut twice_kinetic = builder.integer(0);
@@ -241,7 +237,7 @@ impl EntryList<'_, '_> {
                 }
                 let two = builder.integer(2);
                 let kinetic = builder.div(twice_kinetic, two);
-                let potential = self.lowering.expr(&mut phase, &frame.potential);
+                let potential = self.lowering.expr(&mut phase, &energies.potential);
                 let total = self.lowering.builder.add(kinetic, potential);
                 self.push(
                     "hamiltonian",

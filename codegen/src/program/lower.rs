@@ -103,8 +103,10 @@ impl Lowering<'_> {
                 match door.momenta {
                     Some(argument) => self.builder.input(argument, index),
                     None => {
-                        let momentum = door.frame.momentum[index].clone();
-                        let value = self.expr(door, &momentum);
+                        let Some(momentum) = &door.frame.momentum else {
+                            unreachable!("{} is formed where momenta are asked for", entry.code)
+                        };
+                        let value = self.expr(door, &momentum[index]);
                         self.builder.name(value, &entry.code)
                     }
                 }

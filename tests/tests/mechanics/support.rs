@@ -1,7 +1,7 @@
 //! Runs the pipeline on text and evaluates programs.
 
 use branched_pendulum_codegen::Stages;
-use branched_pendulum_codegen::mechanics::Mechanics;
+use branched_pendulum_codegen::mechanics::{Energies, Frame, Mechanics};
 use branched_pendulum_codegen::program::{Argument, Program};
 use branched_pendulum_codegen::scene::Scene;
 use branched_pendulum_tests::source;
@@ -100,4 +100,12 @@ impl Worst {
             self.place
         );
     }
+}
+
+/// The energies of a frame whose scene asks for them.
+pub(crate) fn energies(frame: &Frame) -> &Energies {
+    frame
+        .energies
+        .as_ref()
+        .expect("the scene asks for energies")
 }
