@@ -91,4 +91,5 @@ pub use scalar::Scalar;
 pub use system::{Energy, Pendulum, SymmetricPendulum};
 
 #[cfg(feature = "macros")]
+#[doc = include_str!("attribute.md")]
 pub use branched_pendulum_macros::branched_pendulum;

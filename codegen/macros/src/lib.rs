@@ -4,8 +4,8 @@
 
 use proc_macro::TokenStream;
 
-/// Turns a struct into the model of a pendulum tree; see the crate
-/// `branched-pendulum`.
+// Documented where users meet it, at its re-export.
+#[allow(missing_docs)]
 #[proc_macro_attribute]
 pub fn branched_pendulum(attribute: TokenStream, item: TokenStream) -> TokenStream {
     branched_pendulum_codegen::expand(attribute.into(), item.into()).into()

@@ -203,6 +203,8 @@ impl Emission<'_> {
                 #(#fields),*
             }
 
+            // As for the functions below.
+            #[allow(clippy::possible_missing_comma)]
             impl #name<f64> {
                 /// The model for the given parameters, in double precision.
                 ///
