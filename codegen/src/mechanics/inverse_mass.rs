@@ -4,9 +4,10 @@
 
 use super::algebra::Formula;
 use super::coordinates::{Coordinate, Kind};
-use super::derivation::{Derivation, Frame, MassMatrix, Trigonometric};
+use super::derivation::{Derivation, Trigonometric};
 use super::expression::{Role, SymbolId};
-use super::lagrangian::latex_name;
+use super::frame::{Frame, MassMatrix};
+use super::print::latex_name;
 
 /// The largest in-phase block whose inverse is also written out, for formulas
 /// that people read.

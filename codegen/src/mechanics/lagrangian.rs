@@ -2,8 +2,10 @@
 //! (physics §1), in the absolute angles.
 
 use super::algebra::Formula;
-use super::derivation::{Derivation, Frame, MassMatrix};
+use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
+use super::frame::{Frame, MassMatrix};
+use super::print::latex_name;
 use crate::scene::{LinkId, Offset, Quantity};
 
 impl Derivation<'_> {
@@ -289,9 +291,4 @@ impl Derivation<'_> {
         }
         Formula::symbol(id)
     }
-}
-
-/// A snake-case name inside `\mathrm{}`.
-pub(super) fn latex_name(name: &str) -> String {
-    name.replace('_', "\\_")
 }

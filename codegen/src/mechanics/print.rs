@@ -141,3 +141,8 @@ impl Notation {
 fn number_text(number: &Rational) -> String {
     number.to_string()
 }
+
+/// A snake-case name inside `\mathrm{}`.
+pub(super) fn latex_name(name: &str) -> String {
+    name.replace('_', "\\_")
+}

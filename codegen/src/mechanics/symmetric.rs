@@ -3,8 +3,9 @@
 
 use super::algebra::Formula;
 use super::coordinates::{Coordinate, Kind};
-use super::derivation::{Derivation, Frame, MassMatrix};
+use super::derivation::Derivation;
 use super::expression::SymbolId;
+use super::frame::{Frame, MassMatrix};
 use crate::scene::{Group, LinkId};
 use std::collections::BTreeMap;
 

@@ -3,8 +3,9 @@
 
 use super::algebra::Formula;
 use super::coordinates::{Coordinate, Kind};
-use super::derivation::{Derivation, Frame};
+use super::derivation::Derivation;
 use super::expression::SymbolId;
+use super::frame::Frame;
 use super::inverse_mass::{Counting, Expansion};
 use crate::scene::LinkId;
 

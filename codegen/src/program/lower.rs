@@ -7,25 +7,11 @@
 use super::builder::Builder;
 use super::constants::ConstantId;
 use super::solve::Matrix;
-use super::{Argument, Program, ValueId, entries};
+use super::{Argument, ValueId};
 use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{CombinationId, Entry as MatrixEntry, Frame, Mechanics, Trigonometric};
-use crate::scene::Scene;
 use std::collections::BTreeMap;
-
-/// Lowers everything that the scene asks for into one program.
-///
-/// Linear in the size of the mechanics, times a logarithm.
-pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
-    let mut lowering = Lowering {
-        mechanics,
-        builder: Builder::default(),
-        constants: BTreeMap::new(),
-    };
-    let entries = entries::entries(scene, &mut lowering);
-    lowering.builder.finish(entries)
-}
 
 /// Lowering in progress.
 pub(super) struct Lowering<'a> {
@@ -71,7 +57,15 @@ fn position(symbols: &[SymbolId], symbol: SymbolId) -> usize {
     }
 }
 
-impl Lowering<'_> {
+impl<'a> Lowering<'a> {
+    pub(super) fn new(mechanics: &'a Mechanics) -> Self {
+        Self {
+            mechanics,
+            builder: Builder::default(),
+            constants: BTreeMap::new(),
+        }
+    }
+
     /// The value of a symbol behind a door.
     pub(super) fn symbol(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
         if let Some(&value) = door.values.get(&symbol) {

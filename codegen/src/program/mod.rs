@@ -21,11 +21,21 @@ mod verify;
 
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
-pub use lower::lower;
 pub use rebuild::Rebuilt;
 pub use verify::Fault;
 
 use crate::exact::Rational;
+use crate::mechanics::Mechanics;
+use crate::scene::Scene;
+
+/// Lowers everything that the scene asks for into one program.
+///
+/// Linear in the size of the mechanics, times a logarithm.
+pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
+    let mut lowering = lower::Lowering::new(mechanics);
+    let entries = entries::entries(scene, &mut lowering);
+    lowering.builder.finish(entries)
+}
 
 /// Index of a value in [`Program::definitions`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

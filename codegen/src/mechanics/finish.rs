@@ -1,0 +1,216 @@
+//! Runs a derivation as far as the scene asks, and hands out plain data.
+
+use super::algebra::Formula;
+use super::coordinates::{self, Coordinate};
+use super::derivation::Derivation;
+use super::expression::{Expr, Role, Symbols};
+use super::frame::{Frame as DerivedFrame, MassMatrix};
+use super::inverse_mass::Expansion as DerivedExpansion;
+use super::transfer;
+use super::{Constant, Energies, Entry, Expansion, Frame, Mechanics, Parts, Transfer, WrittenOut};
+use crate::scene::{OrbitId, TransferRequest};
+use std::collections::BTreeMap;
+
+impl Derivation<'_> {
+    pub(super) fn finish(mut self) -> Mechanics {
+        let absolute = self.absolute_frame();
+        let mut mechanics = Mechanics {
+            symbols: Symbols::default(),
+            parameters: self.parameters.clone(),
+            trigonometry: BTreeMap::new(),
+            combinations: Vec::new(),
+            constants: Vec::new(),
+            absolute: self.frame(&absolute),
+            coordinates: Vec::new(),
+            symmetric: None,
+            expansion: None,
+            transfers: Vec::new(),
+        };
+        if self.scene.requests.symmetric {
+            let coordinates = coordinates::symmetric_coordinates(self.scene);
+            let symmetric = self.symmetric_frame(&absolute, &coordinates);
+            mechanics.symmetric = Some(self.frame(&symmetric));
+            if let Some(request) = self.scene.requests.transfer.clone() {
+                let expansion = self.expand_mass(&symmetric, &coordinates);
+                mechanics.expansion = Some(self.expansion(&symmetric, &expansion));
+                mechanics.transfers =
+                    self.transfers(&symmetric, &coordinates, &expansion, &request);
+            }
+            mechanics.coordinates = coordinates;
+        }
+        mechanics.constants = self
+            .constants
+            .iter()
+            .map(|(&symbol, entry)| Constant {
+                symbol,
+                value: entry.value.expand().to_expr(&self.symbols),
+                meaning: entry.meaning.clone(),
+                unit: entry.unit,
+            })
+            .collect();
+        mechanics.trigonometry = self.trigonometry;
+        mechanics.combinations = self.combinations;
+        mechanics.symbols = self.symbols;
+        mechanics
+    }
+
+    fn expr(&self, formula: &Formula) -> Expr {
+        formula.to_expr(&self.symbols)
+    }
+
+    fn exprs(&self, formulas: &[Formula]) -> Vec<Expr> {
+        formulas.iter().map(|f| self.expr(f)).collect()
+    }
+
+    fn entries(&self, matrix: &MassMatrix) -> Vec<Entry> {
+        matrix
+            .iter()
+            .filter(|(_, _, value)| !value.is_zero())
+            .map(|(row, column, value)| Entry {
+                row,
+                column,
+                value: self.expr(value),
+            })
+            .collect()
+    }
+
+    fn frame(&self, frame: &DerivedFrame) -> Frame {
+        let requests = &self.scene.requests;
+        Frame {
+            coordinates: frame.coordinates.clone(),
+            velocities: frame.velocities.clone(),
+            momenta: frame.momenta.clone(),
+            mass: self.entries(&frame.mass),
+            stiffness: requests.modes.then(|| self.entries(&self.stiffness(frame))),
+            energies: requests.energies.then(|| {
+                let kinetic: Formula = frame.kinetic_terms().map(|(_, _, term)| term).sum();
+                Energies {
+                    kinetic: self.expr(&kinetic.expand()),
+                    potential: self.expr(&frame.potential),
+                }
+            }),
+            momentum: requests.momenta.then(|| self.exprs(&frame.momentum())),
+            bias: self.exprs(&frame.bias(self)),
+        }
+    }
+
+    fn stiffness(&self, frame: &DerivedFrame) -> MassMatrix {
+        let mut matrix = MassMatrix::default();
+        for (row, slope) in frame.potential_gradient(self).iter().enumerate() {
+            for coordinate in self.coordinates_of(slope) {
+                let column = frame.index(coordinate);
+                if column <= row {
+                    matrix.add(row, column, self.partial(slope, coordinate).expand());
+                }
+            }
+        }
+        matrix
+    }
+
+    fn expansion(&self, frame: &DerivedFrame, expansion: &DerivedExpansion) -> Expansion {
+        let mut leading = MassMatrix::default();
+        for (row, &i) in expansion.in_phase.iter().enumerate() {
+            for (column, &j) in expansion.in_phase[..=row].iter().enumerate() {
+                leading.add(row, column, expansion.orders[0].get(i, j));
+            }
+        }
+        let dense =
+            |rows: Vec<Vec<Formula>>| rows.iter().map(|row| self.exprs(row)).collect::<Vec<_>>();
+        let written_out = match (
+            &expansion.written_out,
+            expansion.inverse(),
+            expansion.written_velocities(frame),
+        ) {
+            (Some(written), Some([inverse, first]), Some(velocities)) => Some(WrittenOut {
+                determinant: written.determinant,
+                determinant_value: self.expr(&written.determinant_value),
+                velocities: velocities.iter().map(|(_, f)| self.expr(f)).collect(),
+                inverse: dense(inverse),
+                inverse_first_order: dense(first),
+            }),
+            _ => None,
+        };
+        Expansion {
+            in_phase: expansion.in_phase.clone(),
+            velocities: expansion.velocity_symbols.clone(),
+            leading: self.entries(&leading),
+            written_out,
+        }
+    }
+
+    fn transfers(
+        &mut self,
+        frame: &DerivedFrame,
+        coordinates: &[Coordinate],
+        expansion: &DerivedExpansion,
+        request: &TransferRequest,
+    ) -> Vec<Transfer> {
+        let mut transfers = Vec::new();
+        for &coordinate in &expansion.differences {
+            let energy = self.sub_hamiltonian(frame, coordinates, expansion, coordinate);
+            let angle = request
+                .angle_order
+                .map(|order| self.angle_transfer(frame, expansion, &energy, order));
+            let amplitude = request
+                .amplitude_order
+                .map(|_| self.amplitude_transfer(frame, expansion, &energy));
+            let exact = request
+                .exact
+                .then(|| self.exact_transfer(frame, expansion, &energy));
+            let friction = self.friction_power(frame, &energy);
+            let quadratic_form = amplitude
+                .as_ref()
+                .and_then(|parts| self.quadratic_form(frame, expansion, coordinate, parts));
+            let convert = |parts: transfer::Parts| Parts {
+                kinetic: self.expr(&parts.kinetic),
+                potential: self.expr(&parts.potential),
+            };
+            transfers.push(Transfer {
+                coordinate,
+                energy: Parts {
+                    kinetic: self.expr(&energy.kinetic),
+                    potential: self.expr(&energy.potential),
+                },
+                angle: angle.map(convert),
+                amplitude: amplitude.map(convert),
+                quadratic_form,
+                exact: exact.map(convert),
+                friction: self.expr(&friction),
+            });
+        }
+        transfers
+    }
+
+    fn quadratic_form(
+        &self,
+        frame: &DerivedFrame,
+        expansion: &DerivedExpansion,
+        coordinate: usize,
+        parts: &transfer::Parts,
+    ) -> Option<[Expr; 3]> {
+        let (q, p) = (frame.coordinates[coordinate], frame.momenta[coordinate]);
+        let whole = &parts.kinetic + &parts.potential;
+        let others = Self::difference_pairs(frame, expansion);
+        let foreign = others.iter().any(|&(other, momentum)| {
+            other != q && whole.symbols().iter().any(|&s| s == other || s == momentum)
+        });
+        if foreign {
+            return None;
+        }
+        let table = whole.coefficients(&[p, q]);
+        let coefficient = |p: u32, q: u32| match table.get(&vec![p, q]) {
+            Some(formula) => self.expr(formula),
+            None => Expr::zero(),
+        };
+        Some([coefficient(2, 0), coefficient(1, 1), coefficient(0, 2)])
+    }
+
+    /// The constant G of an orbit; zero where nothing hangs off its pivot.
+    pub(super) fn gravity_of(&self, orbit: OrbitId) -> Formula {
+        let name = &self.scene.orbits[orbit.0].name;
+        match self.symbols.find(&format!("G_{name}")) {
+            Some(id) if self.symbols.get(id).role == Role::Constant => Formula::symbol(id),
+            _ => Formula::zero(),
+        }
+    }
+}

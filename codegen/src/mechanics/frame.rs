@@ -1,0 +1,149 @@
+//! A Lagrangian in one set of generalized coordinates, and the Euler–Lagrange
+//! operator that all sets share.
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::expression::SymbolId;
+use std::collections::BTreeMap;
+
+/// Lower triangle of a symmetric matrix, sparse.
+#[derive(Clone, Default)]
+pub(super) struct MassMatrix(BTreeMap<(usize, usize), Formula>);
+
+impl MassMatrix {
+    /// Adds to the entry (row, column), row ≥ column.
+    pub(super) fn add(&mut self, row: usize, column: usize, value: Formula) {
+        let entry = self.0.entry((row, column)).or_insert_with(Formula::zero);
+        *entry = &*entry + &value;
+    }
+
+    /// The entry (i, j) in any order; zero where there is none.
+    pub(super) fn get(&self, i: usize, j: usize) -> Formula {
+        let key = (i.max(j), i.min(j));
+        self.0.get(&key).cloned().unwrap_or_else(Formula::zero)
+    }
+
+    /// Entries of the lower triangle by row, then column.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, usize, &Formula)> {
+        self.0
+            .iter()
+            .map(|(&(row, column), value)| (row, column, value))
+    }
+
+    /// The matrix with every entry replaced; zeros are dropped.
+    pub(super) fn map(self, mut change: impl FnMut(usize, usize, Formula) -> Formula) -> Self {
+        Self(
+            self.0
+                .into_iter()
+                .map(|((row, column), value)| ((row, column), change(row, column, value)))
+                .filter(|(_, value)| !value.is_zero())
+                .collect(),
+        )
+    }
+}
+
+/// A Lagrangian in one set of generalized coordinates.
+pub(super) struct Frame {
+    pub(super) coordinates: Vec<SymbolId>,
+    pub(super) velocities: Vec<SymbolId>,
+    pub(super) momenta: Vec<SymbolId>,
+    pub(super) mass: MassMatrix,
+    pub(super) potential: Formula,
+    pub(super) dissipation: Formula,
+}
+
+impl Frame {
+    /// Kinetic energy ½ Σ M_ab v_a v_b, one term for each pair a ≥ b.
+    pub(super) fn kinetic_terms(&self) -> impl Iterator<Item = (usize, usize, Formula)> {
+        self.mass.iter().map(|(a, b, entry)| {
+            let pair = &Formula::symbol(self.velocities[a]) * &Formula::symbol(self.velocities[b]);
+            let weight = if a == b {
+                Formula::integer(2).pow(-1)
+            } else {
+                Formula::integer(1)
+            };
+            (a, b, &weight * &(entry * &pair))
+        })
+    }
+
+    /// Generalized momenta p_i = ∂L/∂v_i.
+    pub(super) fn momentum(&self) -> Vec<Formula> {
+        let mut momenta = vec![Vec::new(); self.coordinates.len()];
+        for (a, b, term) in self.kinetic_terms() {
+            momenta[a].push(term.derivative(self.velocities[a]));
+            if a != b {
+                momenta[b].push(term.derivative(self.velocities[b]));
+            }
+        }
+        momenta
+            .into_iter()
+            .map(|terms| terms.into_iter().sum::<Formula>().expand())
+            .collect()
+    }
+
+    /// Index of a coordinate in this frame.
+    pub(super) fn index(&self, coordinate: SymbolId) -> usize {
+        match self.coordinates.iter().position(|&c| c == coordinate) {
+            Some(index) => index,
+            None => unreachable!("a formula of this frame depends on a foreign coordinate"),
+        }
+    }
+
+    /// ∂K/∂q_i at fixed velocities.
+    pub(super) fn kinetic_gradient(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let mut gradient = vec![Vec::new(); self.coordinates.len()];
+        for (_, _, term) in self.kinetic_terms() {
+            for coordinate in derivation.coordinates_of(&term) {
+                gradient[self.index(coordinate)].push(derivation.partial(&term, coordinate));
+            }
+        }
+        gradient
+            .into_iter()
+            .map(|terms| terms.into_iter().sum::<Formula>().expand())
+            .collect()
+    }
+
+    /// ∂U/∂q_i.
+    pub(super) fn potential_gradient(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let depends = derivation.coordinates_of(&self.potential);
+        self.coordinates
+            .iter()
+            .map(|coordinate| {
+                if depends.contains(coordinate) {
+                    derivation.partial(&self.potential, *coordinate).expand()
+                } else {
+                    Formula::zero()
+                }
+            })
+            .collect()
+    }
+
+    /// What the Euler–Lagrange equations hold beside M q̈, so that
+    /// d/dt ∂L/∂v_i − ∂L/∂q_i + ∂R/∂v_i = Σ_j M_ij q̈_j + bias_i.
+    pub(super) fn bias(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let mut rows: Vec<Vec<Formula>> = vec![Vec::new(); self.coordinates.len()];
+        for (a, b, term) in self.kinetic_terms() {
+            let depends = derivation.coordinates_of(&term);
+            for i in if a == b { vec![a] } else { vec![a, b] } {
+                let momentum = term.derivative(self.velocities[i]);
+                for &coordinate in &depends {
+                    let velocity = Formula::symbol(self.velocities[self.index(coordinate)]);
+                    rows[i].push(&derivation.partial(&momentum, coordinate) * &velocity);
+                }
+            }
+            for coordinate in depends {
+                rows[self.index(coordinate)].push(-derivation.partial(&term, coordinate));
+            }
+        }
+        let potential = self.potential_gradient(derivation);
+        rows.into_iter()
+            .zip(potential)
+            .zip(&self.velocities)
+            .map(|((mut row, potential), &velocity)| {
+                row.push(potential);
+                row.push(self.dissipation.derivative(velocity));
+                row.into_iter().sum::<Formula>().expand()
+            })
+            .collect()
+    }
+}
