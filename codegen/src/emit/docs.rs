@@ -3,6 +3,7 @@
 use super::Emission;
 use super::formulas::Formula;
 use crate::mechanics;
+use crate::mechanics::Counting;
 use crate::mechanics::coordinates::Kind;
 use crate::mechanics::expression::Expr;
 use crate::program::{Entry, Purpose};
@@ -137,6 +138,26 @@ impl Emission<'_> {
             Purpose::AmplitudeTransfer(n) => vec![
                 format!("Energy transfer W (in W) into `{}` to second order in the amplitude of the differences: the complete quadratic form in them and their momenta. {}", difference(n), self.remainder(n)),
             ],
+            Purpose::HigherTransfer(n, index) => {
+                let truncated = &self.mechanics.transfers[n].higher[index];
+                let (order, next) = (truncated.order, truncated.order + 1);
+                let (what, remainder) = match truncated.counting {
+                    Counting::Angle => (
+                        "the difference angles, momenta untouched",
+                        "It grows with the momenta of the differences, which are not counted as small.".to_owned(),
+                    ),
+                    // Between two copies only even orders occur.
+                    Counting::Amplitude => (
+                        "the amplitude of the differences, angles and momenta alike",
+                        format!("Remainder O(ε{}), at pairs one order better.", exponent(next)),
+                    ),
+                };
+                vec![
+                    format!("Energy transfer W (in W) into `{}` through order {order} in {what}. {remainder}", difference(n)),
+                    String::new(),
+                    "`expand --stage mechanics` shows the formulas.".into(),
+                ]
+            }
             Purpose::QuadraticForm(n) => vec![
                 format!("Coefficients a_pp, a_pq, a_qq of the quadratic form W ≈ a_pp p² + a_pq p θ + a_qq θ² for `{}`, at the in-phase state given; the difference's own coordinate and momentum are not read.", difference(n)),
             ],
@@ -262,4 +283,13 @@ pub(super) fn doc_lines(lines: &[String]) -> TokenStream {
         quote!(#[doc = #line])
     });
     quote!(#(#lines)*)
+}
+
+fn exponent(number: u32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let digits = number.to_string();
+    let digits = digits
+        .bytes()
+        .map(|digit| DIGITS[usize::from(digit - b'0')]);
+    digits.collect()
 }

@@ -69,6 +69,7 @@ impl Emission<'_> {
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
             Purpose::AbsoluteVelocities
             | Purpose::MassMatrix
+            | Purpose::HigherTransfer(..)
             | Purpose::StiffnessMatrix
             | Purpose::ToSymmetric
             | Purpose::FromSymmetric

@@ -4,7 +4,7 @@
 
 use crate::description::StructItem;
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
 /// Methods from two arrays to one.
 const MAPS: [&str; 8] = [
@@ -29,12 +29,7 @@ const NUMBERS: [&str; 4] = [
     "antiphase_friction_power",
 ];
 /// Methods from two arrays to a transfer.
-const TRANSFERS: [&str; 4] = [
-    "transfer_angle_1",
-    "transfer_amplitude_2",
-    "transfer_exact",
-    "transfer_exact_from_rates",
-];
+const TRANSFERS: [&str; 2] = ["transfer_exact", "transfer_exact_from_rates"];
 
 /// The type and its documented methods as stubs. They are never run: the
 /// errors beside them keep the crate from compiling.
@@ -47,7 +42,11 @@ pub fn stub(item: &StructItem, runtime: &TokenStream) -> TokenStream {
             .collect()
     };
     let (maps, transforms, matrices) = (idents(&MAPS), idents(&TRANSFORMS), idents(&MATRICES));
-    let (numbers, transfers) = (idents(&NUMBERS), idents(&TRANSFERS));
+    let (numbers, mut transfers) = (idents(&NUMBERS), idents(&TRANSFERS));
+    for order in 1..=8 {
+        transfers.push(format_ident!("transfer_angle_{order}"));
+        transfers.push(format_ident!("transfer_amplitude_{order}"));
+    }
     quote! {
         #(#attrs)*
         #vis struct #name<T = f64>(::core::marker::PhantomData<T>);

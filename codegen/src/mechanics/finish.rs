@@ -5,9 +5,13 @@ use super::coordinates::{self, Coordinate};
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, Symbols};
 use super::frame::{Frame as DerivedFrame, MassMatrix};
-use super::inverse_mass::Expansion as DerivedExpansion;
+use super::inverse_mass::{Counting, Expansion as DerivedExpansion};
+use super::series::Series;
 use super::transfer;
-use super::{Constant, Energies, Entry, Expansion, Frame, Mechanics, Parts, Transfer, WrittenOut};
+use super::{
+    Constant, Correction, Energies, Entry, Expansion, Frame, Mechanics, Parts, Transfer, Truncated,
+    WrittenOut,
+};
 use crate::scene::{OrbitId, TransferRequest};
 use std::collections::BTreeMap;
 
@@ -31,10 +35,13 @@ impl Derivation<'_> {
             let symmetric = self.symmetric_frame(&absolute, &coordinates);
             mechanics.symmetric = Some(self.frame(&symmetric));
             if let Some(request) = self.scene.requests.transfer.clone() {
-                let expansion = self.expand_mass(&symmetric, &coordinates);
-                mechanics.expansion = Some(self.expansion(&symmetric, &expansion));
+                let orders = request.angle_orders.iter().chain(&request.amplitude_orders);
+                let order = orders.copied().max().unwrap_or(0);
+                let expansion = self.expand_mass(&symmetric, &coordinates, order);
+                let mut plain = self.expansion(&symmetric, &expansion);
                 mechanics.transfers =
-                    self.transfers(&symmetric, &coordinates, &expansion, &request);
+                    self.transfers(&symmetric, &coordinates, &expansion, &request, &mut plain);
+                mechanics.expansion = Some(plain);
             }
             mechanics.coordinates = coordinates;
         }
@@ -134,6 +141,7 @@ impl Derivation<'_> {
             in_phase: expansion.in_phase.clone(),
             velocities: expansion.velocity_symbols.clone(),
             leading: self.entries(&leading),
+            corrections: Vec::new(),
             written_out,
         }
     }
@@ -144,16 +152,38 @@ impl Derivation<'_> {
         coordinates: &[Coordinate],
         expansion: &DerivedExpansion,
         request: &TransferRequest,
+        plain: &mut Expansion,
     ) -> Vec<Transfer> {
+        let series = self.series(frame, coordinates, expansion, request);
+        for correction in series.iter().flat_map(|series| &series.corrections) {
+            plain.corrections.push(Correction {
+                in_phase: correction.in_phase.clone(),
+                right: self.exprs(&correction.right),
+                differences: correction
+                    .differences
+                    .iter()
+                    .map(|(symbol, value)| (*symbol, self.expr(value)))
+                    .collect(),
+            });
+        }
         let mut transfers = Vec::new();
         for &coordinate in &expansion.differences {
             let energy = self.sub_hamiltonian(frame, coordinates, expansion, coordinate);
             let angle = request
-                .angle_order
-                .map(|order| self.angle_transfer(frame, expansion, &energy, order));
+                .angle_orders
+                .contains(&1)
+                .then(|| self.angle_transfer(frame, expansion, &energy, 1));
             let amplitude = request
-                .amplitude_order
-                .map(|_| self.amplitude_transfer(frame, expansion, &energy));
+                .amplitude_orders
+                .contains(&2)
+                .then(|| self.amplitude_transfer(frame, expansion, &energy));
+            let mut higher = Vec::new();
+            for series in &series {
+                for order in higher_orders(request, series.counting) {
+                    let parts = self.series_transfer(frame, expansion, &energy, series, order);
+                    higher.push((series.counting, order, parts));
+                }
+            }
             let exact = request
                 .exact
                 .then(|| self.exact_transfer(frame, expansion, &energy));
@@ -174,11 +204,39 @@ impl Derivation<'_> {
                 angle: angle.map(convert),
                 amplitude: amplitude.map(convert),
                 quadratic_form,
+                higher: higher
+                    .into_iter()
+                    .map(|(counting, order, parts)| Truncated {
+                        counting,
+                        order,
+                        parts: convert(parts),
+                    })
+                    .collect(),
                 exact: exact.map(convert),
                 friction: self.expr(&friction),
             });
         }
         transfers
+    }
+
+    /// The velocities' series, one for each counting of which orders beyond
+    /// the brackets' are asked for.
+    fn series(
+        &mut self,
+        frame: &DerivedFrame,
+        coordinates: &[Coordinate],
+        expansion: &DerivedExpansion,
+        request: &TransferRequest,
+    ) -> Vec<Series> {
+        [Counting::Angle, Counting::Amplitude]
+            .into_iter()
+            .filter_map(|counting| {
+                let order = higher_orders(request, counting).max()?;
+                // W has a factor of first order beside each velocity.
+                let order = order.saturating_sub(1);
+                Some(self.velocity_series(frame, coordinates, expansion, counting, order))
+            })
+            .collect()
     }
 
     fn quadratic_form(
@@ -213,4 +271,17 @@ impl Derivation<'_> {
             _ => Formula::zero(),
         }
     }
+}
+
+/// Orders that are derived from the velocities' series; the first order in the
+/// angles and the second in the amplitude come from Poisson brackets.
+fn higher_orders(request: &TransferRequest, counting: Counting) -> impl Iterator<Item = u32> + '_ {
+    let (orders, bracket) = match counting {
+        Counting::Angle => (&request.angle_orders, 1),
+        Counting::Amplitude => (&request.amplitude_orders, 2),
+    };
+    orders
+        .iter()
+        .copied()
+        .filter(move |&order| order != bracket)
 }

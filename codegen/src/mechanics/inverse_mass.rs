@@ -15,7 +15,7 @@ const WRITTEN_OUT: usize = 2;
 
 /// What counts as small when W is truncated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Counting {
+pub enum Counting {
     /// The difference angles; momenta stay whole (the paper's sense).
     Angle,
     /// Difference angles and their momenta alike, as in an oscillation.
@@ -28,7 +28,7 @@ pub(super) struct Expansion {
     pub(super) in_phase: Vec<usize>,
     /// Indices of the differences.
     pub(super) differences: Vec<usize>,
-    /// M⁽⁰⁾, M⁽¹⁾, M⁽²⁾ with the difference angles in them.
+    /// M⁽⁰⁾, M⁽¹⁾, M⁽²⁾, … with the difference angles in them.
     pub(super) orders: Vec<MassMatrix>,
     /// w = M⁽⁰⁾⁻¹ p: a symbol for each mean, p_d / M_dd for a difference.
     pub(super) velocities: Vec<Formula>,
@@ -58,11 +58,26 @@ impl Derivation<'_> {
         counting: Counting,
         order: u32,
     ) -> Vec<Formula> {
-        let epsilon = self
-            .symbols
-            .intern(Role::Bookkeeping, "epsilon", "ε", "\\varepsilon");
+        self.orders_with(formula, pairs, counting, order, Vec::new())
+    }
+
+    /// The bookkeeping factor.
+    pub(super) fn epsilon(&mut self) -> SymbolId {
+        self.symbols
+            .intern(Role::Bookkeeping, "epsilon", "ε", "\\varepsilon")
+    }
+
+    /// The same with further symbols replaced by series in ε.
+    pub(super) fn orders_with(
+        &mut self,
+        formula: &Formula,
+        pairs: &[(SymbolId, SymbolId)],
+        counting: Counting,
+        order: u32,
+        mut replacements: Vec<(SymbolId, Formula)>,
+    ) -> Vec<Formula> {
+        let epsilon = self.epsilon();
         let small = Formula::symbol(epsilon);
-        let mut replacements = Vec::new();
         for &(q, p) in pairs {
             let scaled = &small * &Formula::symbol(q);
             let (cos, sin) = series(&scaled, order);
@@ -97,17 +112,23 @@ impl Derivation<'_> {
             .collect()
     }
 
-    /// Expands M̃ to second order about the in-phase motion.
-    pub(super) fn expand_mass(&mut self, frame: &Frame, coordinates: &[Coordinate]) -> Expansion {
+    /// Expands M̃ about the in-phase motion, through `order`, at least 2.
+    pub(super) fn expand_mass(
+        &mut self,
+        frame: &Frame,
+        coordinates: &[Coordinate],
+        order: u32,
+    ) -> Expansion {
+        let order = order.max(2);
         let (differences, in_phase): (Vec<usize>, Vec<usize>) = (0..coordinates.len())
             .partition(|&i| matches!(coordinates[i].kind, Kind::Difference { .. }));
         let pairs: Vec<_> = differences
             .iter()
             .map(|&d| (frame.coordinates[d], frame.momenta[d]))
             .collect();
-        let mut orders = vec![MassMatrix::default(); 3];
+        let mut orders = vec![MassMatrix::default(); order as usize + 1];
         for (i, j, entry) in frame.mass.iter() {
-            let parts = self.orders(entry, &pairs, Counting::Angle, 2);
+            let parts = self.orders(entry, &pairs, Counting::Angle, order);
             for (matrix, part) in orders.iter_mut().zip(parts) {
                 matrix.add(i, j, part);
             }

@@ -14,6 +14,7 @@ mod frame;
 mod inverse_mass;
 mod lagrangian;
 mod print;
+mod series;
 mod show;
 mod symmetric;
 mod transfer;
@@ -21,6 +22,7 @@ mod transfer;
 pub use algebra::AlgebraError;
 pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
+pub use inverse_mass::Counting;
 pub use print::{latex, text};
 
 use crate::scene::Scene;
@@ -111,10 +113,34 @@ pub struct Transfer {
     /// The coefficients of p_d², p_d θ_d, θ_d² in `amplitude`, if it is a
     /// quadratic form in this difference alone.
     pub quadratic_form: Option<[Expr; 3]>,
+    /// W to other orders, in the order asked for.
+    pub higher: Vec<Truncated>,
     /// W without truncation.
     pub exact: Option<Parts>,
     /// The power of joint friction on H_d; zero without friction.
     pub friction: Expr,
+}
+
+/// W cut off at an order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truncated {
+    /// What counts as small.
+    pub counting: Counting,
+    /// The highest order kept.
+    pub order: u32,
+    /// W, in the symbols of the expansion's corrections.
+    pub parts: Parts,
+}
+
+/// Velocities of one order of their series.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Correction {
+    /// In-phase velocities, in the order of the means; none where all vanish.
+    pub in_phase: Vec<SymbolId>,
+    /// M⁽⁰⁾ x = right defines them.
+    pub right: Vec<Expr>,
+    /// Velocities of differences, with their values.
+    pub differences: Vec<(SymbolId, Expr)>,
 }
 
 /// The inverse mass matrix about the in-phase motion.
@@ -126,6 +152,8 @@ pub struct Expansion {
     pub velocities: Vec<SymbolId>,
     /// In-phase block of M⁽⁰⁾; rows and columns count in `in_phase`.
     pub leading: Vec<Entry>,
+    /// Velocities of higher orders, each in terms of earlier ones.
+    pub corrections: Vec<Correction>,
     /// The same solved and written out, for small blocks.
     pub written_out: Option<WrittenOut>,
 }

@@ -2,7 +2,7 @@
 
 use super::coordinates::Kind;
 use super::expression::{Expr, SymbolId};
-use super::{Entry, Frame, Mechanics, Parts, text};
+use super::{Counting, Entry, Frame, Mechanics, Parts, text};
 use std::fmt;
 
 impl fmt::Display for Mechanics {
@@ -41,6 +41,14 @@ impl fmt::Display for Mechanics {
                 self.dense(f, "first order of M⁻¹", &written.inverse_first_order)?;
             }
         }
+        for correction in self.expansion.iter().flat_map(|e| &e.corrections) {
+            for (&symbol, value) in correction.in_phase.iter().zip(&correction.right) {
+                writeln!(f, "  (M⁽⁰⁾ {}) = {}", self.name(symbol), self.text(value))?;
+            }
+            for (symbol, value) in &correction.differences {
+                self.line(f, &self.name(*symbol), value)?;
+            }
+        }
         for transfer in &self.transfers {
             let name = &self.coordinates[transfer.coordinate].name;
             writeln!(f, "transfer into {name}")?;
@@ -52,6 +60,14 @@ impl fmt::Display for Mechanics {
                 for (name, value) in ["a_pp", "a_pq", "a_qq"].iter().zip(form) {
                     self.line(f, name, value)?;
                 }
+            }
+            for truncated in &transfer.higher {
+                let counting = match truncated.counting {
+                    Counting::Angle => "angle",
+                    Counting::Amplitude => "amplitude",
+                };
+                let name = format!("{counting} order {}", truncated.order);
+                self.parts(f, &name, &Some(truncated.parts.clone()))?;
             }
             self.parts(f, "exact", &transfer.exact)?;
             if !transfer.friction.is_zero() {

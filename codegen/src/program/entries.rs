@@ -4,7 +4,7 @@ use super::lower::{Door, Lowering};
 use super::{Argument, Entry, Purpose, Shape, ValueId};
 use crate::mechanics::coordinates::Kind;
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Entry as MatrixEntry, Frame, Mechanics, Parts, Transfer};
+use crate::mechanics::{Counting, Entry as MatrixEntry, Frame, Mechanics, Parts, Transfer};
 use crate::scene::{LinkId, Scene};
 
 pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Vec<Entry> {
@@ -304,6 +304,20 @@ impl EntryList<'_, '_> {
             self.push(
                 &format!("transfer_amplitude_2{place}"),
                 Purpose::AmplitudeTransfer(number),
+                &canonical,
+                outputs,
+                Shape::Transfer,
+            );
+        }
+        for (index, truncated) in transfer.higher.iter().enumerate() {
+            let counting = match truncated.counting {
+                Counting::Angle => "angle",
+                Counting::Amplitude => "amplitude",
+            };
+            let outputs = self.parts(&mut phase, &truncated.parts);
+            self.push(
+                &format!("transfer_{counting}_{}{place}", truncated.order),
+                Purpose::HigherTransfer(number, index),
                 &canonical,
                 outputs,
                 Shape::Transfer,

@@ -10,7 +10,9 @@ use super::solve::Matrix;
 use super::{Argument, ValueId};
 use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
-use crate::mechanics::{CombinationId, Entry as MatrixEntry, Frame, Mechanics, Trigonometric};
+use crate::mechanics::{
+    CombinationId, Entry as MatrixEntry, Expansion, Frame, Mechanics, Trigonometric,
+};
 use std::collections::BTreeMap;
 
 /// Lowering in progress.
@@ -105,7 +107,7 @@ impl<'a> Lowering<'a> {
                     }
                 }
             }
-            Role::Derived => self.in_phase_velocity(door, symbol),
+            Role::Derived => self.derived(door, symbol),
             Role::Acceleration | Role::Bookkeeping => {
                 unreachable!("{} never leaves the derivation", entry.code)
             }
@@ -189,18 +191,46 @@ impl<'a> Lowering<'a> {
         solution
     }
 
-    /// w with M⁽⁰⁾ w = p on the in-phase coordinates.
-    fn in_phase_velocity(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
+    /// A velocity of the expansion: w with M⁽⁰⁾ w = p, or a correction to it.
+    fn derived(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
         let mechanics = self.mechanics;
         let Some(expansion) = &mechanics.expansion else {
-            unreachable!("in-phase velocities come with the expansion");
+            unreachable!("derived velocities come with the expansion");
         };
+        if let Some(place) = expansion.velocities.iter().position(|&s| s == symbol) {
+            let right = expansion
+                .in_phase
+                .iter()
+                .map(|&i| self.symbol(door, door.frame.momenta[i]))
+                .collect();
+            return self.solve_in_phase(door, expansion, &expansion.velocities, right)[place];
+        }
+        for correction in &expansion.corrections {
+            if let Some(place) = correction.in_phase.iter().position(|&s| s == symbol) {
+                let right = correction
+                    .right
+                    .iter()
+                    .map(|r| self.expr(door, r))
+                    .collect();
+                return self.solve_in_phase(door, expansion, &correction.in_phase, right)[place];
+            }
+            if let Some((_, value)) = correction.differences.iter().find(|(s, _)| *s == symbol) {
+                let value = self.expr(door, value);
+                let code = &mechanics.symbols.get(symbol).code;
+                return self.builder.name(value, code);
+            }
+        }
+        unreachable!("{} is defined nowhere", mechanics.symbols.get(symbol).code)
+    }
+
+    fn solve_in_phase(
+        &mut self,
+        door: &mut Door<'_>,
+        expansion: &Expansion,
+        symbols: &[SymbolId],
+        right: Vec<ValueId>,
+    ) -> Vec<ValueId> {
         let matrix = self.matrix(door, &expansion.leading);
-        let right = expansion
-            .in_phase
-            .iter()
-            .map(|&i| self.symbol(door, door.frame.momenta[i]))
-            .collect();
         let all = self.coordinate_names(door.frame);
         let names: Vec<String> = expansion
             .in_phase
@@ -208,12 +238,12 @@ impl<'a> Lowering<'a> {
             .map(|&i| format!("in_phase_{}", all[i]))
             .collect();
         let solution = self.builder.solve(matrix, right, &names);
-        for (&velocity, &value) in expansion.velocities.iter().zip(&solution) {
-            let code = &mechanics.symbols.get(velocity).code;
+        for (&velocity, &value) in symbols.iter().zip(&solution) {
+            let code = &self.mechanics.symbols.get(velocity).code;
             self.builder.name(value, code);
             door.values.insert(velocity, value);
         }
-        solution[position(&expansion.velocities, symbol)]
+        solution
     }
 
     /// What stands after `theta_` in the names of a frame's coordinates.

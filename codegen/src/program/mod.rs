@@ -158,6 +158,8 @@ pub enum Purpose {
     AngleTransfer(usize),
     /// W to second order in the amplitude.
     AmplitudeTransfer(usize),
+    /// W to another order: the transfer, and the form in its list.
+    HigherTransfer(usize, usize),
     /// The coefficients of that quadratic form.
     QuadraticForm(usize),
     /// W exactly, from coordinates and momenta.

@@ -254,13 +254,13 @@ impl Message {
             ),
             M::AngleOrder => problem(
                 "order of the angles not available",
-                "the only order is 1",
-                "write `angle = 1`, or use `exact`",
+                "orders are 1 to 8",
+                "write `angle = 1` for the form of the paper, or use `exact`",
             ),
             M::AmplitudeOrder => problem(
                 "order of the amplitude not available",
-                "the only order is 2",
-                "write `amplitude = 2`, or use `exact`",
+                "orders are 2 to 8",
+                "write `amplitude = 2` for the quadratic form, or use `exact`",
             ),
             M::NoSiblings { request } => problem(
                 format!("`{request}` needs identical siblings"),

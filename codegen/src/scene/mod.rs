@@ -199,12 +199,12 @@ pub struct Requests {
 /// Which forms of the energy transfer are asked for; at least one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TransferRequest {
-    /// Order of the kinetic energy in the difference angles, momenta kept
+    /// Orders of the kinetic energy in the difference angles, momenta kept
     /// whole; 1 is the form of the paper.
-    pub angle_order: Option<u32>,
-    /// Order in the amplitude of the differences, angles and momenta alike; 2
+    pub angle_orders: Vec<u32>,
+    /// Orders in the amplitude of the differences, angles and momenta alike; 2
     /// is the complete quadratic form.
-    pub amplitude_order: Option<u32>,
+    pub amplitude_orders: Vec<u32>,
     /// The form without truncation.
     pub exact: bool,
 }

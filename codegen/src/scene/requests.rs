@@ -1,5 +1,7 @@
 //! What is asked for, and whether it can be derived for the tree.
 
+use std::ops::RangeInclusive;
+
 use proc_macro2::Span;
 
 use super::expand::Expansion;
@@ -13,11 +15,11 @@ const OUTPUTS: &[&str] = &["energies", "momenta", "modes", "symmetric", "transfe
 /// All forms of the transfer.
 const FORMS: &[&str] = &["angle", "amplitude", "exact"];
 
-/// The order in the difference angles that is derived.
-const ANGLE_ORDER: u32 = 1;
+/// Orders in the difference angles that are derived; 1 is the paper's.
+const ANGLE_ORDERS: RangeInclusive<u32> = 1..=8;
 
-/// The order in the amplitude that is derived.
-const AMPLITUDE_ORDER: u32 = 2;
+/// Orders in the amplitude that are derived; 2 is the lowest there is.
+const AMPLITUDE_ORDERS: RangeInclusive<u32> = 2..=8;
 
 /// The requests, and the places of those that need identical siblings.
 pub(super) struct Resolved {
@@ -85,42 +87,39 @@ fn transfer(
     report: &mut Report,
 ) -> TransferRequest {
     let mut request = TransferRequest {
-        angle_order: None,
-        amplitude_order: None,
+        angle_orders: Vec::new(),
+        amplitude_orders: Vec::new(),
         exact: false,
     };
     let Some(forms) = forms else {
         return TransferRequest {
-            angle_order: Some(ANGLE_ORDER),
-            amplitude_order: Some(AMPLITUDE_ORDER),
+            angle_orders: vec![*ANGLE_ORDERS.start()],
+            amplitude_orders: vec![*AMPLITUDE_ORDERS.start()],
             exact: true,
         };
     };
     if forms.is_empty() && !damaged {
         report.error(span, Message::NoForm);
     }
-    let mut seen: Vec<String> = Vec::new();
+    let mut seen: Vec<(String, Option<u32>)> = Vec::new();
     for Form { name, value } in forms {
         let (text, span) = (name.to_string(), name.span());
-        if seen.contains(&text) {
+        let order = value.map(|value| value.count);
+        // One form may be asked for to several orders, each once.
+        if seen.contains(&(text.clone(), order)) {
             report.error(span, Message::DuplicateRequest { name: text });
             continue;
         }
-        let order = value.map(|value| value.count);
         let span = value.map_or(span, |value| value.span);
         match text.as_str() {
-            "angle" => {
-                request.angle_order = order.filter(|&order| order == ANGLE_ORDER);
-                if request.angle_order.is_none() {
-                    report.error(span, Message::AngleOrder);
-                }
-            }
-            "amplitude" => {
-                request.amplitude_order = order.filter(|&order| order == AMPLITUDE_ORDER);
-                if request.amplitude_order.is_none() {
-                    report.error(span, Message::AmplitudeOrder);
-                }
-            }
+            "angle" => match order.filter(|order| ANGLE_ORDERS.contains(order)) {
+                Some(order) => request.angle_orders.push(order),
+                None => report.error(span, Message::AngleOrder),
+            },
+            "amplitude" => match order.filter(|order| AMPLITUDE_ORDERS.contains(order)) {
+                Some(order) => request.amplitude_orders.push(order),
+                None => report.error(span, Message::AmplitudeOrder),
+            },
             "exact" => {
                 request.exact = true;
                 if value.is_some() {
@@ -139,7 +138,7 @@ fn transfer(
                 );
             }
         }
-        seen.push(text);
+        seen.push((text, order));
     }
     request
 }

@@ -156,16 +156,18 @@ impl Display for Requests {
 impl Display for TransferRequest {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self {
-            angle_order,
-            amplitude_order,
+            angle_orders,
+            amplitude_orders,
             exact,
         } = self;
-        let forms = [
-            angle_order.map(|order| format!("angle = {order}")),
-            amplitude_order.map(|order| format!("amplitude = {order}")),
-            exact.then(|| "exact".to_owned()),
-        ];
-        let forms: Vec<String> = forms.into_iter().flatten().collect();
+        let angles = angle_orders.iter().map(|order| format!("angle = {order}"));
+        let amplitudes = amplitude_orders
+            .iter()
+            .map(|order| format!("amplitude = {order}"));
+        let forms: Vec<String> = angles
+            .chain(amplitudes)
+            .chain(exact.then(|| "exact".to_owned()))
+            .collect();
         write!(f, "transfer({})", forms.join(", "))
     }
 }

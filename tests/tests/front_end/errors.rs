@@ -243,7 +243,7 @@ const CASES: &[(&str, &str)] = &[
     (
         "orders",
         "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
-    emit(transfer(angle = 2, amplitude, exact = 1)))] struct Pendulum;",
+    emit(transfer(angle = 9, amplitude, amplitude = 1, exact = 1)))] struct Pendulum;",
     ),
     (
         "no_siblings",
