@@ -168,7 +168,7 @@ impl Emission<'_> {
                 format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; friction's power comes on top.", difference(n)),
             ],
             Purpose::FrictionPower(n) => vec![
-                format!("Power (in W) of joint friction on H_d of `{}`.", difference(n)),
+                format!("Power (in W) of friction and drag on H_d of `{}`.", difference(n)),
             ],
         };
         lines

@@ -49,6 +49,8 @@ pub(super) struct Frame {
     pub(super) momenta: Vec<SymbolId>,
     pub(super) mass: MassMatrix,
     pub(super) potential: Formula,
+    /// The part of the potential energy that is in torsion springs.
+    pub(super) springs: Formula,
     pub(super) dissipation: Formula,
 }
 

@@ -8,6 +8,14 @@ use super::frame::{Frame, MassMatrix};
 use super::print::latex_name;
 use crate::scene::{LinkId, Offset, Quantity};
 
+/// A constant to be named.
+struct Letter {
+    code: String,
+    letter: &'static str,
+    meaning: String,
+    unit: &'static str,
+}
+
 impl Derivation<'_> {
     /// The Lagrangian in absolute angles: the mass matrix from the velocities
     /// of the centres of mass, the potential energy from their heights, the
@@ -19,13 +27,15 @@ impl Derivation<'_> {
         let momenta: Vec<SymbolId> = names.iter().map(|n| self.momentum(n)).collect();
         let mass = self.mass_matrix(&coordinates);
         let potential = self.potential(&coordinates);
+        let springs = self.springs(&coordinates);
         let dissipation = self.dissipation(&velocities);
         Frame {
             coordinates,
             velocities,
             momenta,
             mass,
-            potential,
+            potential: &potential + &springs,
+            springs,
             dissipation,
         }
     }
@@ -200,35 +210,89 @@ impl Derivation<'_> {
         potential.into_iter().sum()
     }
 
-    /// Rayleigh's dissipation function R = ½ Σ c_i (ω_i − ω_π(i))², so that the
-    /// generalized friction torque is −∂R/∂ω_i.
+    /// Rayleigh's dissipation function R = ½ Σ c_i (ω_i − ω_π(i))² + ½ Σ k_i ω_i²
+    /// of friction in the pivots and drag against the ground, so that the
+    /// generalized torque of both is −∂R/∂ω_i.
     fn dissipation(&mut self, velocities: &[SymbolId]) -> Formula {
         let mut terms = Vec::new();
         for index in 0..velocities.len() {
-            let link = &self.scene.links[index];
-            let Some(friction) = &link.friction else {
-                continue;
-            };
-            let value = self.quantity(friction);
-            let parent = link.parent;
             let orbit = self.orbit_name(index);
-            let constant = self.constant(
-                &format!("friction_{orbit}"),
-                &format!("c_{orbit}"),
-                &format!("c_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
-                &format!("viscous friction in the pivot of `{orbit}`"),
-                "N m s",
-                value,
-            );
-            let own = Formula::symbol(velocities[index]);
-            let relative = match parent {
-                Some(LinkId(parent)) => &own - &Formula::symbol(velocities[parent]),
-                None => own,
-            };
-            let half = Formula::integer(2).pow(-1);
-            terms.push(&(&half * &constant) * &relative.pow(2));
+            let link = &self.scene.links[index];
+            let (friction, drag) = (link.friction.clone(), link.drag.clone());
+            if let Some(friction) = friction {
+                let letter = Letter {
+                    code: format!("friction_{orbit}"),
+                    letter: "c",
+                    meaning: format!("viscous friction in the pivot of `{orbit}`"),
+                    unit: "N m s",
+                };
+                let relative = self.relative(index, velocities);
+                terms.push(self.half_square(letter, &orbit, &friction, &relative));
+            }
+            if let Some(drag) = drag {
+                let letter = Letter {
+                    code: format!("drag_{orbit}"),
+                    letter: "k",
+                    meaning: format!("viscous drag of `{orbit}` against the ground"),
+                    unit: "N m s",
+                };
+                let own = Formula::symbol(velocities[index]);
+                terms.push(self.half_square(letter, &orbit, &drag, &own));
+            }
         }
         terms.into_iter().sum::<Formula>()
+    }
+
+    /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i))².
+    fn springs(&mut self, angles: &[SymbolId]) -> Formula {
+        let mut terms = Vec::new();
+        for index in 0..angles.len() {
+            let orbit = self.orbit_name(index);
+            let Some(spring) = self.scene.links[index].spring.clone() else {
+                continue;
+            };
+            let letter = Letter {
+                code: format!("spring_{orbit}"),
+                letter: "κ",
+                meaning: format!("stiffness of the torsion spring in the pivot of `{orbit}`"),
+                unit: "N m",
+            };
+            let relative = self.relative(index, angles);
+            terms.push(self.half_square(letter, &orbit, &spring, &relative));
+        }
+        terms.into_iter().sum::<Formula>()
+    }
+
+    /// A link's angle or velocity less its parent's.
+    fn relative(&self, link: usize, symbols: &[SymbolId]) -> Formula {
+        let own = Formula::symbol(symbols[link]);
+        match self.scene.links[link].parent {
+            Some(LinkId(parent)) => &own - &Formula::symbol(symbols[parent]),
+            None => own,
+        }
+    }
+
+    /// ½ constant · x², with the constant named.
+    fn half_square(
+        &mut self,
+        letter: Letter,
+        orbit: &str,
+        value: &Quantity,
+        x: &Formula,
+    ) -> Formula {
+        let Letter {
+            code,
+            letter,
+            meaning,
+            unit,
+        } = letter;
+        let command = if letter == "κ" { "\\kappa" } else { letter };
+        let latex = format!("{command}_{{\\mathrm{{{}}}}}", latex_name(orbit));
+        let text = format!("{letter}_{orbit}");
+        let value = self.quantity(value);
+        let constant = self.constant(&code, &text, &latex, &meaning, unit, value);
+        let half = Formula::integer(2).pow(-1);
+        &(&half * &constant) * &x.pow(2)
     }
 
     /// The links from the root to `link`, both included.

@@ -117,7 +117,7 @@ pub struct Transfer {
     pub higher: Vec<Truncated>,
     /// W without truncation.
     pub exact: Option<Parts>,
-    /// The power of joint friction on H_d; zero without friction.
+    /// The power of friction and drag on H_d; zero without both.
     pub friction: Expr,
 }
 

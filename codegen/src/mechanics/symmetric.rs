@@ -80,24 +80,31 @@ impl Derivation<'_> {
                 }
             }
         }
-        let velocity_of = |link: usize| -> Formula {
-            rows[link]
-                .iter()
-                .map(|&(c, w)| &Formula::integer(w) * &Formula::symbol(velocities[c]))
-                .sum()
+        // Angles and velocities transform alike: θ = J q, ω = J q̇.
+        let linear = |old: &[SymbolId], new: &[SymbolId]| -> Vec<(SymbolId, Formula)> {
+            old.iter()
+                .zip(&rows)
+                .map(|(&id, row)| {
+                    let sum = row
+                        .iter()
+                        .map(|&(c, w)| &Formula::integer(w) * &Formula::symbol(new[c]))
+                        .sum();
+                    (id, sum)
+                })
+                .collect()
         };
-        let velocity_replacements: Vec<(SymbolId, Formula)> = absolute
-            .velocities
-            .iter()
-            .enumerate()
-            .map(|(link, &id)| (id, velocity_of(link)))
-            .collect();
+        let springs = absolute
+            .springs
+            .substitute(&linear(&absolute.coordinates, &ids))
+            .expand();
+        let gravity = self.symmetric_potential(absolute, &replacements);
         Frame {
             mass: mass.map(|_, _, sum| sum.expand()),
-            potential: self.symmetric_potential(absolute, &replacements),
+            potential: &gravity + &springs,
+            springs,
             dissipation: absolute
                 .dissipation
-                .substitute(&velocity_replacements)
+                .substitute(&linear(&absolute.velocities, &velocities))
                 .expand(),
             coordinates: ids,
             velocities,
@@ -246,7 +253,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// U orbit by orbit as G (n − Σ cos θ): the sum over an orbit is what
+    /// The energy in gravity orbit by orbit as G (n − Σ cos θ): the sum over an orbit is what
     /// becomes short, and the difference from its rest value stays one.
     fn symmetric_potential(
         &self,

@@ -29,7 +29,8 @@ impl Derivation<'_> {
     /// H_d of one difference of a group of leaves: T = p_d²/(2 M̃_dd) and the
     /// potential that Parseval's identity gives it,
     /// V = G/(2n) |Σ_j w_j e^{iθ_j}|² with the weights w of the difference
-    /// and n = Σ w². For a pair, T = p_d²/(4M) and V = G sin²θ_d.
+    /// and n = Σ w². For a pair, T = p_d²/(4M) and V = G sin²θ_d. A torsion
+    /// spring in the pivots adds its own ½ κ n θ_d².
     pub(super) fn sub_hamiltonian(
         &mut self,
         frame: &Frame,
@@ -59,7 +60,13 @@ impl Derivation<'_> {
         let reduced = self.reduce(&modulus, frame, &expansion.differences);
         let modulus = if reduced.is_term() { reduced } else { modulus };
         let weight = &self.gravity_of(orbit) / &Formula::integer(2 * norm);
-        let potential = &weight * &modulus;
+        let gravity = &weight * &modulus;
+        // Differences are orthogonal: no spring couples two of them.
+        let angle = frame.coordinates[coordinate];
+        let stiffness = frame.springs.derivative(angle).derivative(angle);
+        let half = Formula::integer(2).pow(-1);
+        let spring = &(&half * &stiffness) * &Formula::symbol(angle).pow(2);
+        let potential = &gravity + &spring;
         SubHamiltonian {
             coordinate,
             kinetic,

@@ -81,6 +81,8 @@ pub(super) const COMMON: &[Dimension] = &[
     optional("joint", "m", Sign::Any),
     optional("at", "m", Sign::Any),
     optional("friction", "N m s", Sign::NonNegative),
+    optional("drag", "N m s", Sign::NonNegative),
+    optional("spring", "N m", Sign::NonNegative),
 ];
 
 /// What a link without a shape must say.

@@ -93,6 +93,8 @@ fn link(template: &Template, pending: &Pending) -> Link {
         body,
         pivot,
         friction,
+        drag,
+        spring,
         ..
     } = template;
     Link {
@@ -104,6 +106,8 @@ fn link(template: &Template, pending: &Pending) -> Link {
         com: body.com.clone(),
         pivot: pivot.clone(),
         friction: friction.clone(),
+        drag: drag.clone(),
+        spring: spring.clone(),
     }
 }
 

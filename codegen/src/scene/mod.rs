@@ -106,6 +106,12 @@ pub struct Link {
     /// Viscous friction in the link's pivot, N m s, on the angular velocity
     /// relative to the parent (to the ground for the root); `None` without.
     pub friction: Option<Quantity>,
+    /// Viscous drag against the ground, N m s, on the link's own angular
+    /// velocity; `None` without.
+    pub drag: Option<Quantity>,
+    /// Stiffness of a torsion spring in the link's pivot, N m, on the angle
+    /// relative to the parent (to the vertical for the root); `None` without.
+    pub spring: Option<Quantity>,
 }
 
 /// A point of a link, from the link's pivot, m.

@@ -27,6 +27,8 @@ pub(super) struct Template {
     /// The pivot on the parent; zero for the root.
     pub(super) pivot: Offset,
     pub(super) friction: Option<Quantity>,
+    pub(super) drag: Option<Quantity>,
+    pub(super) spring: Option<Quantity>,
 }
 
 /// What is built up on the way through the description.
@@ -67,7 +69,7 @@ impl Builder {
         let Properties { body, rule, given } =
             Properties::read(node, is_rule, &mut self.values, report);
         let pivot = self.pivot(node, parent.as_ref(), &given, report);
-        let friction = given.value("friction").filter(|value| !value.is_zero());
+        let force = |name: &str| given.value(name).filter(|value| !value.is_zero()).cloned();
         let first = Template {
             name: node.name.to_string(),
             span: node.name.span(),
@@ -75,7 +77,9 @@ impl Builder {
             copies: node.copies.map_or(1, |copies| copies.count as usize),
             body,
             pivot,
-            friction: friction.cloned(),
+            friction: force("friction"),
+            drag: force("drag"),
+            spring: force("spring"),
         };
         if let Some(rule) = rule {
             if let Some(child) = node.children.first() {
@@ -153,6 +157,8 @@ impl Builder {
                 body,
                 pivot: hanging.unwrap_or_else(|| first.pivot.clone()),
                 friction: first.friction.clone(),
+                drag: first.drag.clone(),
+                spring: first.spring.clone(),
             });
         }
     }

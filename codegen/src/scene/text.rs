@@ -69,6 +69,8 @@ impl Scene {
             com,
             pivot,
             friction,
+            drag,
+            spring,
         } = link;
         let show = |Offset { along, lateral }: &Offset| {
             let along = along.display(&self.parameters);
@@ -88,12 +90,15 @@ impl Scene {
         writeln!(f, "    mass {} kg", mass.display(&self.parameters))?;
         writeln!(f, "    inertia {} kg m²", inertia.display(&self.parameters))?;
         writeln!(f, "    com {} m", show(com))?;
-        if let Some(friction) = friction {
-            writeln!(
-                f,
-                "    friction {} N m s",
-                friction.display(&self.parameters)
-            )?;
+        let forces = [
+            ("friction", friction, "N m s"),
+            ("drag", drag, "N m s"),
+            ("spring", spring, "N m"),
+        ];
+        for (name, force, unit) in forces {
+            if let Some(force) = force {
+                writeln!(f, "    {name} {} {unit}", force.display(&self.parameters))?;
+            }
         }
         Ok(())
     }

@@ -3,7 +3,8 @@
 //!
 //! With r_l = Σ (offset vectors from the root to the centre of mass of l),
 //! ṙ_l = J_l ω and r̈_l = J_l ω̇ + J̇_l ω, d'Alembert's principle reads
-//! Σ_l [m_l J_lᵀ (r̈_l + g ŷ) + I_l ω̇_l e_l] + friction = 0.
+//! Σ_l [m_l J_lᵀ (r̈_l + g ŷ) + I_l ω̇_l e_l] + torques in the pivots
+//! and of drag = 0.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -87,14 +88,16 @@ impl Motion {
         };
         for (index, link) in tree.links.iter().enumerate() {
             motion.add_body(tree, index, theta, omega);
-            let relative = omega[index] - link.parent.map_or(0.0, |parent| omega[parent]);
-            let sizes = omega[index].abs() + link.parent.map_or(0.0, |parent| omega[parent].abs());
-            motion.bias[index] += link.friction * relative;
-            motion.bias_terms[index] += link.friction * sizes;
+            let (torque, terms) = link.pivot_torque(index, theta, omega);
+            motion.bias[index] += link.drag * omega[index] - torque;
+            motion.bias_terms[index] += (link.drag * omega[index]).abs() + terms;
             if let Some(parent) = link.parent {
-                motion.bias[parent] -= link.friction * relative;
-                motion.bias_terms[parent] += link.friction * sizes;
+                motion.bias[parent] += torque;
+                motion.bias_terms[parent] += terms;
             }
+            let turn = theta[index] - link.parent.map_or(0.0, |parent| theta[parent]);
+            motion.potential += 0.5 * link.spring * turn * turn;
+            motion.potential_terms += 0.5 * link.spring * turn * turn;
         }
         motion
     }

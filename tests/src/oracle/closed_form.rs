@@ -53,10 +53,10 @@ pub fn equations(tree: &Tree, theta: &[f64], omega: &[f64]) -> (DMatrix<f64>, DV
             c = i;
         }
         let link = &tree.links[j];
-        let relative = omega[j] - link.parent.map_or(0.0, |parent| omega[parent]);
-        bias[j] += link.friction * relative;
+        let (torque, _) = link.pivot_torque(j, theta, omega);
+        bias[j] += link.drag * omega[j] - torque;
         if let Some(parent) = link.parent {
-            bias[parent] -= link.friction * relative;
+            bias[parent] += torque;
         }
     }
     (mass, bias)

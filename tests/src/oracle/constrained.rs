@@ -48,11 +48,10 @@ pub fn accelerations(tree: &Tree, theta: &[f64], omega: &[f64]) -> Vec<f64> {
             right[row] += omega[body] * omega[body] * up[axis];
         }
         right[position(body, 1)] = -link.mass * tree.gravity;
-        let friction =
-            -link.friction * (omega[body] - link.parent.map_or(0.0, |parent| omega[parent]));
-        right[angle(body)] += friction;
+        let (torque, _) = link.pivot_torque(body, theta, omega);
+        right[angle(body)] += torque - link.drag * omega[body];
         let Some(parent) = link.parent else { continue };
-        right[angle(parent)] -= friction;
+        right[angle(parent)] -= torque;
         // From the parent's centre of mass to this pivot.
         let com = tree.links[parent].com;
         let down = turned(

@@ -142,6 +142,12 @@ fn node(random: &mut Random, parent: Option<(usize, &Node)>, copies: usize) -> N
     if properties.random.below(2) == 0 {
         link.friction = properties.number("friction", 1e-4, 0.5);
     }
+    if properties.random.below(4) == 0 {
+        link.drag = properties.number("drag", 1e-4, 0.5);
+    }
+    if properties.random.below(4) == 0 {
+        link.spring = properties.number("spring", 1e-3, 5.0);
+    }
     Node {
         parent: parent.map(|(index, _)| index),
         copies,
@@ -163,6 +169,8 @@ fn body(properties: &mut Properties<'_>, shape: usize) -> (&'static str, Link, [
         com: [along, 0.0],
         pivot: [0.0; 2],
         friction: 0.0,
+        drag: 0.0,
+        spring: 0.0,
     };
     if shape == 0 {
         let mut plain = link(mass, 0.0, 0.0);

@@ -32,6 +32,28 @@ pub struct Link {
     pub pivot: [f64; 2],
     /// Viscous friction in the pivot, N m s.
     pub friction: f64,
+    /// Viscous drag against the ground, N m s.
+    pub drag: f64,
+    /// Stiffness of a torsion spring in the pivot, N m.
+    pub spring: f64,
+}
+
+impl Link {
+    /// The link's value less its parent's.
+    fn relative(&self, own: f64, all: &[f64]) -> f64 {
+        own - self.parent.map_or(0.0, |parent| all[parent])
+    }
+
+    /// Torque of friction and spring that the parent exerts on the link in its
+    /// pivot, N m, and the sum of its absolute terms.
+    pub(crate) fn pivot_torque(&self, index: usize, theta: &[f64], omega: &[f64]) -> (f64, f64) {
+        let torque = self.friction * self.relative(omega[index], omega)
+            + self.spring * self.relative(theta[index], theta);
+        let size = |own: f64, all: &[f64]| own.abs() + self.parent.map_or(0.0, |p| all[p].abs());
+        let terms =
+            self.friction * size(omega[index], omega) + self.spring * size(theta[index], theta);
+        (-torque, terms)
+    }
 }
 
 /// A tree of links under gravity.

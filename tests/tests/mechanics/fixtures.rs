@@ -19,7 +19,7 @@ fixture! { FRICTIONAL,
     #[branched_pendulum(
         gravity = 9.80665,
         parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27, friction = 4e-4) [
-            child(mass = 0.10531, com = 0.043, inertia = 0.516e-3, friction = 7e-5) * 2
+            child(mass = 0.10531, com = 0.043, inertia = 0.516e-3, friction = 7e-5, drag = 3e-5, spring = 0.02) * 2
         ],
         emit(energies, momenta, symmetric, transfer),
     )]
@@ -44,7 +44,7 @@ fixture! { TRIPLE,
     #[branched_pendulum(
         gravity = 9.80665,
         parent(mass = 0.3, com = (0.1, 0.02), inertia = 2e-3, joint = (0.25, -0.03), friction = 5e-4) [
-            child(mass = 0.1, com = 0.05, inertia = 0.4e-3, friction = 6e-5) * 3,
+            child(mass = 0.1, com = 0.05, inertia = 0.4e-3, friction = 6e-5, drag = 2e-5, spring = 0.03) * 3,
             other: rod(mass = 0.08, length = 0.2, at = 0.1),
         ],
         emit(energies, momenta, symmetric, transfer),

@@ -189,6 +189,8 @@ fn generations_by_rule() {
         com: [length / 2.0, 0.0],
         pivot: [at, 0.0],
         friction: if parent.is_some() { 1e-3 } else { 0.0 },
+        drag: 0.0,
+        spring: 0.0,
     };
     let second = |parent: usize| rod(Some(parent), 0.2, 0.4, 0.5);
     let third = |parent: usize| rod(Some(parent), 0.1, 0.32, 0.4);

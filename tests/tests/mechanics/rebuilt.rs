@@ -134,15 +134,17 @@ fn energy_transfers() {
     });
 }
 
-/// The power of friction on H_d of a pair is −c p_d θ̇_d / M: both children
-/// turn against the parent by θ̇_d and −θ̇_d beside their mean.
+/// The power of friction and drag on H_d of a pair is −(c + k) p_d θ̇_d / M:
+/// beside their mean, both children turn by θ̇_d and −θ̇_d against the parent
+/// and against the ground.
 #[test]
 fn friction_power() {
     let compiled = compile_item(FRICTIONAL);
     inside(&compiled, |algebra| {
         let friction = &algebra.mechanics().transfers[0].friction;
-        let expected = -(&product([&algebra.s("c_child"), &algebra.s("p_d"), &algebra.s("ω_d")])
-            / &algebra.s("M_child"));
+        let both = &algebra.s("c_child") + &algebra.s("k_child");
+        let expected =
+            -(&product([&both, &algebra.s("p_d"), &algebra.s("ω_d")]) / &algebra.s("M_child"));
         algebra.assert_equal("friction", friction, &expected);
     });
 }
