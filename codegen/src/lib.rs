@@ -63,8 +63,13 @@ pub fn stages(attribute: TokenStream, item: TokenStream) -> Result<Stages, (Repo
             return Err(refuse(&description, report));
         }
     };
-    // After this line nothing fails: a broken invariant is a bug.
     let program = program::lower(&scene, &mechanics);
+    if let Some(name) = program.unrepresentable_constant() {
+        let name = name.to_owned();
+        report.error(Span::call_site(), Message::ConstantRange { name });
+        return Err(refuse(&description, report));
+    }
+    // After this line nothing fails: a broken invariant is a bug.
     debug_assert_eq!(program.verify(), Ok(()));
     let tokens = emit::emit(&description.item, &scene, &mechanics, &program);
     Ok(Stages {

@@ -55,6 +55,11 @@ impl fmt::Display for Operations {
             if !first {
                 f.write_str(", ")?;
             }
+            let what = if count == 1 && what == "negations" {
+                "negation"
+            } else {
+                what
+            };
             write!(f, "{count} {what}")?;
             first = false;
         }

@@ -43,6 +43,33 @@ impl fmt::Display for Fault {
 impl std::error::Error for Fault {}
 
 impl Program {
+    /// The name of a constant that some entry point needs and that no `f64` can
+    /// hold: rounded, it would be infinite, or zero without being zero.
+    pub fn unrepresentable_constant(&self) -> Option<&str> {
+        self.entries
+            .iter()
+            .flat_map(|entry| self.needed(&entry.outputs))
+            .find_map(|value| match self.definition(value).op {
+                super::Op::Constant(id) => self.unrepresentable_in(id),
+                _ => None,
+            })
+    }
+
+    fn unrepresentable_in(&self, id: super::ConstantId) -> Option<&str> {
+        let definition = self.setup.get(id);
+        if let Some(exact) = &definition.exact {
+            let value = exact.to_f64();
+            if !value.is_finite() || (value == 0.0 && !exact.is_zero()) {
+                return Some(&definition.name);
+            }
+        }
+        // The model stores the named constants behind a product too.
+        let operands = definition.op.operands();
+        operands
+            .into_iter()
+            .find_map(|operand| self.unrepresentable_in(operand))
+    }
+
     /// Checks that definitions are in order, that entry points receive what
     /// they read and that outputs fill their shapes.
     ///

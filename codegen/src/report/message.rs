@@ -222,6 +222,11 @@ pub enum Message {
         /// The first such link.
         link: String,
     },
+    /// A product of masses and lengths that no `f64` can hold.
+    ConstantRange {
+        /// The constant.
+        name: String,
+    },
     /// The derivation could not be run.
     Algebra(String),
 }

@@ -273,6 +273,11 @@ impl Message {
                 "measure the copies' angles from the line through pivot and centre of mass: \
                    `com = 0.05` instead of `com = (0.04, 0.03)`",
             ),
+            M::ConstantRange { name } => problem(
+                format!("the constant `{name}` of the model is too large or too small"),
+                "no `f64` can hold a constant of this scene",
+                "masses, lengths and gravity multiply: write values in SI units",
+            ),
             M::Algebra(reason) => problem(
                 "the mechanics could not be derived",
                 reason.as_str(),
