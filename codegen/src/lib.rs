@@ -92,6 +92,11 @@ pub fn expand(attribute: TokenStream, item: TokenStream) -> TokenStream {
 
 fn refuse(description: &Description, report: Report) -> (Report, TokenStream) {
     let errors = report.to_compile_errors();
+    if description.item.ident == "T" {
+        // The name of the type parameter: a stub would add errors.
+        let item = &description.item.tokens;
+        return (report, quote!(#errors #item));
+    }
     let runtime = description.crate_path.as_ref().map_or_else(
         || emit::runtime_path(&scene::CratePath::default()),
         |path| quote!(#path),

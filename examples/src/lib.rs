@@ -3,3 +3,4 @@
 //! Each program in `src/bin` is a thin shell around one module here.
 
 pub mod branched_double;
+pub mod transfer_orders;

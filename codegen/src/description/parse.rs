@@ -94,6 +94,9 @@ fn deepest(tokens: &TokenStream) -> Option<Span> {
     None
 }
 
+/// The type parameter of emitted models.
+const SCALAR: &str = "T";
+
 /// Reads the struct.
 fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
     if deepest(&tokens).is_some() {
@@ -111,6 +114,12 @@ fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
         report.error(
             item.ident.span(),
             Message::StructFields { name: name.clone() },
+        );
+    }
+    if name == SCALAR {
+        report.error(
+            item.ident.span(),
+            Message::ReservedName { name: name.clone() },
         );
     }
     if !item.generics.params.is_empty() || item.generics.where_clause.is_some() {

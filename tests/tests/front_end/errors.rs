@@ -89,7 +89,7 @@ const CASES: &[(&str, &str)] = &[
         "reserved_name",
         "#[branched_pendulum(gravity = 9.8, loop: rod(mass = type, length = 1) [
     state: rod(mass = 1, length = 1),
-])] struct Pendulum;",
+])] struct T;",
     ),
     (
         "not_snake_case",
