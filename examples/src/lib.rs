@@ -3,4 +3,5 @@
 //! Each program in `src/bin` is a thin shell around one module here.
 
 pub mod branched_double;
+pub mod exit;
 pub mod transfer_orders;

@@ -2,7 +2,6 @@
 //!
 //! `branched-double --help` lists the options.
 
-use std::error::Error;
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 
@@ -11,6 +10,7 @@ use branched_pendulum_examples::branched_double::progress::ProgressBar;
 use branched_pendulum_examples::branched_double::{
     Arguments, Failure, Findings, Frequencies, Request, Run, charts, files, scenes, table,
 };
+use branched_pendulum_examples::exit;
 
 fn main() -> ExitCode {
     let arguments = match Arguments::parse(std::env::args().skip(1)) {
@@ -19,24 +19,9 @@ fn main() -> ExitCode {
             print!("{HELP}");
             return ExitCode::SUCCESS;
         }
-        Err(error) => {
-            eprintln!("branched-double: {error}\nTry `branched-double --help`.");
-            return ExitCode::from(2);
-        }
+        Err(error) => return exit::wrong_command_line("branched-double", &error),
     };
-    match run(&arguments) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            eprint!("branched-double: {failure}");
-            let mut cause = failure.source();
-            while let Some(error) = cause {
-                eprint!(": {error}");
-                cause = error.source();
-            }
-            eprintln!();
-            ExitCode::FAILURE
-        }
-    }
+    exit::of_run("branched-double", run(&arguments))
 }
 
 fn run(arguments: &Arguments) -> Result<(), Failure> {

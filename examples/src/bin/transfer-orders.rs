@@ -2,10 +2,10 @@
 //!
 //! `transfer-orders --help` lists the options.
 
-use std::error::Error;
 use std::process::ExitCode;
 
 use branched_pendulum_examples::branched_double::{Failure, files, table};
+use branched_pendulum_examples::exit;
 use branched_pendulum_examples::transfer_orders::arguments::HELP;
 use branched_pendulum_examples::transfer_orders::error_curve::{AMPLITUDES, logarithmic};
 use branched_pendulum_examples::transfer_orders::output::{self, Curves};
@@ -23,24 +23,9 @@ fn main() -> ExitCode {
             print!("{HELP}");
             return ExitCode::SUCCESS;
         }
-        Err(error) => {
-            eprintln!("transfer-orders: {error}\nTry `transfer-orders --help`.");
-            return ExitCode::from(2);
-        }
+        Err(error) => return exit::wrong_command_line("transfer-orders", &error),
     };
-    match run(&arguments) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            eprint!("transfer-orders: {failure}");
-            let mut cause = failure.source();
-            while let Some(error) = cause {
-                eprint!(": {error}");
-                cause = error.source();
-            }
-            eprintln!();
-            ExitCode::FAILURE
-        }
-    }
+    exit::of_run("transfer-orders", run(&arguments))
 }
 
 fn run(arguments: &Arguments) -> Result<(), Failure> {
