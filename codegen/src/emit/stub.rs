@@ -7,7 +7,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 /// Methods from two arrays to one.
-const MAPS: [&str; 8] = [
+const MAPS: [&str; 7] = [
     "accelerations",
     "momenta",
     "velocities",
@@ -15,7 +15,6 @@ const MAPS: [&str; 8] = [
     "symmetric_momenta",
     "symmetric_velocities",
     "transfer_quadratic_form",
-    "hamiltonian_rates",
 ];
 /// Methods from one array to one.
 const TRANSFORMS: [&str; 2] = ["to_symmetric", "from_symmetric"];

@@ -61,7 +61,7 @@ impl<'s> Derivation<'s> {
             .iter()
             .map(|p| {
                 let latex = format!("\\mathrm{{{}}}", latex_name(&p.name));
-                symbols.intern(Role::Parameter, &p.name, &p.name, &latex)
+                symbols.parameter(&p.name, &latex)
             })
             .collect();
         Self {

@@ -57,6 +57,12 @@ pub struct Symbols {
 }
 
 impl Symbols {
+    /// A parameter of the scene. Its name is the user's: it may be spelled like
+    /// a symbol of ours, and stays apart from that.
+    pub fn parameter(&mut self, name: &str, latex: &str) -> SymbolId {
+        self.push(Role::Parameter, name.to_owned(), name, latex)
+    }
+
     /// The symbol spelled `text` in formulas, created if it is new. Its
     /// spelling in code is `code`, with a number if another symbol has that
     /// already: `coupling_a_b_c` may couple a to b_c or a_b to c.
@@ -64,20 +70,25 @@ impl Symbols {
         if let Some(&id) = self.by_text.get(text) {
             return id;
         }
-        let id = SymbolId(self.entries.len() as u32);
         let mut unique = code.to_owned();
         let mut number = 2;
         while !self.codes.insert(unique.clone()) {
             unique = format!("{code}_{number}");
             number += 1;
         }
+        let id = self.push(role, unique, text, latex);
+        self.by_text.insert(text.to_owned(), id);
+        id
+    }
+
+    fn push(&mut self, role: Role, code: String, text: &str, latex: &str) -> SymbolId {
+        let id = SymbolId(self.entries.len() as u32);
         self.entries.push(Symbol {
-            code: unique,
+            code,
             text: text.to_owned(),
             latex: latex.to_owned(),
             role,
         });
-        self.by_text.insert(text.to_owned(), id);
         id
     }
 
@@ -86,7 +97,7 @@ impl Symbols {
         &self.entries[id.0 as usize]
     }
 
-    /// The symbol spelled `text` in formulas, if there is one.
+    /// The symbol spelled `text` in formulas, if there is one; no parameter.
     pub fn find(&self, text: &str) -> Option<SymbolId> {
         self.by_text.get(text).copied()
     }

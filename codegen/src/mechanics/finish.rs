@@ -172,7 +172,7 @@ impl Derivation<'_> {
             let angle = request
                 .angle_orders
                 .contains(&1)
-                .then(|| self.angle_transfer(frame, expansion, &energy, 1));
+                .then(|| self.angle_transfer(frame, expansion, &energy));
             let amplitude = request
                 .amplitude_orders
                 .contains(&2)

@@ -131,28 +131,17 @@ impl Derivation<'_> {
             .collect()
     }
 
-    /// W to the given order in the difference angles, momenta untouched:
-    /// {H_d, K − T} with K to that order, and {H_d, U − V}, both then cut
-    /// off at that order. Order 1 is the paper's W_K + W_P.
+    /// W to first order in the difference angles, momenta untouched, as in the
+    /// paper: {H_d, K − T} with K to that order, and {H_d, U − V}, both then
+    /// cut off at that order.
     pub(super) fn angle_transfer(
         &mut self,
         frame: &Frame,
         expansion: &Expansion,
         energy: &SubHamiltonian,
-        order: u32,
     ) -> Parts {
-        let kinetic = match order {
-            0 => Formula::zero(),
-            _ => expansion.first_order(),
-        };
-        self.truncated(
-            frame,
-            expansion,
-            energy,
-            &kinetic,
-            Counting::Angle,
-            0..=order,
-        )
+        let kinetic = expansion.first_order();
+        self.truncated(frame, expansion, energy, &kinetic, Counting::Angle, 1)
     }
 
     /// W to second order in the amplitude: the complete quadratic form in the
@@ -164,14 +153,7 @@ impl Derivation<'_> {
         energy: &SubHamiltonian,
     ) -> Parts {
         let kinetic = expansion.second_order_in_amplitude();
-        self.truncated(
-            frame,
-            expansion,
-            energy,
-            &kinetic,
-            Counting::Amplitude,
-            2..=2,
-        )
+        self.truncated(frame, expansion, energy, &kinetic, Counting::Amplitude, 2)
     }
 
     fn truncated(
@@ -181,7 +163,7 @@ impl Derivation<'_> {
         energy: &SubHamiltonian,
         kinetic: &Formula,
         counting: Counting,
-        orders: std::ops::RangeInclusive<u32>,
+        order: u32,
     ) -> Parts {
         let pairs = Self::difference_pairs(frame, expansion);
         let whole = &energy.kinetic + &energy.potential;
@@ -193,12 +175,8 @@ impl Derivation<'_> {
         let rest = (&frame.potential - &energy.potential).expand();
         let from_potential = self.poisson_bracket(&pairs, &energy.kinetic, &rest);
         let mut cut = |formula: Formula| -> Formula {
-            let parts = self.orders(&formula, &pairs, counting, *orders.end());
-            parts
-                .into_iter()
-                .skip(*orders.start() as usize)
-                .sum::<Formula>()
-                .expand()
+            let parts = self.orders(&formula, &pairs, counting, order);
+            parts.into_iter().sum::<Formula>().expand()
         };
         Parts {
             kinetic: cut(&from_kinetic + &from_others),

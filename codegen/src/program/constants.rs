@@ -173,7 +173,11 @@ impl Setup {
         let id = ConstantId(self.definitions.len() as u32);
         let exact = self.value(&op);
         let wanted = name.map_or_else(|| spelling::constant(self, &op), str::to_owned);
-        let name = self.unique(wanted, id);
+        // A parameter is no field of the model, so its name claims nothing.
+        let name = match op {
+            ConstantOp::Parameter(_) => wanted,
+            _ => self.unique(wanted, id),
+        };
         self.known.insert(op.clone(), id);
         self.definitions
             .push(ConstantDefinition { op, exact, name });

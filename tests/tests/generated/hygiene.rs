@@ -91,3 +91,56 @@ fn attributes_survive() {
     assert!(model.partial_cmp(&copy).is_some());
     assert!(format!("{model:?}").starts_with("Derived {"));
 }
+
+mod namesakes {
+    //! Parameters and links spelled like symbols of ours.
+    use branched_pendulum::prelude::*;
+
+    #[branched_pendulum(
+        gravity = c_d,
+        m(mass = 1, com = 0.1, inertia = inertia_d, joint = 0.3, friction = k_d) [
+            d(mass = p_d_1, com = 0.1, inertia = 1e-3, friction = c_d, drag = w_m, spring = k_d) * 2
+        ],
+        emit(energies, momenta, modes, symmetric, transfer(angle = 1, amplitude = 4, exact)),
+    )]
+    pub(super) struct Named;
+
+    #[branched_pendulum(
+        gravity = 0.5,
+        root(mass = 1, com = 0.1, inertia = 0.02, joint = 0.3, friction = 0.03) [
+            leaf(mass = 0.4, com = 0.1, inertia = 1e-3, friction = 0.5, drag = 0.06, spring = 0.03) * 2
+        ],
+        emit(energies, momenta, modes, symmetric, transfer(angle = 1, amplitude = 4, exact)),
+    )]
+    pub(super) struct Literal;
+}
+
+#[test]
+fn names_like_ours_mean_what_the_user_means() {
+    let named = namesakes::Named::new(namesakes::NamedParameters {
+        c_d: 0.5,
+        inertia_d: 0.02,
+        k_d: 0.03,
+        p_d_1: 0.4,
+        w_m: 0.06,
+    })
+    .expect("possible parameters");
+    let literal = namesakes::Literal::new();
+    let (q, v) = ([0.3, -0.7, 0.2], [1.0, -2.0, 0.5]);
+    let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-14 * (1.0 + b.abs()), "{a} {b}");
+    for (a, b) in named
+        .accelerations(&q, &v)
+        .iter()
+        .zip(literal.accelerations(&q, &v))
+    {
+        close(*a, b);
+    }
+    let p = literal.symmetric_momenta(&q, &v);
+    close(named.hamiltonian(&q, &p), literal.hamiltonian(&q, &p));
+    let (a, b) = (
+        named.transfer_amplitude_4(&q, &p),
+        literal.transfer_amplitude_4(&q, &p),
+    );
+    close(a.total(), b.total());
+    close(named.inertia_d(), literal.inertia_leaf());
+}
