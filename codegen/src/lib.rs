@@ -101,6 +101,6 @@ fn refuse(description: &Description, report: Report) -> (Report, TokenStream) {
         || emit::runtime_path(&scene::CratePath::default()),
         |path| quote!(#path),
     );
-    let stub = emit::stub(&description.item, &runtime);
+    let stub = emit::stub(description, &runtime);
     (report, quote!(#errors #stub))
 }

@@ -41,6 +41,23 @@ pub enum ExpressionKind {
 }
 
 impl Expression {
+    /// Calls `visit` with every name, in the order written.
+    pub(super) fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
+        match &self.kind {
+            ExpressionKind::Number(_) => {}
+            ExpressionKind::Name(name) => visit(name),
+            ExpressionKind::Sum(members) => members.iter().for_each(|m| m.for_each_name(visit)),
+            ExpressionKind::Product { factors, divisors } => {
+                for part in factors.iter().chain(divisors) {
+                    part.for_each_name(visit);
+                }
+            }
+            ExpressionKind::Power(base, _) | ExpressionKind::Negative(base) => {
+                base.for_each_name(visit);
+            }
+        }
+    }
+
     /// Parses an expression and stops where it ends.
     pub(super) fn parse(input: ParseStream<'_>) -> Result<Self, Fault> {
         let start = input.span();

@@ -55,6 +55,26 @@ pub struct Description {
     pub damaged: bool,
 }
 
+impl Description {
+    /// The names that stand where values do, each once, in the order written:
+    /// the parameters of the model.
+    pub fn parameter_names(&self) -> Vec<Ident> {
+        let mut names: Vec<Ident> = Vec::new();
+        let mut visit = |name: &Ident| {
+            if !names.contains(name) {
+                names.push(name.clone());
+            }
+        };
+        if let Some(gravity) = &self.gravity {
+            gravity.value.for_each_name(&mut visit);
+        }
+        for root in &self.roots {
+            root.for_each_name(&mut visit);
+        }
+        names
+    }
+}
+
 /// The struct under the attribute: what survives of it in the expansion.
 #[derive(Debug, Clone)]
 pub struct StructItem {
@@ -92,6 +112,16 @@ impl Node {
     pub fn is_damaged(&self) -> bool {
         self.damaged || self.children.iter().any(Node::is_damaged)
     }
+
+    fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
+        // The shape of a rule is a name, but no value.
+        for property in self.properties.iter().filter(|p| p.name != "shape") {
+            property.value.for_each_name(visit);
+        }
+        for child in &self.children {
+            child.for_each_name(visit);
+        }
+    }
 }
 
 /// The number of copies of a link.
@@ -119,6 +149,18 @@ pub enum Value {
     Single(Expression),
     /// A point, `(along, lateral)`.
     Pair(Expression, Expression),
+}
+
+impl Value {
+    fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
+        match self {
+            Self::Single(value) => value.for_each_name(visit),
+            Self::Pair(along, lateral) => {
+                along.for_each_name(visit);
+                lateral.for_each_name(visit);
+            }
+        }
+    }
 }
 
 /// Something to emit.

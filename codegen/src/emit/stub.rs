@@ -2,7 +2,7 @@
 //! its methods without meaning, so that an editor shows the description's
 //! errors and no others.
 
-use crate::description::StructItem;
+use crate::description::Description;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -32,7 +32,9 @@ const TRANSFERS: [&str; 2] = ["transfer_exact", "transfer_exact_from_rates"];
 
 /// The type and its documented methods as stubs. They are never run: the
 /// errors beside them keep the crate from compiling.
-pub fn stub(item: &StructItem, runtime: &TokenStream) -> TokenStream {
+pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
+    let item = &description.item;
+    let constructors = constructors(description, runtime);
     let (attrs, vis, name) = (&item.attrs, &item.vis, &item.ident);
     let idents = |names: &[&str]| -> Vec<Ident> {
         names
@@ -50,15 +52,7 @@ pub fn stub(item: &StructItem, runtime: &TokenStream) -> TokenStream {
         #(#attrs)*
         #vis struct #name<T = f64>(::core::marker::PhantomData<T>);
 
-        #[allow(missing_docs, clippy::all)]
-        impl #name<f64> {
-            pub fn new() -> Self { ::core::unimplemented!() }
-        }
-
-        #[allow(missing_docs, clippy::all)]
-        impl<T> ::core::default::Default for #name<T> {
-            fn default() -> Self { ::core::unimplemented!() }
-        }
+        #constructors
 
         #[allow(missing_docs, unused_variables, clippy::all)]
         impl<T: #runtime::Scalar> #name<T> {
@@ -98,6 +92,48 @@ pub fn stub(item: &StructItem, runtime: &TokenStream) -> TokenStream {
         impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
             fn kinetic_energy_of(&self, _: &[T], _: &[T]) -> T { ::core::unimplemented!() }
             fn potential_energy_of(&self, _: &[T]) -> T { ::core::unimplemented!() }
+        }
+    }
+}
+
+/// As the model would have them: with the parameters that the description
+/// names, or without any.
+fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream {
+    let (vis, name) = (&description.item.vis, &description.item.ident);
+    let names = description.parameter_names();
+    if names.is_empty() {
+        return quote! {
+            #[allow(missing_docs, clippy::all)]
+            impl #name<f64> {
+                pub fn new() -> Self { ::core::unimplemented!() }
+            }
+
+            #[allow(missing_docs, clippy::all)]
+            impl<T> ::core::default::Default for #name<T> {
+                fn default() -> Self { ::core::unimplemented!() }
+            }
+        };
+    }
+    let parameters = format_ident!("{name}Parameters");
+    quote! {
+        #[allow(missing_docs)]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
+        #vis struct #parameters<T = f64> { #(#vis #names: T),* }
+
+        #[allow(missing_docs, unused_variables, clippy::all)]
+        impl #name<f64> {
+            pub fn new(
+                parameters: #parameters<f64>,
+            ) -> ::core::result::Result<Self, #runtime::ParameterError> {
+                ::core::unimplemented!()
+            }
+        }
+
+        #[allow(missing_docs, unused_variables, clippy::all)]
+        impl<T: #runtime::Scalar> #name<T> {
+            pub fn from_parameters(parameters: #parameters<T>) -> Self {
+                ::core::unimplemented!()
+            }
         }
     }
 }

@@ -7,7 +7,7 @@ use super::expression::{Expr, Role, Symbols};
 use super::frame::{Frame as DerivedFrame, MassMatrix};
 use super::inverse_mass::{Counting, Expansion as DerivedExpansion};
 use super::series::Series;
-use super::transfer;
+use super::transfer::{self, SubHamiltonian};
 use super::{
     Constant, Correction, Energies, Entry, Expansion, Frame, Mechanics, Parts, Transfer, Truncated,
     WrittenOut,
@@ -155,8 +155,10 @@ impl Derivation<'_> {
         plain: &mut Expansion,
     ) -> Vec<Transfer> {
         let series = self.series(frame, coordinates, expansion, request);
-        for correction in series.iter().flat_map(|series| &series.corrections) {
-            plain.corrections.push(Correction {
+        plain.corrections = series
+            .iter()
+            .flat_map(|series| &series.corrections)
+            .map(|correction| Correction {
                 in_phase: correction.in_phase.clone(),
                 right: self.exprs(&correction.right),
                 differences: correction
@@ -164,59 +166,73 @@ impl Derivation<'_> {
                     .iter()
                     .map(|(symbol, value)| (*symbol, self.expr(value)))
                     .collect(),
-            });
-        }
-        let mut transfers = Vec::new();
-        for &coordinate in &expansion.differences {
-            let energy = self.sub_hamiltonian(frame, coordinates, expansion, coordinate);
-            let angle = request
-                .angle_orders
-                .contains(&1)
-                .then(|| self.angle_transfer(frame, expansion, &energy));
-            let amplitude = request
-                .amplitude_orders
-                .contains(&2)
-                .then(|| self.amplitude_transfer(frame, expansion, &energy));
-            let mut higher = Vec::new();
-            for series in &series {
-                for order in higher_orders(request, series.counting) {
-                    let parts = self.series_transfer(frame, expansion, &energy, series, order);
-                    higher.push((series.counting, order, parts));
-                }
+            })
+            .collect();
+        expansion
+            .differences
+            .iter()
+            .map(|&coordinate| {
+                let energy = self.sub_hamiltonian(frame, coordinates, expansion, coordinate);
+                self.transfer(frame, expansion, &energy, request, &series)
+            })
+            .collect()
+    }
+
+    /// All that is asked for about one difference.
+    fn transfer(
+        &mut self,
+        frame: &DerivedFrame,
+        expansion: &DerivedExpansion,
+        energy: &SubHamiltonian,
+        request: &TransferRequest,
+        series: &[Series],
+    ) -> Transfer {
+        let coordinate = energy.coordinate;
+        let angle = request
+            .angle_orders
+            .contains(&1)
+            .then(|| self.angle_transfer(frame, expansion, energy));
+        let amplitude = request
+            .amplitude_orders
+            .contains(&2)
+            .then(|| self.amplitude_transfer(frame, expansion, energy));
+        let quadratic_form = amplitude
+            .as_ref()
+            .and_then(|parts| self.quadratic_form(frame, expansion, coordinate, parts));
+        let mut higher = Vec::new();
+        for series in series {
+            for order in higher_orders(request, series.counting) {
+                let parts = self.series_transfer(frame, expansion, energy, series, order);
+                higher.push(Truncated {
+                    counting: series.counting,
+                    order,
+                    parts: self.parts(&parts),
+                });
             }
-            let exact = request
-                .exact
-                .then(|| self.exact_transfer(frame, expansion, &energy));
-            let friction = self.friction_power(frame, &energy);
-            let quadratic_form = amplitude
-                .as_ref()
-                .and_then(|parts| self.quadratic_form(frame, expansion, coordinate, parts));
-            let convert = |parts: transfer::Parts| Parts {
-                kinetic: self.expr(&parts.kinetic),
-                potential: self.expr(&parts.potential),
-            };
-            transfers.push(Transfer {
-                coordinate,
-                energy: Parts {
-                    kinetic: self.expr(&energy.kinetic),
-                    potential: self.expr(&energy.potential),
-                },
-                angle: angle.map(convert),
-                amplitude: amplitude.map(convert),
-                quadratic_form,
-                higher: higher
-                    .into_iter()
-                    .map(|(counting, order, parts)| Truncated {
-                        counting,
-                        order,
-                        parts: convert(parts),
-                    })
-                    .collect(),
-                exact: exact.map(convert),
-                friction: self.expr(&friction),
-            });
         }
-        transfers
+        let exact = request
+            .exact
+            .then(|| self.exact_transfer(frame, expansion, energy));
+        Transfer {
+            coordinate,
+            energy: Parts {
+                kinetic: self.expr(&energy.kinetic),
+                potential: self.expr(&energy.potential),
+            },
+            angle: angle.map(|parts| self.parts(&parts)),
+            amplitude: amplitude.map(|parts| self.parts(&parts)),
+            quadratic_form,
+            higher,
+            exact: exact.map(|parts| self.parts(&parts)),
+            friction: self.expr(&self.friction_power(frame, energy)),
+        }
+    }
+
+    fn parts(&self, parts: &transfer::Parts) -> Parts {
+        Parts {
+            kinetic: self.expr(&parts.kinetic),
+            potential: self.expr(&parts.potential),
+        }
     }
 
     /// The velocities' series, one for each counting of which orders beyond

@@ -176,22 +176,45 @@ pub fn use_it() -> f64 {
 }
 "#;
 
+/// The same with parameters.
+const WRONG_WITH_PARAMETERS: &str = r#"
+//! A user's crate in the middle of an edit.
+use branched_pendulum::prelude::*;
+
+/// A mass below zero.
+#[branched_pendulum(
+    gravity = g,
+    parent(mass = 0.1, com = 0.1, inertia = 1e-3, joint = l / 2) [
+        child(mass = -0.1, com = 0.04, inertia = 1e-4) * 2
+    ],
+)]
+pub struct Wrong;
+
+/// Builds it.
+pub fn use_it() -> Result<[f64; 3], ParameterError> {
+    let model = Wrong::new(WrongParameters { g: 9.8, l: 0.3 })?;
+    Ok(model.accelerations(&[0.1; 3], &[0.0; 3]))
+}
+"#;
+
 #[test]
 fn one_mistake_is_one_error() {
     let folder = std::env::temp_dir().join(format!("branched-pendulum-w{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("the temporary folder is writable");
     let external = format!("branched_pendulum={}", runtime(&folder).display());
-    let output = rustc(&folder, "wrong", WRONG, &external, "metadata")
-        .output()
-        .expect("the compiler runs");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    let lines: Vec<&str> = errors.lines().filter(|l| l.starts_with("error")).collect();
-    assert!(
-        matches!(lines.as_slice(), [mistake, last] if mistake.contains("mass of `child`")
-            && last.contains("aborting due to 1 previous error")),
-        "{errors}"
-    );
-    // At the value, not at the attribute.
-    assert!(errors.contains("wrong.rs:9:22"), "{errors}");
+    for source in [WRONG, WRONG_WITH_PARAMETERS] {
+        let output = rustc(&folder, "wrong", source, &external, "metadata")
+            .output()
+            .expect("the compiler runs");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        let lines: Vec<&str> = errors.lines().filter(|l| l.starts_with("error")).collect();
+        assert!(
+            matches!(lines.as_slice(), [mistake, last] if mistake.contains("mass of `child`")
+                && last.contains("aborting due to 1 previous error")),
+            "{errors}"
+        );
+        // At the value, not at the attribute.
+        assert!(errors.contains("wrong.rs:9:22"), "{errors}");
+    }
     std::fs::remove_dir_all(&folder).expect("the folder is ours");
 }

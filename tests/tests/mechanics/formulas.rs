@@ -38,9 +38,15 @@ impl Algebra<'_> {
     }
 
     pub(crate) fn id(&self, text: &str) -> SymbolId {
-        let symbols = &self.mechanics().symbols;
+        let mechanics = self.mechanics();
+        let symbols = &mechanics.symbols;
+        let parameter = || {
+            let mut parameters = mechanics.parameters.iter().copied();
+            parameters.find(|&id| symbols.get(id).text == text)
+        };
         symbols
             .find(text)
+            .or_else(parameter)
             .unwrap_or_else(|| panic!("no symbol `{text}`"))
     }
 
