@@ -9,6 +9,10 @@ use super::list::{Fault, expected, parse_all};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Diagnostic, Message};
 
+/// Highest total power of parameters under a `^`: masses and lengths have no
+/// use for more, and the emitted code writes every factor out.
+const MAX_DEGREE: u32 = 8;
+
 /// A value as written.
 #[derive(Debug, Clone)]
 pub struct Expression {
@@ -137,10 +141,34 @@ impl Expression {
         if input.peek(Token![^]) {
             return Err(Diagnostic::new(input.span(), Message::ChainedPower).into());
         }
-        Ok(Self {
+        let power = Self {
             span: base.span.join(start).unwrap_or(base.span),
             kind: ExpressionKind::Power(Box::new(base), exponent),
-        })
+        };
+        if power.degree() > MAX_DEGREE {
+            let limit = MAX_DEGREE;
+            return Err(Diagnostic::new(start, Message::Degree { limit }).into());
+        }
+        Ok(power)
+    }
+
+    /// The highest total power of parameters, divisors counted like factors.
+    fn degree(&self) -> u32 {
+        match &self.kind {
+            ExpressionKind::Number(_) => 0,
+            ExpressionKind::Name(_) => 1,
+            ExpressionKind::Sum(members) => {
+                members.iter().map(Self::degree).max().unwrap_or_default()
+            }
+            ExpressionKind::Product { factors, divisors } => factors
+                .iter()
+                .chain(divisors)
+                .fold(0, |sum, part| sum.saturating_add(part.degree())),
+            ExpressionKind::Power(base, exponent) => {
+                base.degree().saturating_mul(exponent.unsigned_abs())
+            }
+            ExpressionKind::Negative(base) => base.degree(),
+        }
     }
 
     /// Parses a literal, a name or an expression in parentheses.

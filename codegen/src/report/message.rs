@@ -222,6 +222,11 @@ pub enum Message {
         /// The first such link.
         link: String,
     },
+    /// Too high a power of parameters.
+    Degree {
+        /// Highest power allowed.
+        limit: u32,
+    },
     /// A product of masses and lengths that no `f64` can hold.
     ConstantRange {
         /// The constant.

@@ -203,6 +203,11 @@ impl Message {
                 "not an exponent",
                 "write a literal, as in `length^2` or `length^-1`",
             ),
+            M::Degree { limit } => problem(
+                "the power of parameters is too high",
+                "makes too many factors",
+                format!("powers of parameters go up to {limit}"),
+            ),
             M::ChainedPower => problem(
                 "a power of a power",
                 "ambiguous",

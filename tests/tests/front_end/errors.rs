@@ -205,6 +205,10 @@ const CASES: &[(&str, &str)] = &[
         "#[branched_pendulum(gravity = 9.8^0.5, a: rod(mass = 2^n, length = 2^(1 + 1)))] struct Pendulum;",
     ),
     (
+        "degree",
+        "#[branched_pendulum(gravity = g^100000000, a: rod(mass = m^-9, length = ((l^4)^2)^2))] struct Pendulum;",
+    ),
+    (
         "chained_power",
         "#[branched_pendulum(gravity = 9.8^2^3, a: rod(mass = 1, length = 1))] struct Pendulum;",
     ),
