@@ -83,11 +83,13 @@ pub mod integrate;
 pub mod model;
 pub mod prelude;
 pub mod scalar;
+pub mod sectors;
 pub mod system;
 
 // What emitted code names, at the shortest path.
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
+pub use sectors::{Budget, Sectors};
 pub use system::{Energy, Pendulum, SymmetricPendulum};
 
 #[cfg(feature = "macros")]

@@ -170,6 +170,9 @@ impl Emission<'_> {
             Purpose::FrictionPower(n) => vec![
                 format!("Power (in W) of friction and drag on H_d of `{}`.", difference(n)),
             ],
+            Purpose::Budget(definition) => self.budget_meaning(definition),
+            Purpose::SectorTransfers(order) => self.sector_transfers_meaning(order),
+            Purpose::TransferMatrix => self.matrix_meaning(),
         };
         lines
     }

@@ -69,6 +69,9 @@ impl Emission<'_> {
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
             Purpose::AbsoluteVelocities
             | Purpose::MassMatrix
+            | Purpose::Budget(_)
+            | Purpose::SectorTransfers(_)
+            | Purpose::TransferMatrix
             | Purpose::HigherTransfer(..)
             | Purpose::StiffnessMatrix
             | Purpose::ToSymmetric

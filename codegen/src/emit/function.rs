@@ -56,6 +56,14 @@ impl Emission<'_> {
                 quote!([[T; #size]; #size])
             }
             Shape::Transfer => quote!(#runtime::Transfer<T>),
+            Shape::Transfers(count) => {
+                let count = Literal::usize_unsuffixed(count);
+                quote!([#runtime::Transfer<T>; #count])
+            }
+            Shape::Budget(count) => {
+                let count = Literal::usize_unsuffixed(count);
+                quote!(#runtime::Budget<T, #count>)
+            }
         }
     }
 
@@ -159,6 +167,24 @@ impl Emission<'_> {
             Shape::Transfer => {
                 let (kinetic, potential) = (&values[0], &values[1]);
                 quote!(#runtime::Transfer { kinetic: #kinetic, potential: #potential })
+            }
+            Shape::Transfers(_) => {
+                let transfers = values.chunks(2).map(|parts| {
+                    let (kinetic, potential) = (&parts[0], &parts[1]);
+                    quote!(#runtime::Transfer { kinetic: #kinetic, potential: #potential })
+                });
+                quote!([#(#transfers),*])
+            }
+            Shape::Budget(count) => {
+                let (energies, rest) = values.split_at(count);
+                let (transfers, powers) = rest.split_at(count);
+                quote! {
+                    #runtime::Budget {
+                        energies: [#(#energies),*],
+                        transfers: [#(#transfers),*],
+                        powers: [#(#powers),*],
+                    }
+                }
             }
         }
     }

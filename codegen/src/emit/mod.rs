@@ -1,6 +1,7 @@
 //! Program to tokens: the model type, its constructors, one function for each
 //! entry point, the runtime's traits, and the docs that carry the formulas.
 
+mod budget;
 mod docs;
 mod formulas;
 mod function;

@@ -16,10 +16,13 @@ impl Emission<'_> {
             .symmetric
             .is_some()
             .then(|| self.symmetric_pendulum());
+        let sectors = self.mechanics.sectors.as_ref();
+        let sectors = sectors.map(|sectors| self.sectors(sectors));
         quote! {
             #pendulum
             #energy
             #symmetric
+            #sectors
         }
     }
 

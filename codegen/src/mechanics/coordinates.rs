@@ -28,6 +28,22 @@ pub enum Kind {
     },
 }
 
+impl Kind {
+    /// Index of the orbit, and which of its coordinates: `None` for the mean,
+    /// group and number for a difference.
+    pub fn place(&self) -> (usize, Option<(usize, usize)>) {
+        match *self {
+            Self::Mean { orbit } => (orbit.0, None),
+            Self::Difference {
+                group,
+                index,
+                orbit,
+                ..
+            } => (orbit.0, Some((group, index))),
+        }
+    }
+}
+
 /// One symmetric coordinate: θ_link = Σ weight · coordinate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coordinate {

@@ -221,6 +221,11 @@ impl<'s> Derivation<'s> {
         (cos, sin)
     }
 
+    /// The same where they are in use already.
+    pub(super) fn known_between(&self, a: SymbolId, b: SymbolId) -> (SymbolId, SymbolId) {
+        self.of_two[&(a, b)]
+    }
+
     /// ∂/∂(coordinate) of a trigonometric symbol, if it depends on it.
     fn slope(&self, symbol: SymbolId, coordinate: SymbolId) -> Option<Formula> {
         let signed = |value: Formula, positive: bool| if positive { value } else { -value };

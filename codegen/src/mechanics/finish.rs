@@ -27,10 +27,20 @@ impl Derivation<'_> {
             absolute: self.frame(&absolute),
             coordinates: Vec::new(),
             symmetric: None,
+            sectors: None,
             expansion: None,
             transfers: Vec::new(),
         };
-        if self.scene.requests.symmetric {
+        let requests = &self.scene.requests;
+        let nested = requests.symmetric && self.is_nested();
+        if requests.budget.is_some() || nested {
+            let coordinates = coordinates::symmetric_coordinates(self.scene);
+            mechanics.sectors = Some(self.sectors(&absolute, &coordinates));
+            mechanics.coordinates = coordinates;
+        }
+        if nested {
+            mechanics.symmetric = Some(self.symbols_of(&mechanics.coordinates));
+        } else if requests.symmetric {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
             let symmetric = self.symmetric_frame(&absolute, &coordinates);
             mechanics.symmetric = Some(self.frame(&symmetric));
@@ -59,6 +69,32 @@ impl Derivation<'_> {
         mechanics.combinations = self.combinations;
         mechanics.symbols = self.symbols;
         mechanics
+    }
+
+    /// Whether copies branch into copies, or have other links below them.
+    fn is_nested(&self) -> bool {
+        let scene = self.scene;
+        let copies = scene.groups.iter().flat_map(|group| &group.copies);
+        let mut parents = scene.links.iter().filter_map(|link| link.parent);
+        let copies: Vec<_> = copies.collect();
+        parents.any(|parent| copies.contains(&&parent))
+    }
+
+    /// A frame that names the coordinates and says nothing of their motion.
+    fn symbols_of(&mut self, coordinates: &[Coordinate]) -> Frame {
+        let names: Vec<&String> = coordinates.iter().map(|c| &c.name).collect();
+        Frame {
+            coordinates: names.iter().map(|name| self.coordinate(name)).collect(),
+            velocities: names.iter().map(|name| self.velocity(name)).collect(),
+            momenta: names.iter().map(|name| self.momentum(name)).collect(),
+            mass: Vec::new(),
+            stiffness: None,
+            energies: None,
+            momentum: None,
+            dissipative_forces: Vec::new(),
+            drive: Vec::new(),
+            bias: Vec::new(),
+        }
     }
 
     fn expr(&self, formula: &Formula) -> Expr {

@@ -14,6 +14,7 @@ mod frame;
 mod inverse_mass;
 mod lagrangian;
 mod print;
+pub mod sectors;
 mod series;
 mod show;
 mod symmetric;
@@ -24,6 +25,7 @@ pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use inverse_mass::Counting;
 pub use print::{latex, text};
+pub use sectors::{Coupling, OrbitConstants, Sector, Sectors};
 
 use crate::scene::Scene;
 use derivation::Derivation;
@@ -198,8 +200,12 @@ pub struct Mechanics {
     pub absolute: Frame,
     /// The symmetric coordinates, if asked for.
     pub coordinates: Vec<Coordinate>,
-    /// The mechanics in symmetric coordinates, if asked for.
+    /// The mechanics in symmetric coordinates, if asked for. On nested trees its
+    /// symbols alone: the program is formed from `sectors` there.
     pub symmetric: Option<Frame>,
+    /// The mechanics by orbits and sectors, if a budget is asked for, or
+    /// symmetric coordinates of a nested tree.
+    pub sectors: Option<Sectors>,
     /// Expansion about the in-phase motion, if a transfer is asked for.
     pub expansion: Option<Expansion>,
     /// Energy transfers, one for each difference, if asked for.

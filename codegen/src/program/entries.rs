@@ -16,21 +16,30 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Vec<Entry> 
     list.absolute(mechanics);
     if let Some(symmetric) = &mechanics.symmetric {
         list.transforms(scene, mechanics);
-        list.symmetric(symmetric);
+        match &mechanics.sectors {
+            // Only the names of the frame are derived then.
+            Some(sectors) if symmetric.mass.is_empty() => {
+                list.symmetric_by_copies(scene, sectors);
+            }
+            _ => list.symmetric(symmetric),
+        }
         for (number, transfer) in mechanics.transfers.iter().enumerate() {
             list.transfer(mechanics, symmetric, number, transfer);
         }
     }
+    if let (Some(sectors), Some(request)) = (&mechanics.sectors, &scene.requests.budget) {
+        list.budgets(scene, sectors, request);
+    }
     list.entries
 }
 
-struct EntryList<'l, 'm> {
-    lowering: &'l mut Lowering<'m>,
+pub(super) struct EntryList<'l, 'm> {
+    pub(super) lowering: &'l mut Lowering<'m>,
     entries: Vec<Entry>,
 }
 
 impl EntryList<'_, '_> {
-    fn push(
+    pub(super) fn push(
         &mut self,
         name: &str,
         purpose: Purpose,

@@ -269,6 +269,12 @@ impl<'a> Lowering<'a> {
         matrix
     }
 
+    /// An expression in constants and parameters as a value.
+    pub(super) fn constant_value(&mut self, expr: &Expr) -> ValueId {
+        let constant = self.constant_expr(expr);
+        self.builder.constant(constant)
+    }
+
     /// A matrix's entries as values.
     pub(super) fn matrix(&mut self, door: &mut Door<'_>, entries: &[MatrixEntry]) -> Matrix {
         entries

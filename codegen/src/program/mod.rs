@@ -7,12 +7,14 @@
 
 mod builder;
 mod constants;
+mod copies;
 mod count;
 mod entries;
 mod interpret;
 mod lower;
 mod named;
 mod rebuild;
+mod sectors;
 mod solve;
 mod spelling;
 mod text;
@@ -121,6 +123,23 @@ pub enum Shape {
     Matrix(usize),
     /// A `Transfer`: kinetic part, potential part.
     Transfer,
+    /// That many `Transfer`s.
+    Transfers(usize),
+    /// A `Budget` of that many sectors: energies, transfers, powers.
+    Budget(usize),
+}
+
+/// How the kinetic energy of a sector is defined (physics §5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnergyDefinition {
+    /// A0: ½ pᵀ B(0)⁻¹ p.
+    Rest,
+    /// A1: ½ pᵀ B(θ)⁻¹ p.
+    Canonical,
+    /// B: Parseval for the velocities.
+    Parseval,
+    /// C: ½ ωᵀ B(θ) ω.
+    Velocity,
 }
 
 /// What an entry point computes; the emitter documents it accordingly.
@@ -168,6 +187,13 @@ pub enum Purpose {
     ExactTransferFromRates(usize),
     /// Power of friction on H_d.
     FrictionPower(usize),
+    /// Energies of all sectors, the transfers into them and the power of other
+    /// forces.
+    Budget(EnergyDefinition),
+    /// W of all sectors by parts: exact, or through an order in the amplitude.
+    SectorTransfers(Option<u32>),
+    /// {E_s, E_r} of the sectors by Parseval.
+    TransferMatrix,
 }
 
 /// An entry point: the program pruned to its outputs becomes a function.

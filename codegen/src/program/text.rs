@@ -18,6 +18,17 @@ impl Argument {
     }
 }
 
+impl Argument {
+    /// What stands before a coordinate's name for an element of the argument.
+    pub(super) fn letter(self) -> &'static str {
+        match self {
+            Self::Theta | Self::Coordinates | Self::Absolute | Self::Symmetric => "theta",
+            Self::Omega | Self::Rates => "omega",
+            Self::AbsoluteMomenta | Self::Momenta => "p",
+        }
+    }
+}
+
 impl fmt::Display for Program {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "constants")?;

@@ -87,6 +87,8 @@ impl Program {
                 Shape::Vector => !entry.outputs.is_empty(),
                 Shape::Matrix(size) => entry.outputs.len() == size * size,
                 Shape::Transfer => entry.outputs.len() == 2,
+                Shape::Transfers(count) => entry.outputs.len() == 2 * count,
+                Shape::Budget(count) => entry.outputs.len() == 3 * count,
             };
             let in_range = entry
                 .outputs

@@ -192,6 +192,20 @@ pub enum Message {
         /// The output.
         name: String,
     },
+    /// A form of the budget that does not exist.
+    UnknownBudgetForm {
+        /// As written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<&'static str>,
+    },
+    /// `budget()` without any form.
+    NoBudgetForm,
+    /// A form of the budget that takes no value.
+    BudgetOrder {
+        /// The form.
+        form: String,
+    },
     /// A form of the transfer that does not exist.
     UnknownForm {
         /// As written.

@@ -228,8 +228,8 @@ impl Message {
                 "cannot be emitted",
                 suggest(
                     nearest,
-                    "outputs are `energies`, `momenta`, `modes`, `symmetric`, `transfer(...)`; \
-                     accelerations are always there",
+                    "outputs are `energies`, `momenta`, `modes`, `symmetric`, `transfer(...)`, \
+                     `budget(...)`; accelerations are always there",
                 ),
             ),
             M::DuplicateRequest { name } => problem(
@@ -251,6 +251,25 @@ impl Message {
                 "no form of the transfer is chosen",
                 "empty",
                 "write `transfer` for all forms, or choose: `transfer(exact)`",
+            ),
+            M::UnknownBudgetForm { name, nearest } => problem(
+                format!("unknown form `{name}` of the budget"),
+                "not a form",
+                suggest(
+                    nearest,
+                    "forms are `canonical`, `parseval`, `velocity`, `rest`, `matrix`, \
+                     `amplitude = 4`",
+                ),
+            ),
+            M::NoBudgetForm => problem(
+                "no form of the budget is chosen",
+                "empty",
+                "write `budget` for all exact forms, or choose: `budget(parseval)`",
+            ),
+            M::BudgetOrder { form } => problem(
+                format!("`{form}` has no order"),
+                "takes no value",
+                format!("write `{form}` alone"),
             ),
             M::ExactOrder => problem(
                 "the exact transfer has no order",
@@ -294,8 +313,8 @@ impl Message {
                          have some"
                 ),
                 "tree not supported",
-                "available are all of `transfer(angle = 1, amplitude = 2, exact)` for \
-                   trees whose copied links are leaves; leave it out for this tree",
+                "for this tree ask for `budget(canonical, amplitude = 4)`, which knows sectors of \
+                   any size; `transfer` is for trees whose copied links are leaves",
             ),
         }
     }

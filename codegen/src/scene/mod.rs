@@ -200,6 +200,27 @@ pub struct Requests {
     /// Energy transfer into the differences. Comes with `momenta` and
     /// `symmetric`.
     pub transfer: Option<TransferRequest>,
+    /// Energies of all sectors and the transfers between them.
+    pub budget: Option<BudgetRequest>,
+}
+
+/// Which forms of the sectors' budget are asked for; at least one. The forms
+/// differ in the kinetic energy that a sector is said to have.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct BudgetRequest {
+    /// From the momenta and the sector's block of the mass matrix at rest.
+    pub rest: bool,
+    /// From the momenta and the block at the configuration.
+    pub canonical: bool,
+    /// By Parseval from the velocities of the centres of mass.
+    pub parseval: bool,
+    /// From the velocities and the block at the configuration.
+    pub velocity: bool,
+    /// Who gives whom how much, by Parseval.
+    pub matrix: bool,
+    /// Orders in the amplitude of the differences through which the transfers
+    /// are expanded. Comes with `momenta` and `symmetric`.
+    pub amplitude_orders: Vec<u32>,
 }
 
 /// Which forms of the energy transfer are asked for; at least one.

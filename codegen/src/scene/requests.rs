@@ -5,12 +5,29 @@ use std::ops::RangeInclusive;
 use proc_macro2::Span;
 
 use super::expand::Expansion;
-use super::{LinkId, Requests, TransferRequest};
+use super::{BudgetRequest, LinkId, Requests, TransferRequest};
 use crate::description::{Form, Request};
 use crate::report::{Message, Report, nearest};
 
 /// All outputs.
-const OUTPUTS: &[&str] = &["energies", "momenta", "modes", "symmetric", "transfer"];
+const OUTPUTS: &[&str] = &[
+    "energies",
+    "momenta",
+    "modes",
+    "symmetric",
+    "transfer",
+    "budget",
+];
+
+/// All forms of the budget.
+const BUDGET_FORMS: &[&str] = &[
+    "canonical",
+    "parseval",
+    "velocity",
+    "rest",
+    "matrix",
+    "amplitude",
+];
 
 /// All forms of the transfer.
 const FORMS: &[&str] = &["angle", "amplitude", "exact"];
@@ -26,6 +43,7 @@ pub(super) struct Resolved {
     pub(super) requests: Requests,
     symmetric: Option<Span>,
     transfer: Option<Span>,
+    budget: Option<Span>,
 }
 
 /// Reads the requests; what is wrong goes to `report`.
@@ -34,6 +52,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         requests: Requests::default(),
         symmetric: None,
         transfer: None,
+        budget: None,
     };
     let mut seen: Vec<String> = Vec::new();
     for Request {
@@ -47,7 +66,8 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             report.error(span, Message::DuplicateRequest { name: text });
             continue;
         }
-        if forms.is_some() && text != "transfer" && OUTPUTS.contains(&text.as_str()) {
+        let formless = text != "transfer" && text != "budget";
+        if forms.is_some() && formless && OUTPUTS.contains(&text.as_str()) {
             report.error(span, Message::RequestForms { name: text.clone() });
         }
         let wanted = &mut resolved.requests;
@@ -63,6 +83,10 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
                 wanted.transfer = Some(transfer(span, forms.as_deref(), *damaged, report));
                 resolved.transfer = Some(span);
             }
+            "budget" => {
+                wanted.budget = Some(budget(span, forms.as_deref(), *damaged, report));
+                resolved.budget = Some(span);
+            }
             _ => {
                 let nearest = nearest(&text, OUTPUTS);
                 let name = text.clone();
@@ -71,12 +95,85 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         }
         seen.push(text);
     }
-    // The transfer is stated in canonical symmetric coordinates.
-    if resolved.requests.transfer.is_some() {
-        resolved.requests.symmetric = true;
-        resolved.requests.momenta = true;
+    // The transfer is stated in canonical symmetric coordinates, and so are
+    // truncated budgets.
+    let wanted = &mut resolved.requests;
+    let truncated = wanted
+        .budget
+        .as_ref()
+        .is_some_and(|budget| !budget.amplitude_orders.is_empty());
+    if wanted.transfer.is_some() || truncated {
+        wanted.symmetric = true;
+        wanted.momenta = true;
     }
     resolved
+}
+
+/// Reads the forms of the budget; all exact ones if none is named.
+fn budget(
+    span: Span,
+    forms: Option<&[Form]>,
+    damaged: bool,
+    report: &mut Report,
+) -> BudgetRequest {
+    let mut request = BudgetRequest::default();
+    let Some(forms) = forms else {
+        return BudgetRequest {
+            rest: false,
+            canonical: true,
+            parseval: true,
+            velocity: true,
+            matrix: true,
+            amplitude_orders: Vec::new(),
+        };
+    };
+    if forms.is_empty() && !damaged {
+        report.error(span, Message::NoBudgetForm);
+    }
+    let mut seen: Vec<(String, Option<u32>)> = Vec::new();
+    for Form { name, value } in forms {
+        let text = name.to_string();
+        let order = value.map(|value| value.count);
+        if seen.contains(&(text.clone(), order)) {
+            report.error(name.span(), Message::DuplicateRequest { name: text });
+            continue;
+        }
+        let place = value.map_or(name.span(), |value| value.span);
+        let flag = match text.as_str() {
+            "canonical" => Some(&mut request.canonical),
+            "parseval" => Some(&mut request.parseval),
+            "velocity" => Some(&mut request.velocity),
+            "rest" => Some(&mut request.rest),
+            "matrix" => Some(&mut request.matrix),
+            _ => None,
+        };
+        match (flag, text.as_str()) {
+            (Some(flag), _) => {
+                *flag = true;
+                if value.is_some() {
+                    let form = text.clone();
+                    report.error(place, Message::BudgetOrder { form });
+                }
+            }
+            (None, "amplitude") => match order.filter(|order| AMPLITUDE_ORDERS.contains(order)) {
+                Some(order) => request.amplitude_orders.push(order),
+                None => report.error(place, Message::AmplitudeOrder),
+            },
+            _ => {
+                let nearest = nearest(&text, BUDGET_FORMS);
+                let name_of_form = text.clone();
+                report.error(
+                    name.span(),
+                    Message::UnknownBudgetForm {
+                        name: name_of_form,
+                        nearest,
+                    },
+                );
+            }
+        }
+        seen.push((text, order));
+    }
+    request
 }
 
 /// Reads the forms of the transfer; all of them if none is named.
@@ -150,6 +247,7 @@ pub(super) fn check_symmetry(resolved: &Resolved, expansion: &Expansion, report:
         let needy = [
             (resolved.symmetric, "symmetric"),
             (resolved.transfer, "transfer"),
+            (resolved.budget, "budget"),
         ];
         for (span, request) in needy {
             if let Some(span) = span {

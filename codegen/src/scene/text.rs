@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    CratePath, Group, Link, Offset, Orbit, Parameter, Requests, Requirement, Scene, Sign,
+    BudgetRequest, CratePath, Group, Link, Offset, Orbit, Parameter, Requests, Requirement, Scene, Sign,
     TransferRequest,
 };
 
@@ -138,6 +138,7 @@ impl Display for Requests {
             modes,
             symmetric,
             transfer,
+            budget,
         } = self;
         write!(f, "accelerations")?;
         let named = [
@@ -151,10 +152,43 @@ impl Display for Requests {
                 write!(f, ", {name}")?;
             }
         }
-        match transfer {
-            Some(transfer) => write!(f, ", {transfer}"),
+        if let Some(transfer) = transfer {
+            write!(f, ", {transfer}")?;
+        }
+        match budget {
+            Some(budget) => write!(f, ", {budget}"),
             None => Ok(()),
         }
+    }
+}
+
+impl Display for BudgetRequest {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            rest,
+            canonical,
+            parseval,
+            velocity,
+            matrix,
+            amplitude_orders,
+        } = self;
+        let flags = [
+            (rest, "rest"),
+            (canonical, "canonical"),
+            (parseval, "parseval"),
+            (velocity, "velocity"),
+            (matrix, "matrix"),
+        ];
+        let named = flags.iter().filter(|(wanted, _)| **wanted);
+        let forms: Vec<String> = named
+            .map(|(_, name)| (*name).to_owned())
+            .chain(
+                amplitude_orders
+                    .iter()
+                    .map(|order| format!("amplitude = {order}")),
+            )
+            .collect();
+        write!(f, "budget({})", forms.join(", "))
     }
 }
 

@@ -1,0 +1,139 @@
+//! What is emitted about sectors besides functions: their list, and the docs
+//! of their energies.
+
+use super::Emission;
+use crate::mechanics::Sectors;
+use crate::mechanics::expression::Expr;
+use crate::program::EnergyDefinition;
+use crate::scene::LinkId;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+impl Emission<'_> {
+    /// `impl Sectors`: which coordinates form which sector, and how links
+    /// weigh in them.
+    pub(super) fn sectors(&self, sectors: &Sectors) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let list = sectors.sectors.iter().map(|sector| {
+            let sector_name = &sector.name;
+            let coordinates = sector.coordinates.iter().map(|&index| {
+                let coordinate = &self.mechanics.coordinates[index];
+                let coordinate_name = format!("theta_{}", coordinate.name);
+                let weights = coordinate.weights.iter().map(|&(LinkId(link), weight)| {
+                    let link = Literal::usize_unsuffixed(link);
+                    let size = Literal::f64_unsuffixed(weight.unsigned_abs() as f64);
+                    let weight = if weight < 0 {
+                        quote!(-#size)
+                    } else {
+                        quote!(#size)
+                    };
+                    quote!((#link, #weight))
+                });
+                quote! {
+                    #runtime::sectors::SectorCoordinate {
+                        name: #coordinate_name,
+                        weights: &[#(#weights),*],
+                    }
+                }
+            });
+            quote! {
+                #runtime::sectors::Sector {
+                    name: #sector_name,
+                    coordinates: &[#(#coordinates),*],
+                }
+            }
+        });
+        quote! {
+            // As for the functions above.
+            #[allow(clippy::possible_missing_comma)]
+            impl<T: #runtime::Scalar> #runtime::Sectors for #name<T> {
+                const SECTORS: &'static [#runtime::sectors::Sector] = &[#(#list),*];
+            }
+        }
+    }
+
+    fn sector_names(&self) -> String {
+        let sectors = self.mechanics.sectors.iter();
+        let names: Vec<String> = sectors
+            .flat_map(|sectors| &sectors.sectors)
+            .map(|sector| format!("`{}`", sector.name))
+            .collect();
+        format!("Sectors, in order: {}.", names.join(", "))
+    }
+
+    pub(super) fn budget_meaning(&self, definition: EnergyDefinition) -> Vec<String> {
+        let (kinetic, formula, closes) = match definition {
+            EnergyDefinition::Rest => (
+                "from its momenta and its block of the mass matrix at rest",
+                "E_s = ½ p_sᵀ B_s(0)⁻¹ p_s + V_s",
+                "The energies leave out an interaction energy H − Σ E_s.",
+            ),
+            EnergyDefinition::Canonical => (
+                "from its momenta and its block of the mass matrix at the configuration",
+                "E_s = ½ p_sᵀ B_s(θ)⁻¹ p_s + V_s",
+                "The energies leave out an interaction energy H − Σ E_s.",
+            ),
+            EnergyDefinition::Parseval => (
+                "by Parseval from the velocities of the centres of mass",
+                "E_s = Σ (m |[v]_s|² + I [ω]_s²)/2 + V_s",
+                "The energies sum to H, the transfers to zero, the powers to what friction and drive do to H.",
+            ),
+            EnergyDefinition::Velocity => (
+                "from its velocities and its block of the mass matrix at the configuration",
+                "E_s = ½ ω_sᵀ B_s(θ) ω_s + V_s",
+                "The energies leave out an interaction energy H − Σ E_s.",
+            ),
+        };
+        let mut lines = vec![
+            format!("Energies E_s of all sectors (in J), the transfers W_s into them and the powers P_s of friction and drive (in W), so that dE_s/dt = W_s + P_s without truncation. The kinetic energy of a sector is taken {kinetic}."),
+            String::new(),
+            "```text".into(),
+            formula.into(),
+            "V_s = Σ G |[1 − e^{iθ}]_s|²/2 + springs".into(),
+            "```".into(),
+            String::new(),
+            format!("[x]_s is the part of x in the symmetric coordinates of the sector, links summed; V_s sums to U and has the period 2π in every angle, springs aside. {closes}"),
+        ];
+        let lateral = self.mechanics.sectors.as_ref().is_some_and(|sectors| {
+            sectors
+                .orbits
+                .iter()
+                .any(|orbit| orbit.lateral_gravity != Expr::zero())
+        });
+        if lateral {
+            lines.push(String::new());
+            lines.push("What lateral offsets do to the weight, F sin θ, is counted in the sector of the means; the energies of differences are then not those of the linear modes.".into());
+        }
+        lines.push(String::new());
+        lines.push(self.sector_names());
+        lines
+    }
+
+    pub(super) fn sector_transfers_meaning(&self, order: Option<u32>) -> Vec<String> {
+        let mut lines = match order {
+            None => vec![
+                "Energy transfer W_s = {E_s, H} (in W) into every sector without truncation, by what does it: the kinetic energy of the rest of the tree or its potential energy. E_s as in `budget_canonical`.".to_owned(),
+            ],
+            Some(order) => vec![
+                format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector through order {order} in the amplitude ε of all differences, angles and momenta alike. E_s as in `budget_canonical`. Remainder of order {} in ε, one more where all branchings are into two.", order + 1),
+            ],
+        };
+        lines.push(String::new());
+        lines.push("```text".into());
+        lines.push("kinetic = {E_s, K − T_s}, potential = {E_s, U − V_s}".into());
+        lines.push("```".into());
+        lines.push(String::new());
+        lines.push(self.sector_names());
+        lines
+    }
+
+    pub(super) fn matrix_meaning(&self) -> Vec<String> {
+        vec![
+            "Transfer matrix (in W): row s, column r holds W(r→s) = {E_s, E_r}, what sector r gives sector s. Energies by Parseval, as in `budget_parseval`.".into(),
+            String::new(),
+            "Antisymmetric to the last bit; row s sums to the transfer into s.".into(),
+            String::new(),
+            self.sector_names(),
+        ]
+    }
+}

@@ -1,0 +1,158 @@
+//! What the sectors' energies and transfers are made of (physics §3, §5): the
+//! constants of each orbit, once for all its copies, and which coordinates
+//! form a sector.
+//!
+//! On a nested tree the formulas in symmetric coordinates would fill pages; the
+//! program is formed from these constants by arithmetic on means and
+//! differences instead.
+
+use super::algebra::Formula;
+use super::coordinates::Coordinate;
+use super::derivation::Derivation;
+use super::expression::Expr;
+use super::frame::Frame;
+use crate::scene::{LinkId, Offset};
+
+/// Constants of the links of one orbit; each is an expression in named
+/// constants, parameters and numbers, zero where the scene has no such thing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OrbitConstants {
+    /// Mass.
+    pub mass: Expr,
+    /// Moment of inertia about the centre of mass.
+    pub inertia: Expr,
+    /// Centre of mass from the link's pivot, along and across.
+    pub com: [Expr; 2],
+    /// The link's pivot from its parent's, along and across.
+    pub pivot: [Expr; 2],
+    /// Diagonal entry of the mass matrix.
+    pub moment: Expr,
+    /// G in G (1 − cos θ).
+    pub gravity: Expr,
+    /// F in F sin θ, of lateral offsets.
+    pub lateral_gravity: Expr,
+    /// Stiffness of the torsion spring in the pivot.
+    pub spring: Expr,
+    /// Viscous friction in the pivot.
+    pub friction: Expr,
+    /// Viscous drag against the ground.
+    pub drag: Expr,
+}
+
+/// Entry of the mass matrix between the links of an orbit and those of an
+/// ancestor's: cosine · cos(θ_row − θ_column) + sine · sin(θ_row − θ_column).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupling {
+    /// Orbit of the descendants.
+    pub row: usize,
+    /// Orbit of the ancestors.
+    pub column: usize,
+    /// Factor of the cosine.
+    pub cosine: Expr,
+    /// Factor of the sine.
+    pub sine: Expr,
+}
+
+/// A sector: the variables that block of the mass matrix couples which belongs
+/// to one branching and one difference, or to all means.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sector {
+    /// `in_phase`, or the name of its uppermost coordinate.
+    pub name: String,
+    /// Group and number of the difference; `None` for the means.
+    pub place: Option<(usize, usize)>,
+    /// Indices of its symmetric coordinates, from the root outwards.
+    pub coordinates: Vec<usize>,
+}
+
+/// The mechanics of a scene by orbits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sectors {
+    /// Constants of each orbit of the scene, in its order.
+    pub orbits: Vec<OrbitConstants>,
+    /// Couplings of orbits to those above them, none of them zero.
+    pub couplings: Vec<Coupling>,
+    /// The sectors: the in-phase one, then the differences, outer branchings
+    /// first.
+    pub sectors: Vec<Sector>,
+}
+
+/// The sectors of a set of symmetric coordinates.
+pub fn sectors(coordinates: &[Coordinate]) -> Vec<Sector> {
+    let mut sectors: Vec<Sector> = Vec::new();
+    for (index, coordinate) in coordinates.iter().enumerate() {
+        let (_, place) = coordinate.kind.place();
+        match sectors.iter_mut().find(|sector| sector.place == place) {
+            Some(sector) => sector.coordinates.push(index),
+            None => sectors.push(Sector {
+                name: match place {
+                    None => "in_phase".to_owned(),
+                    Some(_) => coordinate.name.clone(),
+                },
+                place,
+                coordinates: vec![index],
+            }),
+        }
+    }
+    sectors
+}
+
+impl Derivation<'_> {
+    /// Reads the constants of each orbit out of the Lagrangian of the absolute
+    /// angles; one link stands for all of its orbit.
+    pub(super) fn sectors(&self, frame: &Frame, coordinates: &[Coordinate]) -> Sectors {
+        let scene = self.scene;
+        let mut orbits = Vec::new();
+        let mut couplings = Vec::new();
+        for (row, orbit) in scene.orbits.iter().enumerate() {
+            let LinkId(index) = orbit.links[0];
+            let link = &scene.links[index];
+            let angle = frame.coordinates[index];
+            let slope = |symbol| frame.potential.derivative(symbol).expand();
+            let named = |letter: &str| match self.symbols.find(&format!("{letter}_{}", orbit.name)) {
+                Some(symbol) => Expr::Symbol(symbol),
+                None => Expr::zero(),
+            };
+            let optional = |value: &Option<_>, letter| match value {
+                Some(_) => named(letter),
+                None => Expr::zero(),
+            };
+            let offset = |offset: &Offset| {
+                [&offset.along, &offset.lateral]
+                    .map(|component| self.quantity(component).expand().to_expr(&self.symbols))
+            };
+            let expr = |formula: Formula| formula.to_expr(&self.symbols);
+            orbits.push(OrbitConstants {
+                mass: expr(self.quantity(&link.mass)),
+                inertia: expr(self.quantity(&link.inertia)),
+                com: offset(&link.com),
+                pivot: offset(&link.pivot),
+                moment: expr(frame.mass.get(index, index)),
+                gravity: expr(-slope(self.cos(angle))),
+                lateral_gravity: expr(slope(self.sin(angle))),
+                spring: optional(&link.spring, "κ"),
+                friction: optional(&link.friction, "c"),
+                drag: optional(&link.drag, "k"),
+            });
+            let mut above = link.parent;
+            while let Some(LinkId(ancestor)) = above {
+                let entry = frame.mass.get(index, ancestor);
+                if !entry.is_zero() {
+                    let (cos, sin) = self.known_between(angle, frame.coordinates[ancestor]);
+                    couplings.push(Coupling {
+                        row,
+                        column: scene.links[ancestor].orbit.0,
+                        cosine: expr(entry.derivative(cos)),
+                        sine: expr(entry.derivative(sin)),
+                    });
+                }
+                above = scene.links[ancestor].parent;
+            }
+        }
+        Sectors {
+            orbits,
+            couplings,
+            sectors: sectors(coordinates),
+        }
+    }
+}

@@ -1,0 +1,368 @@
+//! The tree's motion by orbits: mass matrix, generalized forces and the solve,
+//! in fields instead of single links.
+
+use super::field::{Copies, Field};
+use super::series::Series;
+use super::turn::Direction;
+use crate::program::ValueId;
+use std::collections::BTreeMap;
+
+/// Values of the constants of one orbit; zeros are empty series.
+pub(in crate::program) struct OrbitValues {
+    pub(in crate::program) mass: Series,
+    pub(in crate::program) inertia: Series,
+    pub(in crate::program) com: [Series; 2],
+    pub(in crate::program) pivot: [Series; 2],
+    pub(in crate::program) moment: Series,
+    pub(in crate::program) gravity: Series,
+    pub(in crate::program) lateral_gravity: Series,
+    pub(in crate::program) spring: Series,
+    pub(in crate::program) friction: Series,
+    pub(in crate::program) drag: Series,
+}
+
+/// Values of a coupling's constants, and the orbits that it couples.
+pub(in crate::program) struct CouplingValues {
+    pub(in crate::program) row: usize,
+    pub(in crate::program) column: usize,
+    pub(in crate::program) cosine: Series,
+    pub(in crate::program) sine: Series,
+}
+
+/// The constants of a scene.
+pub(in crate::program) struct Values {
+    pub(in crate::program) orbits: Vec<OrbitValues>,
+    pub(in crate::program) couplings: Vec<CouplingValues>,
+}
+
+/// One field for each orbit: a vector with one component for each link.
+pub(in crate::program) type Fields = Vec<Field>;
+
+/// Lower triangle of a symmetric matrix by orbits. The entry (row, column)
+/// belongs to the links of orbit `row` and their ancestors in `column`.
+pub(super) type OrbitMatrix = BTreeMap<(usize, usize), Field>;
+
+/// A coupling at a configuration: the entry of the mass matrix and its
+/// derivative in the angle of the descendant.
+pub(super) struct Entry {
+    pub(in crate::program) row: usize,
+    pub(in crate::program) column: usize,
+    pub(super) value: Field,
+    pub(super) slope: Field,
+}
+
+/// A configuration: what depends on the angles alone.
+pub(in crate::program) struct Pose {
+    pub(super) angles: Fields,
+    pub(super) directions: Vec<Direction>,
+    pub(super) entries: Vec<Entry>,
+}
+
+/// Factors L and D of the mass matrix, LᵀDL, over the tree without fill-in.
+pub(in crate::program) struct Factors {
+    inverses: Vec<Field>,
+    /// Descendant, ancestor, multiplier.
+    ratios: Vec<(usize, usize, Field)>,
+}
+
+impl Copies<'_> {
+    /// The configuration with these angles.
+    pub(in crate::program) fn pose(&mut self, values: &Values, angles: Fields) -> Pose {
+        let directions: Vec<Direction> = angles.iter().map(|angle| self.direction(angle)).collect();
+        let mut entries = Vec::new();
+        for coupling in &values.couplings {
+            let CouplingValues { row, column, .. } = *coupling;
+            let own = directions[row].clone();
+            let cos_above = self.lift(&directions[column].cos, row);
+            let sin_above = self.lift(&directions[column].sin, row);
+            let products = [
+                self.mul(&own.cos, &cos_above),
+                self.mul(&own.sin, &sin_above),
+                self.mul(&own.sin, &cos_above),
+                self.mul(&own.cos, &sin_above),
+            ];
+            let cos = self.add(&products[0], &products[1]);
+            let sin = self.sub(&products[2], &products[3]);
+            let parts = [
+                self.scale(&coupling.cosine, &cos),
+                self.scale(&coupling.sine, &sin),
+                self.scale(&coupling.sine, &cos),
+                self.scale(&coupling.cosine, &sin),
+            ];
+            entries.push(Entry {
+                row,
+                column,
+                value: self.add(&parts[0], &parts[1]),
+                slope: self.sub(&parts[2], &parts[3]),
+            });
+        }
+        Pose {
+            angles,
+            directions,
+            entries,
+        }
+    }
+
+    pub(in crate::program) fn zeros(&self) -> Fields {
+        (0..self.orbits.len()).map(Field::zero).collect()
+    }
+
+    pub(super) fn accumulate(&mut self, sums: &mut Fields, term: &Field) {
+        let orbit = term.orbit;
+        sums[orbit] = self.add(&sums[orbit], term);
+    }
+
+    fn mass_matrix(&mut self, values: &Values, pose: &Pose) -> OrbitMatrix {
+        let mut matrix = OrbitMatrix::new();
+        for (orbit, constants) in values.orbits.iter().enumerate() {
+            matrix.insert((orbit, orbit), Field::uniform(orbit, constants.moment.clone()));
+        }
+        for entry in &pose.entries {
+            matrix.insert((entry.row, entry.column), entry.value.clone());
+        }
+        matrix
+    }
+
+    /// M v.
+    pub(in crate::program) fn momenta(&mut self, values: &Values, pose: &Pose, rates: &Fields) -> Fields {
+        let mut momenta: Fields = rates
+            .iter()
+            .zip(&values.orbits)
+            .map(|(rate, constants)| self.scale(&constants.moment, rate))
+            .collect();
+        for entry in &pose.entries {
+            let above = self.lift(&rates[entry.column], entry.row);
+            let down = self.mul(&entry.value, &above);
+            self.accumulate(&mut momenta, &down);
+            let up = self.mul(&entry.value, &rates[entry.row]);
+            let up = self.gather(&up, entry.column);
+            self.accumulate(&mut momenta, &up);
+        }
+        momenta
+    }
+
+    /// Eliminates from the leaves to the root (Featherstone, Rigid Body
+    /// Dynamics Algorithms, 2008, §6.5), all copies of an orbit at once.
+    pub(in crate::program) fn factors(&mut self, values: &Values, pose: &Pose) -> Factors {
+        let mut matrix = self.mass_matrix(values, pose);
+        let mut inverses = Vec::new();
+        let mut ratios = Vec::new();
+        for orbit in (0..self.orbits.len()).rev() {
+            let pivot = matrix[&(orbit, orbit)].clone();
+            let inverse = self.reciprocal(&pivot);
+            let row: Vec<(usize, Field)> = (0..orbit)
+                .filter_map(|above| Some((above, matrix.get(&(orbit, above))?.clone())))
+                .collect();
+            for (above, value) in &row {
+                let ratio = self.mul(value, &inverse);
+                for (other, entry) in row.iter().filter(|(other, _)| other <= above) {
+                    let product = self.mul(&ratio, entry);
+                    let product = self.gather(&product, *above);
+                    let old = matrix.remove(&(*above, *other));
+                    let old = old.unwrap_or_else(|| Field::zero(*above));
+                    let new = self.sub(&old, &product);
+                    matrix.insert((*above, *other), new);
+                }
+                ratios.push((orbit, *above, ratio));
+            }
+            inverses.push(inverse);
+        }
+        inverses.reverse();
+        Factors { inverses, ratios }
+    }
+
+    /// x with M x = right.
+    pub(in crate::program) fn solve(&mut self, factors: &Factors, right: &Fields) -> Fields {
+        let mut solution = right.clone();
+        for (orbit, above, ratio) in &factors.ratios {
+            let product = self.mul(ratio, &solution[*orbit]);
+            let product = self.gather(&product, *above);
+            solution[*above] = self.sub(&solution[*above], &product);
+        }
+        for (orbit, inverse) in factors.inverses.iter().enumerate() {
+            solution[orbit] = self.mul(&solution[orbit], inverse);
+            for (_, above, ratio) in factors.ratios.iter().filter(|(o, ..)| *o == orbit) {
+                let above = self.lift(&solution[*above], orbit);
+                let product = self.mul(ratio, &above);
+                solution[orbit] = self.sub(&solution[orbit], &product);
+            }
+        }
+        solution
+    }
+
+    /// ∂U/∂θ of gravity and springs.
+    pub(super) fn potential_gradient(&mut self, values: &Values, pose: &Pose) -> Fields {
+        let mut gradient = self.zeros();
+        for (orbit, constants) in values.orbits.iter().enumerate() {
+            let direction = &pose.directions[orbit];
+            let along = self.scale(&constants.gravity, &direction.sin);
+            let across = self.scale(&constants.lateral_gravity, &direction.cos);
+            self.accumulate(&mut gradient, &along);
+            self.accumulate(&mut gradient, &across);
+        }
+        self.in_joints(&mut gradient, &pose.angles, values, |constants| &constants.spring);
+        gradient
+    }
+
+    /// Adds stiffness · (own − parent's) to each link, and its opposite to the
+    /// parent.
+    pub(super) fn in_joints(
+        &mut self,
+        sums: &mut Fields,
+        positions: &Fields,
+        values: &Values,
+        stiffness: fn(&OrbitValues) -> &Series,
+    ) {
+        for (orbit, constants) in values.orbits.iter().enumerate() {
+            let stiffness = stiffness(constants);
+            if stiffness.is_zero() {
+                continue;
+            }
+            let relative = self.relative(positions, orbit);
+            let torque = self.scale(stiffness, &relative);
+            self.accumulate(sums, &torque);
+            if let Some(parent) = self.orbits[orbit].parent {
+                let reaction = self.gather(&torque, parent);
+                let reaction = self.neg(&reaction);
+                self.accumulate(sums, &reaction);
+            }
+        }
+    }
+
+    /// A link's own less its parent's.
+    pub(super) fn relative(&mut self, positions: &Fields, orbit: usize) -> Field {
+        match self.orbits[orbit].parent {
+            Some(parent) => {
+                let above = self.lift(&positions[parent], orbit);
+                self.sub(&positions[orbit], &above)
+            }
+            None => positions[orbit].clone(),
+        }
+    }
+
+    /// Generalized forces of friction and drag, Q = −∂R/∂ω.
+    pub(in crate::program) fn dissipative_forces(&mut self, values: &Values, rates: &Fields) -> Fields {
+        let mut losses = self.zeros();
+        self.in_joints(&mut losses, rates, values, |constants| &constants.friction);
+        for (constants, rate) in values.orbits.iter().zip(rates) {
+            let drag = self.scale(&constants.drag, rate);
+            self.accumulate(&mut losses, &drag);
+        }
+        losses.iter().map(|loss| self.neg(loss)).collect()
+    }
+
+    /// ∂K/∂θ at fixed velocities.
+    pub(super) fn kinetic_gradient(&mut self, pose: &Pose, rates: &Fields) -> Fields {
+        let mut gradient = self.zeros();
+        for entry in &pose.entries {
+            let above = self.lift(&rates[entry.column], entry.row);
+            let product = self.mul(&rates[entry.row], &above);
+            self.turn_both(&mut gradient, entry, &product);
+        }
+        gradient
+    }
+
+    /// ∂(aᵀ M b)/∂θ.
+    pub(super) fn bilinear_gradient(&mut self, pose: &Pose, a: &Fields, b: &Fields) -> Fields {
+        let mut gradient = self.zeros();
+        for entry in &pose.entries {
+            let a_above = self.lift(&a[entry.column], entry.row);
+            let b_above = self.lift(&b[entry.column], entry.row);
+            let first = self.mul(&a[entry.row], &b_above);
+            let second = self.mul(&b[entry.row], &a_above);
+            let product = self.add(&first, &second);
+            self.turn_both(&mut gradient, entry, &product);
+        }
+        gradient
+    }
+
+    /// Adds slope · product to the descendants' torque and takes it from the
+    /// ancestors'.
+    fn turn_both(&mut self, gradient: &mut Fields, entry: &Entry, product: &Field) {
+        let own = self.mul(&entry.slope, product);
+        self.accumulate(gradient, &own);
+        let above = self.gather(&own, entry.column);
+        let above = self.neg(&above);
+        self.accumulate(gradient, &above);
+    }
+
+    /// What stands against M θ̈ of the motion itself: for each coupling m(Δ),
+    /// m′ ω² of the other link, centrifugal and no Coriolis terms.
+    pub(super) fn centrifugal(&mut self, pose: &Pose, rates: &Fields) -> Fields {
+        let squares: Fields = rates.iter().map(|rate| self.mul(rate, rate)).collect();
+        let mut forces = self.zeros();
+        for entry in &pose.entries {
+            let above = self.lift(&squares[entry.column], entry.row);
+            let own = self.mul(&entry.slope, &above);
+            self.accumulate(&mut forces, &own);
+            let up = self.mul(&entry.slope, &squares[entry.row]);
+            let up = self.gather(&up, entry.column);
+            let up = self.neg(&up);
+            self.accumulate(&mut forces, &up);
+        }
+        forces
+    }
+
+    /// Right-hand side of M θ̈ without friction and drive.
+    pub(super) fn conservative_forces(
+        &mut self,
+        values: &Values,
+        pose: &Pose,
+        rates: &Fields,
+    ) -> Fields {
+        let motion = self.centrifugal(pose, rates);
+        let gradient = self.potential_gradient(values, pose);
+        self.subtract(&motion, &gradient)
+    }
+
+    pub(super) fn subtract(&mut self, a: &Fields, b: &Fields) -> Fields {
+        a.iter().zip(b).map(|(a, b)| self.sub(a, b)).collect()
+    }
+
+    pub(in crate::program) fn sum(&mut self, a: &Fields, b: &Fields) -> Fields {
+        a.iter().zip(b).map(|(a, b)| self.add(a, b)).collect()
+    }
+
+    /// Names the mean and the differences of a field: `theta_child_m`.
+    pub(in crate::program) fn named(&mut self, field: &Field, letter: &str) {
+        let orbit = &self.orbits[field.orbit];
+        let parts = field.differences.iter().map(|(&place, value)| (Some(place), value));
+        for (which, value) in std::iter::once((None, &field.mean)).chain(parts) {
+            if let Some(value) = value.coefficient(0) {
+                let name = format!("{letter}_{}", orbit.name(which));
+                self.graded.builder.name(value, &name);
+            }
+        }
+    }
+
+    /// The links' values of a field, in the order of the orbit's links.
+    pub(in crate::program) fn analysed(&mut self, orbit: usize, links: &[ValueId]) -> Field {
+        let mut field = Field::zero(orbit);
+        let mut next = 0;
+        let branch = self.orbits[orbit].branch.as_ref();
+        field.mean = self.analysed_below(branch, links, &mut next, &mut field);
+        field
+    }
+
+    fn analysed_below(
+        &mut self,
+        branch: Option<&super::tree::Branch>,
+        links: &[ValueId],
+        next: &mut usize,
+        field: &mut Field,
+    ) -> Series {
+        let Some(branch) = branch else {
+            *next += 1;
+            return self.graded.value(links[*next - 1]);
+        };
+        let means: Vec<Series> = branch
+            .copies
+            .iter()
+            .map(|copy| self.analysed_below(copy.as_ref(), links, next, field))
+            .collect();
+        for (index, value) in self.differences(&means).into_iter().enumerate() {
+            field.put((branch.group, index + 1), value);
+        }
+        self.average(&means)
+    }
+}

@@ -1,0 +1,277 @@
+//! Parseval for the velocities too (physics §5, definition B): Σ_s E_s = H,
+//! and the transfer matrix {E_s, E_r}.
+
+use super::budget::{Motion, Share};
+use super::field::{Copies, Field};
+use super::motion::{Fields, Values};
+use super::sector::Which;
+use super::series::Series;
+use super::turn::Direction;
+
+/// A vector in the plane for every link of an orbit: x, y.
+type Plane = [Field; 2];
+
+/// Velocities of the centres of mass, and how they change.
+pub(in crate::program) struct Kinematics {
+    velocities: Vec<Plane>,
+}
+
+/// What a sector's energy changes with: for each link, its angle at fixed
+/// momenta, and its momentum.
+pub(in crate::program) struct Slopes {
+    angles: Fields,
+    momenta: Fields,
+}
+
+impl Copies<'_> {
+    /// Derivative of a point of the links in their angle: (a cos − b sin,
+    /// a sin + b cos).
+    fn lever(&mut self, [a, b]: &[Series; 2], direction: &Direction) -> Plane {
+        let Direction { cos, sin } = direction;
+        let parts = [
+            self.scale(a, cos),
+            self.scale(b, sin),
+            self.scale(a, sin),
+            self.scale(b, cos),
+        ];
+        [
+            self.sub(&parts[0], &parts[1]),
+            self.add(&parts[2], &parts[3]),
+        ]
+    }
+
+    /// Second derivative: the lever turned by a right angle.
+    fn across(&mut self, [x, y]: &Plane) -> Plane {
+        [self.neg(y), x.clone()]
+    }
+
+    fn add_planes(&mut self, a: &Plane, b: &Plane) -> Plane {
+        [self.add(&a[0], &b[0]), self.add(&a[1], &b[1])]
+    }
+
+    fn times(&mut self, plane: &Plane, factor: &Field) -> Plane {
+        [self.mul(&plane[0], factor), self.mul(&plane[1], factor)]
+    }
+
+    /// Velocities (or what is linear like them) of the centres of mass: for
+    /// each orbit `contribution(lever)` is what a point with that lever adds.
+    fn of_centres(
+        &mut self,
+        values: &Values,
+        motion: &Motion,
+        mut contribution: impl FnMut(&mut Self, &Plane, usize) -> Plane,
+    ) -> Vec<Plane> {
+        let mut pivots: Vec<Plane> = Vec::new();
+        let mut centres = Vec::new();
+        for orbit in 0..self.orbits.len() {
+            let constants = &values.orbits[orbit];
+            let pivot = match self.orbits[orbit].parent {
+                None => [Field::zero(orbit), Field::zero(orbit)],
+                Some(parent) => {
+                    let direction = motion.pose.directions[parent].clone();
+                    let lever = self.lever(&constants.pivot, &direction);
+                    let own = contribution(self, &lever, parent);
+                    let point = self.add_planes(&pivots[parent].clone(), &own);
+                    [self.lift(&point[0], orbit), self.lift(&point[1], orbit)]
+                }
+            };
+            let direction = motion.pose.directions[orbit].clone();
+            let lever = self.lever(&constants.com, &direction);
+            let own = contribution(self, &lever, orbit);
+            centres.push(self.add_planes(&pivot, &own));
+            pivots.push(pivot);
+        }
+        centres
+    }
+
+    pub(in crate::program) fn kinematics(&mut self, values: &Values, motion: &Motion) -> Kinematics {
+        let velocities = self.of_centres(values, motion, |copies, lever, orbit| {
+            copies.times(lever, &motion.rates[orbit])
+        });
+        Kinematics { velocities }
+    }
+
+    /// Σ over the orbits of mass · v_s · x_s + inertia · ω_s · y_s.
+    fn kinetic_product(
+        &mut self,
+        values: &Values,
+        which: Which,
+        [v, x]: [&[Plane]; 2],
+        [omega, y]: [&Fields; 2],
+    ) -> Series {
+        let mut sum = Series::default();
+        for orbit in self.orbits_of(which) {
+            let constants = &values.orbits[orbit];
+            let norm = self.sector_norm(orbit, which);
+            let mut dot = Series::default();
+            for axis in 0..2 {
+                let (a, b) = (
+                    v[orbit][axis].component(which),
+                    x[orbit][axis].component(which),
+                );
+                let product = self.graded.mul(&a, &b);
+                dot = self.graded.add(&dot, &product);
+            }
+            let moving = self.graded.mul(&constants.mass, &dot);
+            let product = self
+                .graded
+                .mul(&omega[orbit].component(which), &y[orbit].component(which));
+            let turning = self.graded.mul(&constants.inertia, &product);
+            let both = self.graded.add(&moving, &turning);
+            let term = self.graded.mul(&norm, &both);
+            sum = self.graded.add(&sum, &term);
+        }
+        sum
+    }
+
+    /// E_s, W_s, P_s of all sectors.
+    pub(in crate::program) fn parseval_shares(
+        &mut self,
+        values: &Values,
+        motion: &Motion,
+        sectors: &[Which],
+        [conservative, other]: [&Fields; 2],
+    ) -> Vec<Share> {
+        let kinematics = self.kinematics(values, motion);
+        let squares: Fields = motion.rates.iter().map(|rate| self.mul(rate, rate)).collect();
+        let accelerations = self.of_centres(values, motion, |copies, lever, orbit| {
+            let along = copies.times(lever, &conservative[orbit]);
+            let across = copies.across(lever);
+            let inwards = copies.times(&across, &squares[orbit]);
+            copies.add_planes(&along, &inwards)
+        });
+        let added = self.of_centres(values, motion, |copies, lever, orbit| {
+            copies.times(lever, &other[orbit])
+        });
+        let velocities = &kinematics.velocities;
+        sectors
+            .iter()
+            .map(|&which| {
+                let product = |copies: &mut Self, x: &[Plane], y: &Fields| {
+                    copies.kinetic_product(values, which, [velocities, x], [&motion.rates, y])
+                };
+                let twice = product(self, velocities, &motion.rates);
+                let half = self.half();
+                let kinetic = self.graded.mul(&half, &twice);
+                let potential = self.sector_potential(values, &motion.pose, which);
+                let work = product(self, &accelerations, conservative);
+                let stored = self.sector_weight_rate(values, &motion.pose, &motion.rates, which);
+                let springs = self.spring_gradient(values, &motion.pose);
+                let springs = self.projections(&springs, which);
+                let rates = self.components(&motion.rates, which);
+                let springs = self.inner(&rates, &springs);
+                let stored = self.graded.add(&stored, &springs);
+                Share {
+                    energy: self.graded.add(&kinetic, &potential),
+                    transfer: self.graded.add(&work, &stored),
+                    power: product(self, &added, other),
+                }
+            })
+            .collect()
+    }
+
+    /// The derivatives of E_s in angles (at fixed momenta) and momenta.
+    fn slopes(
+        &mut self,
+        values: &Values,
+        motion: &Motion,
+        kinematics: &Kinematics,
+        factors: &super::motion::Factors,
+        which: Which,
+    ) -> Slopes {
+        let orbits = 0..self.orbits.len();
+        // Impulses m v_s of the centres of mass, and what they sum to at each
+        // pivot, from the leaves to the root.
+        let impulses: Vec<Plane> = orbits
+            .clone()
+            .map(|orbit| {
+                let mass = &values.orbits[orbit].mass;
+                let velocity = &kinematics.velocities[orbit];
+                [0, 1].map(|axis| self.scale(mass, &velocity[axis].restricted(which)))
+            })
+            .collect();
+        let mut carried = impulses.clone();
+        let mut by_rates: Fields = motion
+            .rates
+            .iter()
+            .zip(&values.orbits)
+            .map(|(rate, constants)| self.scale(&constants.inertia, &rate.restricted(which)))
+            .collect();
+        let mut by_angles = self.sector_potential_gradient(values, &motion.pose, which);
+        for orbit in orbits.rev() {
+            let constants = &values.orbits[orbit];
+            let direction = motion.pose.directions[orbit].clone();
+            let lever = self.lever(&constants.com, &direction);
+            self.moment(&mut by_rates, &mut by_angles, &lever, &impulses[orbit], motion);
+            if let Some(parent) = self.orbits[orbit].parent {
+                let above = [0, 1].map(|axis| self.gather(&carried[orbit][axis].clone(), parent));
+                carried[parent] = self.add_planes(&carried[parent].clone(), &above);
+                let direction = motion.pose.directions[parent].clone();
+                let lever = self.lever(&constants.pivot, &direction);
+                self.moment(&mut by_rates, &mut by_angles, &lever, &above, motion);
+            }
+        }
+        let momenta = self.solve(factors, &by_rates);
+        // At fixed momenta the velocities change with the mass matrix.
+        let change = self.bilinear_gradient(&motion.pose, &momenta, &motion.rates);
+        Slopes {
+            angles: self.subtract(&by_angles, &change),
+            momenta,
+        }
+    }
+
+    /// lever · impulse to the derivative in ω, ω lever′ · impulse to that in θ.
+    fn moment(
+        &mut self,
+        by_rates: &mut Fields,
+        by_angles: &mut Fields,
+        lever: &Plane,
+        impulse: &Plane,
+        motion: &Motion,
+    ) {
+        let orbit = lever[0].orbit;
+        let dot = |copies: &mut Self, a: &Plane| {
+            let products = [
+                copies.mul(&a[0], &impulse[0]),
+                copies.mul(&a[1], &impulse[1]),
+            ];
+            copies.add(&products[0], &products[1])
+        };
+        let along = dot(self, lever);
+        self.accumulate(by_rates, &along);
+        let across = self.across(lever);
+        let across = dot(self, &across);
+        let across = self.mul(&across, &motion.rates[orbit]);
+        self.accumulate(by_angles, &across);
+    }
+
+    /// {E_s, E_r} by rows; antisymmetric, zero on the diagonal.
+    pub(in crate::program) fn transfer_matrix(
+        &mut self,
+        values: &Values,
+        motion: &Motion,
+        sectors: &[Which],
+    ) -> Vec<Vec<Series>> {
+        let kinematics = self.kinematics(values, motion);
+        let factors = self.factors(values, &motion.pose);
+        let slopes: Vec<Slopes> = sectors
+            .iter()
+            .map(|&which| self.slopes(values, motion, &kinematics, &factors, which))
+            .collect();
+        let mut matrix = vec![vec![Series::default(); sectors.len()]; sectors.len()];
+        for (s, into) in slopes.iter().enumerate() {
+            for (r, from) in slopes.iter().enumerate().skip(s + 1) {
+                let mut bracket = Series::default();
+                for orbit in 0..self.orbits.len() {
+                    let gain = self.dot(&into.angles[orbit], &from.momenta[orbit]);
+                    let loss = self.dot(&into.momenta[orbit], &from.angles[orbit]);
+                    let term = self.graded.sub(&gain, &loss);
+                    bracket = self.graded.add(&bracket, &term);
+                }
+                matrix[r][s] = self.graded.neg(&bracket);
+                matrix[s][r] = bracket;
+            }
+        }
+        matrix
+    }
+}

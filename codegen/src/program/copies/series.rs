@@ -1,0 +1,178 @@
+//! Values graded by powers of ε, the size of the differences.
+//!
+//! Without a truncation everything has order 0 and a series is one value. With
+//! one, differences start at order 1, and products drop what is beyond the
+//! order kept: the expansion about the in-phase motion comes out of the same
+//! formulas as the exact form (physics §4).
+
+use crate::exact::Rational;
+use crate::program::ValueId;
+use crate::program::builder::Builder;
+
+/// A truncated power series in ε; coefficient k belongs to ε^k. Zero has none.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(in crate::program) struct Series(Vec<Option<ValueId>>);
+
+impl Series {
+    /// A value of that order.
+    pub(in crate::program) fn of_order(order: usize, value: ValueId) -> Self {
+        let mut coefficients = vec![None; order];
+        coefficients.push(Some(value));
+        Self(coefficients)
+    }
+
+    pub(super) fn is_zero(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The coefficient of ε^order, if it is not zero.
+    pub(super) fn coefficient(&self, order: usize) -> Option<ValueId> {
+        self.0.get(order).copied().flatten()
+    }
+
+    fn orders(&self) -> impl Iterator<Item = (usize, ValueId)> {
+        let coefficients = self.0.iter().enumerate();
+        coefficients.filter_map(|(order, value)| value.map(|value| (order, value)))
+    }
+}
+
+/// Arithmetic on series.
+pub(in crate::program) struct Graded<'b> {
+    pub(in crate::program) builder: &'b mut Builder,
+    /// Whether differences count as small, and the highest order kept.
+    pub(in crate::program) truncation: Option<usize>,
+}
+
+impl Graded<'_> {
+    fn highest(&self) -> usize {
+        self.truncation.unwrap_or(0)
+    }
+
+    fn collected(&mut self, mut coefficients: Vec<Option<ValueId>>) -> Series {
+        for coefficient in &mut coefficients {
+            *coefficient = coefficient.filter(|&value| !self.builder.is(value, 0));
+        }
+        while coefficients.last() == Some(&None) {
+            coefficients.pop();
+        }
+        Series(coefficients)
+    }
+
+    /// A value that does not depend on ε.
+    pub(in crate::program) fn value(&mut self, value: ValueId) -> Series {
+        self.collected(vec![Some(value)])
+    }
+
+    pub(super) fn number(&mut self, number: Rational) -> Series {
+        let value = self.builder.number(number);
+        self.value(value)
+    }
+
+    pub(super) fn integer(&mut self, number: i64) -> Series {
+        self.number(Rational::from(number))
+    }
+
+    /// A value of a difference: of first order where differences are small.
+    pub(in crate::program) fn difference(&mut self, value: ValueId) -> Series {
+        if self.builder.is(value, 0) {
+            return Series::default();
+        }
+        Series::of_order(usize::from(self.truncation.is_some()), value)
+    }
+
+    fn by_order(
+        &mut self,
+        a: &Series,
+        b: &Series,
+        both: fn(&mut Builder, ValueId, ValueId) -> ValueId,
+        right: fn(&mut Builder, ValueId) -> ValueId,
+    ) -> Series {
+        let length = a.0.len().max(b.0.len());
+        let coefficients = (0..length)
+            .map(|order| match (a.coefficient(order), b.coefficient(order)) {
+                (Some(a), Some(b)) => Some(both(self.builder, a, b)),
+                (Some(a), None) => Some(a),
+                (None, Some(b)) => Some(right(self.builder, b)),
+                (None, None) => None,
+            })
+            .collect();
+        self.collected(coefficients)
+    }
+
+    pub(super) fn add(&mut self, a: &Series, b: &Series) -> Series {
+        let sum = |builder: &mut Builder, a, b| {
+            if a != b {
+                return builder.add(a, b);
+            }
+            let two = builder.integer(2);
+            builder.mul(two, a)
+        };
+        self.by_order(a, b, sum, |_, value| value)
+    }
+
+    pub(super) fn sub(&mut self, a: &Series, b: &Series) -> Series {
+        let difference = |builder: &mut Builder, a, b| {
+            if a == b {
+                builder.integer(0)
+            } else {
+                builder.sub(a, b)
+            }
+        };
+        self.by_order(a, b, difference, Builder::neg)
+    }
+
+    pub(super) fn neg(&mut self, a: &Series) -> Series {
+        self.sub(&Series::default(), a)
+    }
+
+    /// Product, cut off beyond the highest order.
+    pub(super) fn mul(&mut self, a: &Series, b: &Series) -> Series {
+        let highest = self.highest();
+        let mut coefficients: Vec<Option<ValueId>> = vec![None; highest + 1];
+        for (order_a, a) in a.orders() {
+            for (order_b, b) in b.orders() {
+                if let Some(sum) = coefficients.get_mut(order_a + order_b) {
+                    let product = self.builder.mul(a, b);
+                    *sum = Some(match *sum {
+                        Some(sum) => self.builder.add(sum, product),
+                        None => product,
+                    });
+                }
+            }
+        }
+        self.collected(coefficients)
+    }
+
+    pub(super) fn scale(&mut self, factor: &Rational, a: &Series) -> Series {
+        let factor = self.number(factor.clone());
+        self.mul(&factor, a)
+    }
+
+    /// The sum of all orders: the value at ε = 1.
+    pub(in crate::program) fn total(&mut self, series: &Series) -> ValueId {
+        let mut total = self.builder.integer(0);
+        for (_, value) in series.orders() {
+            total = self.builder.add(total, value);
+        }
+        total
+    }
+
+    /// 1/a, from the lowest order upwards; order 0 must be there.
+    pub(super) fn reciprocal(&mut self, a: &Series) -> Series {
+        let Some(leading) = a.coefficient(0) else {
+            unreachable!("a pivot vanishes with the differences")
+        };
+        let one = self.builder.integer(1);
+        let inverse = self.builder.div(one, leading);
+        let start = self.value(inverse);
+        let leading = self.value(leading);
+        let rest = self.sub(a, &leading);
+        let mut result = start.clone();
+        for _ in 0..self.highest() {
+            let product = self.mul(&rest, &result);
+            let correction = self.mul(&start, &product);
+            result = self.sub(&start, &correction);
+        }
+        result
+    }
+}

@@ -1,0 +1,129 @@
+//! How the links of an orbit branch into copies.
+
+use crate::exact::Rational;
+use crate::mechanics::Coordinate;
+use crate::scene::{LinkId, Scene};
+use std::collections::BTreeMap;
+
+/// The links of one orbit.
+#[derive(Clone, Debug)]
+pub(in crate::program) struct Orbit {
+    /// Number of links.
+    pub(super) links: usize,
+    /// Orbit of the links' parents.
+    pub(super) parent: Option<usize>,
+    /// The outermost branching, if there is one.
+    pub(super) branch: Option<Branch>,
+    /// Names of its mean and differences.
+    names: BTreeMap<Option<(usize, usize)>, String>,
+}
+
+impl Orbit {
+    /// Name of the mean, or of a difference.
+    pub(super) fn name(&self, which: Option<(usize, usize)>) -> &str {
+        self.names.get(&which).map_or("", String::as_str)
+    }
+}
+
+/// A branching into copies on the way from the root to an orbit.
+#[derive(Clone, Debug)]
+pub(in crate::program) struct Branch {
+    /// Index of the group in the scene.
+    pub(super) group: usize,
+    /// Further branchings within each copy.
+    pub(super) copies: Vec<Option<Branch>>,
+    /// Links of the orbit in one copy.
+    pub(super) links_per_copy: usize,
+}
+
+impl Branch {
+    /// Number of differences between the copies.
+    pub(super) fn differences(&self) -> usize {
+        self.copies.len() - 1
+    }
+
+    /// Σ of the squared Helmert weights over the links of the orbit.
+    pub(super) fn norm(&self, difference: usize) -> i64 {
+        (difference * (difference + 1) * self.links_per_copy) as i64
+    }
+}
+
+/// Helmert weight of difference `difference` (from 1) in copy `copy`.
+pub(super) fn weight(difference: usize, copy: usize) -> i64 {
+    match copy {
+        copy if copy < difference => 1,
+        copy if copy == difference => -(difference as i64),
+        _ => 0,
+    }
+}
+
+/// Σ_a w_ja w_ia w_la / Σ_a w_ja²: how the product of differences i and l
+/// shows in difference j.
+pub(super) fn structure(copies: usize, j: usize, i: usize, l: usize) -> Option<Rational> {
+    let sum: i64 = (0..copies)
+        .map(|copy| weight(j, copy) * weight(i, copy) * weight(l, copy))
+        .sum();
+    Rational::from_ratio(sum, (j * (j + 1)) as i64).filter(|ratio| !ratio.is_zero())
+}
+
+/// The orbits of a scene, in its order: parents first.
+pub(in crate::program) fn orbits(scene: &Scene, coordinates: &[Coordinate]) -> Vec<Orbit> {
+    let names = |number: usize| {
+        let named = coordinates.iter().filter_map(|coordinate| {
+            let (orbit, which) = coordinate.kind.place();
+            (orbit == number).then(|| (which, coordinate.name.clone()))
+        });
+        named.collect()
+    };
+    let chain = |link: LinkId| {
+        let mut chain = Vec::new();
+        let mut at = Some(link);
+        while let Some(here) = at {
+            let membership = scene.groups.iter().enumerate().find_map(|(group, g)| {
+                let copy = g.copies.iter().position(|&copy| copy == here)?;
+                Some((group, copy))
+            });
+            chain.extend(membership);
+            at = scene.links[here.0].parent;
+        }
+        chain.reverse();
+        chain
+    };
+    scene
+        .orbits
+        .iter()
+        .enumerate()
+        .map(|(number, orbit)| {
+            let chains: Vec<Vec<(usize, usize)>> =
+                orbit.links.iter().map(|&link| chain(link)).collect();
+            let chains: Vec<&[(usize, usize)]> = chains.iter().map(Vec::as_slice).collect();
+            let parent = scene.links[orbit.links[0].0].parent;
+            Orbit {
+                links: orbit.links.len(),
+                parent: parent.map(|LinkId(link)| scene.links[link].orbit.0),
+                branch: branch(scene, &chains),
+                names: names(number),
+            }
+        })
+        .collect()
+}
+
+fn branch(scene: &Scene, chains: &[&[(usize, usize)]]) -> Option<Branch> {
+    let &(group, _) = chains.first()?.first()?;
+    let copies: Vec<Option<Branch>> = (0..scene.groups[group].copies.len())
+        .map(|copy| {
+            let inside: Vec<&[(usize, usize)]> = chains
+                .iter()
+                .filter(|chain| chain[0].1 == copy)
+                .map(|chain| &chain[1..])
+                .collect();
+            branch(scene, &inside)
+        })
+        .collect();
+    let links_per_copy = chains.len() / copies.len();
+    Some(Branch {
+        group,
+        copies,
+        links_per_copy,
+    })
+}

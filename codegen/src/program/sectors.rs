@@ -1,0 +1,365 @@
+//! Entry points that work on means and differences: the motion of nested trees
+//! in symmetric coordinates, and the budgets of sectors.
+
+use super::copies::{
+    Copies, CouplingValues, Fields, Graded, Motion, OrbitValues, Pose, Series, Share, Values,
+    Which, orbits,
+};
+use super::entries::EntryList;
+use super::lower::Lowering;
+use super::{Argument, EnergyDefinition, Purpose, Shape, ValueId};
+use crate::mechanics::expression::Expr;
+use crate::mechanics::{Mechanics, Sectors};
+use crate::scene::{BudgetRequest, LinkId, Scene};
+
+/// How a state is handed over.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum State {
+    /// Absolute angles and angular velocities.
+    Absolute,
+    /// Symmetric coordinates and their velocities.
+    Rates,
+    /// Symmetric coordinates and their momenta.
+    Momenta,
+}
+
+impl EntryList<'_, '_> {
+    /// What [`EntryList::symmetric`] gives for flat trees.
+    pub(super) fn symmetric_by_copies(&mut self, scene: &Scene, sectors: &Sectors) {
+        use Argument::{Coordinates, Momenta, Rates};
+        let mechanics = self.lowering.mechanics;
+        let orbits = orbits(scene, &mechanics.coordinates);
+        let values = values(self.lowering, sectors);
+        let mut copies = copies(self.lowering, &orbits, None);
+        let motion = motion(&mut copies, scene, mechanics, &values, State::Rates);
+        let [conservative, other] = copies.accelerations(&values, &motion);
+        let accelerations = copies.sum(&conservative, &other);
+        let accelerations = by_coordinate(&mut copies, mechanics, &accelerations, Copies::component);
+        let momenta = by_coordinate(&mut copies, mechanics, &motion.momenta, Copies::projected);
+        let requests = &scene.requests;
+        let canonical = requests.momenta.then(|| {
+            let motion = self::motion(&mut copies, scene, mechanics, &values, State::Momenta);
+            let hamiltonian = requests.energies.then(|| {
+                let energy = copies.hamiltonian(&values, &motion);
+                copies.graded.total(&energy)
+            });
+            let velocities =
+                by_coordinate(&mut copies, mechanics, &motion.rates, Copies::component);
+            (hamiltonian, velocities)
+        });
+        for (index, &value) in accelerations.iter().enumerate() {
+            let name = format!("alpha_{}", mechanics.coordinates[index].name);
+            self.lowering.builder.name(value, &name);
+        }
+        self.push(
+            "symmetric_accelerations",
+            Purpose::SymmetricAccelerations,
+            &[Coordinates, Rates],
+            accelerations,
+            Shape::Vector,
+        );
+        let Some((hamiltonian, velocities)) = canonical else {
+            return;
+        };
+        self.push(
+            "symmetric_momenta",
+            Purpose::SymmetricMomenta,
+            &[Coordinates, Rates],
+            momenta,
+            Shape::Vector,
+        );
+        if let Some(energy) = hamiltonian {
+            self.push(
+                "hamiltonian",
+                Purpose::Hamiltonian,
+                &[Coordinates, Momenta],
+                vec![energy],
+                Shape::Scalar,
+            );
+        }
+        self.push(
+            "symmetric_velocities",
+            Purpose::SymmetricVelocities,
+            &[Coordinates, Momenta],
+            velocities,
+            Shape::Vector,
+        );
+    }
+
+    /// Budgets of the sectors, from absolute angles and, where those are asked
+    /// for, from symmetric coordinates.
+    pub(super) fn budgets(&mut self, scene: &Scene, sectors: &Sectors, request: &BudgetRequest) {
+        let mut states = vec![State::Absolute];
+        if scene.requests.symmetric {
+            states.push(State::Rates);
+        }
+        for state in states {
+            self.exact_budgets(scene, sectors, request, state);
+        }
+        for &order in &request.amplitude_orders {
+            self.truncated_transfers(scene, sectors, order);
+        }
+    }
+
+    fn exact_budgets(
+        &mut self,
+        scene: &Scene,
+        sectors: &Sectors,
+        request: &BudgetRequest,
+        state: State,
+    ) {
+        let mechanics = self.lowering.mechanics;
+        let orbits = orbits(scene, &mechanics.coordinates);
+        let values = values(self.lowering, sectors);
+        let mut copies = copies(self.lowering, &orbits, None);
+        let motion = motion(&mut copies, scene, mechanics, &values, state);
+        let places: Vec<Which> = sectors.sectors.iter().map(|sector| sector.place).collect();
+        let count = places.len();
+        let mut found: Vec<(&str, Purpose, Vec<ValueId>, Shape)> = Vec::new();
+        let mut shares = |copies: &mut Copies<'_>, name, definition, shares: Vec<Share>| {
+            let outputs = flattened(copies, &shares);
+            found.push((name, Purpose::Budget(definition), outputs, Shape::Budget(count)));
+        };
+        for (wanted, name, definition, at_rest) in [
+            (request.rest, "budget_rest", EnergyDefinition::Rest, true),
+            (request.canonical, "budget_canonical", EnergyDefinition::Canonical, false),
+        ] {
+            if wanted {
+                let all = places
+                    .iter()
+                    .map(|&which| copies.canonical_share(&values, &motion, which, at_rest))
+                    .collect();
+                shares(&mut copies, name, definition, all);
+            }
+        }
+        if request.velocity || request.parseval {
+            let [conservative, other] = copies.accelerations(&values, &motion);
+            let accelerations = [&conservative, &other];
+            if request.velocity {
+                let all = places
+                    .iter()
+                    .map(|&which| copies.velocity_share(&values, &motion, which, accelerations))
+                    .collect();
+                shares(&mut copies, "budget_velocity", EnergyDefinition::Velocity, all);
+            }
+            if request.parseval {
+                let all = copies.parseval_shares(&values, &motion, &places, accelerations);
+                shares(&mut copies, "budget_parseval", EnergyDefinition::Parseval, all);
+            }
+        }
+        if request.canonical {
+            let outputs = transfers(&mut copies, &values, &motion, &places);
+            found.push((
+                "sector_transfers",
+                Purpose::SectorTransfers(None),
+                outputs,
+                Shape::Transfers(count),
+            ));
+        }
+        if request.matrix {
+            let matrix = copies.transfer_matrix(&values, &motion, &places);
+            let outputs = matrix.iter().flatten().map(|value| copies.graded.total(value)).collect();
+            found.push((
+                "transfer_matrix",
+                Purpose::TransferMatrix,
+                outputs,
+                Shape::Matrix(count),
+            ));
+        }
+        for (name, purpose, outputs, shape) in found {
+            match state {
+                State::Absolute => {
+                    let arguments = [Argument::Theta, Argument::Omega];
+                    self.push(name, purpose, &arguments, outputs, shape);
+                }
+                State::Rates | State::Momenta => {
+                    let name = format!("symmetric_{name}");
+                    let arguments = [Argument::Coordinates, Argument::Rates];
+                    self.push(&name, purpose, &arguments, outputs, shape);
+                }
+            }
+        }
+    }
+
+    /// W of every sector through an order in the amplitude of all differences.
+    fn truncated_transfers(&mut self, scene: &Scene, sectors: &Sectors, order: u32) {
+        let mechanics = self.lowering.mechanics;
+        let orbits = orbits(scene, &mechanics.coordinates);
+        let values = values(self.lowering, sectors);
+        let mut copies = copies(self.lowering, &orbits, Some(order as usize));
+        let motion = motion(&mut copies, scene, mechanics, &values, State::Momenta);
+        let places: Vec<Which> = sectors.sectors.iter().map(|sector| sector.place).collect();
+        let outputs = transfers(&mut copies, &values, &motion, &places);
+        self.push(
+            &format!("sector_transfers_amplitude_{order}"),
+            Purpose::SectorTransfers(Some(order)),
+            &[Argument::Coordinates, Argument::Momenta],
+            outputs,
+            Shape::Transfers(places.len()),
+        );
+    }
+}
+
+fn copies<'b>(
+    lowering: &'b mut Lowering<'_>,
+    orbits: &'b [super::copies::Orbit],
+    truncation: Option<usize>,
+) -> Copies<'b> {
+    let builder = &mut lowering.builder;
+    Copies {
+        graded: Graded {
+            builder,
+            truncation,
+        },
+        orbits,
+    }
+}
+
+/// The constants as values of the program.
+fn values(lowering: &mut Lowering<'_>, sectors: &Sectors) -> Values {
+    let mut series = |expr: &Expr| {
+        let value = lowering.constant_value(expr);
+        if lowering.builder.is(value, 0) {
+            Series::default()
+        } else {
+            Series::of_order(0, value)
+        }
+    };
+    let orbits = sectors
+        .orbits
+        .iter()
+        .map(|orbit| OrbitValues {
+            mass: series(&orbit.mass),
+            inertia: series(&orbit.inertia),
+            com: [series(&orbit.com[0]), series(&orbit.com[1])],
+            pivot: [series(&orbit.pivot[0]), series(&orbit.pivot[1])],
+            moment: series(&orbit.moment),
+            gravity: series(&orbit.gravity),
+            lateral_gravity: series(&orbit.lateral_gravity),
+            spring: series(&orbit.spring),
+            friction: series(&orbit.friction),
+            drag: series(&orbit.drag),
+        })
+        .collect();
+    let couplings = sectors
+        .couplings
+        .iter()
+        .map(|coupling| CouplingValues {
+            row: coupling.row,
+            column: coupling.column,
+            cosine: series(&coupling.cosine),
+            sine: series(&coupling.sine),
+        })
+        .collect();
+    Values { orbits, couplings }
+}
+
+/// The state that an entry point is handed, and what follows from it.
+fn motion(
+    copies: &mut Copies<'_>,
+    scene: &Scene,
+    mechanics: &Mechanics,
+    values: &Values,
+    state: State,
+) -> Motion {
+    let handed = |copies: &mut Copies<'_>, argument| -> Fields {
+        match state {
+            State::Absolute => scene
+                .orbits
+                .iter()
+                .enumerate()
+                .map(|(orbit, links)| {
+                    let links: Vec<ValueId> = links
+                        .links
+                        .iter()
+                        .map(|&LinkId(link)| copies.graded.builder.input(argument, link))
+                        .collect();
+                    let field = copies.analysed(orbit, &links);
+                    copies.named(&field, argument.letter());
+                    field
+                })
+                .collect(),
+            State::Rates | State::Momenta => {
+                let mut fields = copies.zeros();
+                for (index, coordinate) in mechanics.coordinates.iter().enumerate() {
+                    let value = copies.graded.builder.input(argument, index);
+                    let (orbit, which) = coordinate.kind.place();
+                    let field = &mut fields[orbit];
+                    match which {
+                        None => field.mean = copies.graded.value(value),
+                        Some(place) => field.put(place, copies.graded.difference(value)),
+                    }
+                }
+                fields
+            }
+        }
+    };
+    let [positions, motions] = match state {
+        State::Absolute => [Argument::Theta, Argument::Omega],
+        State::Rates => [Argument::Coordinates, Argument::Rates],
+        State::Momenta => [Argument::Coordinates, Argument::Momenta],
+    };
+    let angles = handed(copies, positions);
+    let pose: Pose = copies.pose(values, angles);
+    let handed = handed(copies, motions);
+    let (rates, momenta) = if state == State::Momenta {
+        let momenta = copies.per_link(&handed);
+        let factors = copies.factors(values, &pose);
+        (copies.solve(&factors, &momenta), momenta)
+    } else {
+        let momenta = copies.momenta(values, &pose, &handed);
+        (handed, momenta)
+    };
+    let forces = copies.dissipative_forces(values, &rates);
+    Motion {
+        pose,
+        rates,
+        momenta,
+        forces,
+    }
+}
+
+/// One output for each symmetric coordinate.
+fn by_coordinate<'b>(
+    copies: &mut Copies<'b>,
+    mechanics: &Mechanics,
+    fields: &Fields,
+    component: fn(&mut Copies<'b>, &super::copies::Field, Which) -> Series,
+) -> Vec<ValueId> {
+    mechanics
+        .coordinates
+        .iter()
+        .map(|coordinate| {
+            let (orbit, which) = coordinate.kind.place();
+            let value = component(copies, &fields[orbit], which);
+            copies.graded.total(&value)
+        })
+        .collect()
+}
+
+/// Energies, then transfers, then powers.
+fn flattened(copies: &mut Copies<'_>, shares: &[Share]) -> Vec<ValueId> {
+    let parts: [fn(&Share) -> &Series; 3] =
+        [|share| &share.energy, |share| &share.transfer, |share| &share.power];
+    let mut outputs = Vec::new();
+    for part in parts {
+        outputs.extend(shares.iter().map(|share| copies.graded.total(part(share))));
+    }
+    outputs
+}
+
+/// Kinetic and potential part of W, sector by sector.
+fn transfers(
+    copies: &mut Copies<'_>,
+    values: &Values,
+    motion: &Motion,
+    places: &[Which],
+) -> Vec<ValueId> {
+    let mut outputs = Vec::new();
+    for &which in places {
+        let parts = copies.transfer_parts(values, motion, which);
+        outputs.push(copies.graded.total(&parts.kinetic));
+        outputs.push(copies.graded.total(&parts.potential));
+    }
+    outputs
+}
