@@ -11,6 +11,7 @@ mod parameters;
 mod random_trees;
 mod rebuilt;
 mod reference;
+mod sectors;
 mod support;
 mod symmetric;
 mod transfer;

@@ -1,0 +1,9 @@
+//! Sectors, their energies and the transfers between them, against dense
+//! matrices, Cartesian velocities and finite differences.
+
+mod blocks;
+mod closure;
+mod energies;
+mod oracle;
+mod orders;
+mod rates;
