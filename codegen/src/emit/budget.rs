@@ -85,14 +85,18 @@ impl Emission<'_> {
             ),
         };
         let mut lines = vec![
-            format!("Energies E_s of all sectors (in J), the transfers W_s into them and the powers P_s of friction and drive (in W), so that dE_s/dt = W_s + P_s without truncation. The kinetic energy of a sector is taken {kinetic}."),
+            format!(
+                "Energies E_s of all sectors (in J), the transfers W_s into them and the powers P_s of friction and drive (in W), so that dE_s/dt = W_s + P_s without truncation. The kinetic energy of a sector is taken {kinetic}."
+            ),
             String::new(),
             "```text".into(),
             formula.into(),
             "V_s = Σ G |[1 − e^{iθ}]_s|²/2 + springs".into(),
             "```".into(),
             String::new(),
-            format!("[x]_s is the part of x in the symmetric coordinates of the sector, links summed; V_s sums to U and has the period 2π in every angle, springs aside. {closes}"),
+            format!(
+                "[x]_s is the part of x in the symmetric coordinates of the sector, links summed; V_s sums to U and has the period 2π in every angle, springs aside. {closes}"
+            ),
         ];
         let lateral = self.mechanics.sectors.as_ref().is_some_and(|sectors| {
             sectors
@@ -115,7 +119,7 @@ impl Emission<'_> {
                 "Energy transfer W_s = {E_s, H} (in W) into every sector without truncation, by what does it: the kinetic energy of the rest of the tree or its potential energy. E_s as in `budget_canonical`.".to_owned(),
             ],
             Some(order) => vec![
-                format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector through order {order} in the amplitude ε of all differences, angles and momenta alike. E_s as in `budget_canonical`. Remainder of order {} in ε, one more where all branchings are into two.", order + 1),
+                format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector through order {order} in the amplitude ε of all differences, angles and momenta alike. E_s as in `budget_canonical`. Remainder of order {} in ε, one more where all branchings are into two and none lies within another.", order + 1),
             ],
         };
         lines.push(String::new());

@@ -2,12 +2,13 @@
 
 use super::Emission;
 use super::names::Locals;
+use super::parts::{Line, MOST_LINES};
 use crate::exact::Rational;
 use crate::program::{Argument, Entry, Op, Shape, ValueId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-fn ident(name: &str) -> Ident {
+pub(super) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
@@ -30,13 +31,18 @@ impl Emission<'_> {
             quote!(#name: &[T; #size])
         });
         let result = self.result_type(entry);
-        let body = self.body(entry);
+        let needed = self.program.needed(&entry.outputs);
+        let locals = self.locals(entry, &needed);
+        let body = self.body(entry, &needed, &locals);
+        let parts = self.part_functions(entry, &needed, &locals);
         quote! {
             #docs
             #[inline]
             pub fn #name(&self, #(#arguments),*) -> #result {
                 #body
             }
+
+            #parts
         }
     }
 
@@ -67,39 +73,64 @@ impl Emission<'_> {
         }
     }
 
-    fn body(&self, entry: &Entry) -> TokenStream {
-        let needed = self.program.needed(&entry.outputs);
-        let locals = self.locals(entry, &needed);
+    fn body(&self, entry: &Entry, needed: &[ValueId], locals: &Locals) -> TokenStream {
         let inputs = entry
             .arguments
             .iter()
-            .map(|&argument| self.take_apart(argument, &needed, &locals));
+            .map(|&argument| self.take_apart(argument, needed, locals));
+        let lines = self.lines(needed, locals);
+        let lines: Vec<TokenStream> = if lines.len() > MOST_LINES {
+            let parts = self.parts(entry, &lines, locals);
+            let numbers = self.numbers_of_outputs(entry, &lines, locals);
+            let calls = parts.iter().map(|part| part.call(entry));
+            numbers.into_iter().chain(calls).collect()
+        } else {
+            lines.into_iter().map(|line| line.tokens).collect()
+        };
+        let outputs = self.outputs(entry, locals);
+        quote! {
+            #(#inputs)*
+            #(#lines)*
+            #outputs
+        }
+    }
+
+    /// The `let` lines of a function.
+    pub(super) fn lines(&self, needed: &[ValueId], locals: &Locals) -> Vec<Line> {
         let mut lines = Vec::new();
         let mut paired = Vec::new();
-        for &id in &needed {
+        for &id in needed {
             let angle = match *self.op(id) {
                 Op::Sin(angle) | Op::Cos(angle) => angle,
                 Op::Input(..) | Op::Constant(_) => continue,
                 _ => {
                     if let Some(name) = locals.names.get(&id) {
                         let name = ident(name);
-                        let (value, _) = self.definition(id, &locals);
-                        lines.push(quote!(let #name = #value;));
+                        let (value, _) = self.definition(id, locals);
+                        lines.push(Line {
+                            defines: vec![id],
+                            reads: self.program.definition(id).op.operands().collect(),
+                            tokens: quote!(let #name = #value;),
+                        });
                     }
                     continue;
                 }
             };
             if !paired.contains(&angle) {
                 paired.push(angle);
-                lines.push(self.sin_cos(angle, &needed, &locals));
+                let pair = [Op::Sin(angle), Op::Cos(angle)];
+                let both = needed
+                    .iter()
+                    .copied()
+                    .filter(|&id| pair.contains(self.op(id)));
+                lines.push(Line {
+                    defines: both.collect(),
+                    reads: vec![angle],
+                    tokens: self.sin_cos(angle, needed, locals),
+                });
             }
         }
-        let outputs = self.outputs(entry, &locals);
-        quote! {
-            #(#inputs)*
-            #(#lines)*
-            #outputs
-        }
+        lines
     }
 
     /// `let [theta_parent, _, theta_child_2] = *theta;`

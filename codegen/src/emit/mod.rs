@@ -7,6 +7,7 @@ mod formulas;
 mod function;
 mod model;
 mod names;
+mod parts;
 mod stub;
 mod traits;
 

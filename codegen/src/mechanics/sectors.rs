@@ -109,7 +109,8 @@ impl Derivation<'_> {
             let link = &scene.links[index];
             let angle = frame.coordinates[index];
             let slope = |symbol| frame.potential.derivative(symbol).expand();
-            let named = |letter: &str| match self.symbols.find(&format!("{letter}_{}", orbit.name)) {
+            let named = |letter: &str| match self.symbols.find(&format!("{letter}_{}", orbit.name))
+            {
                 Some(symbol) => Expr::Symbol(symbol),
                 None => Expr::zero(),
             };

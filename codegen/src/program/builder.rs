@@ -139,6 +139,10 @@ impl Builder {
         if let Op::Neg(inner) = *self.op(a) {
             return self.sub(b, inner);
         }
+        if a == b {
+            let two = self.integer(2);
+            return self.mul(two, a);
+        }
         self.fold(a, b, Setup::add)
             .unwrap_or_else(|| self.record(Op::Add(a, b)))
     }
@@ -149,6 +153,9 @@ impl Builder {
         }
         if self.is(a, 0) {
             return self.neg(b);
+        }
+        if a == b {
+            return self.integer(0);
         }
         if let Op::Neg(inner) = *self.op(b) {
             return self.add(a, inner);

@@ -34,7 +34,8 @@ impl EntryList<'_, '_> {
         let motion = motion(&mut copies, scene, mechanics, &values, State::Rates);
         let [conservative, other] = copies.accelerations(&values, &motion);
         let accelerations = copies.sum(&conservative, &other);
-        let accelerations = by_coordinate(&mut copies, mechanics, &accelerations, Copies::component);
+        let accelerations =
+            by_coordinate(&mut copies, mechanics, &accelerations, Copies::component);
         let momenta = by_coordinate(&mut copies, mechanics, &motion.momenta, Copies::projected);
         let requests = &scene.requests;
         let canonical = requests.momenta.then(|| {
@@ -118,11 +119,21 @@ impl EntryList<'_, '_> {
         let mut found: Vec<(&str, Purpose, Vec<ValueId>, Shape)> = Vec::new();
         let mut shares = |copies: &mut Copies<'_>, name, definition, shares: Vec<Share>| {
             let outputs = flattened(copies, &shares);
-            found.push((name, Purpose::Budget(definition), outputs, Shape::Budget(count)));
+            found.push((
+                name,
+                Purpose::Budget(definition),
+                outputs,
+                Shape::Budget(count),
+            ));
         };
         for (wanted, name, definition, at_rest) in [
             (request.rest, "budget_rest", EnergyDefinition::Rest, true),
-            (request.canonical, "budget_canonical", EnergyDefinition::Canonical, false),
+            (
+                request.canonical,
+                "budget_canonical",
+                EnergyDefinition::Canonical,
+                false,
+            ),
         ] {
             if wanted {
                 let all = places
@@ -140,11 +151,21 @@ impl EntryList<'_, '_> {
                     .iter()
                     .map(|&which| copies.velocity_share(&values, &motion, which, accelerations))
                     .collect();
-                shares(&mut copies, "budget_velocity", EnergyDefinition::Velocity, all);
+                shares(
+                    &mut copies,
+                    "budget_velocity",
+                    EnergyDefinition::Velocity,
+                    all,
+                );
             }
             if request.parseval {
                 let all = copies.parseval_shares(&values, &motion, &places, accelerations);
-                shares(&mut copies, "budget_parseval", EnergyDefinition::Parseval, all);
+                shares(
+                    &mut copies,
+                    "budget_parseval",
+                    EnergyDefinition::Parseval,
+                    all,
+                );
             }
         }
         if request.canonical {
@@ -158,7 +179,11 @@ impl EntryList<'_, '_> {
         }
         if request.matrix {
             let matrix = copies.transfer_matrix(&values, &motion, &places);
-            let outputs = matrix.iter().flatten().map(|value| copies.graded.total(value)).collect();
+            let outputs = matrix
+                .iter()
+                .flatten()
+                .map(|value| copies.graded.total(value))
+                .collect();
             found.push((
                 "transfer_matrix",
                 Purpose::TransferMatrix,
@@ -310,6 +335,10 @@ fn motion(
         let momenta = copies.momenta(values, &pose, &handed);
         (handed, momenta)
     };
+    for (rate, momentum) in rates.iter().zip(&momenta) {
+        copies.named(rate, "omega");
+        copies.named(momentum, "momentum");
+    }
     let forces = copies.dissipative_forces(values, &rates);
     Motion {
         pose,
@@ -339,8 +368,11 @@ fn by_coordinate<'b>(
 
 /// Energies, then transfers, then powers.
 fn flattened(copies: &mut Copies<'_>, shares: &[Share]) -> Vec<ValueId> {
-    let parts: [fn(&Share) -> &Series; 3] =
-        [|share| &share.energy, |share| &share.transfer, |share| &share.power];
+    let parts: [fn(&Share) -> &Series; 3] = [
+        |share| &share.energy,
+        |share| &share.transfer,
+        |share| &share.power,
+    ];
     let mut outputs = Vec::new();
     for part in parts {
         outputs.extend(shares.iter().map(|share| copies.graded.total(part(share))));

@@ -110,12 +110,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
 }
 
 /// Reads the forms of the budget; all exact ones if none is named.
-fn budget(
-    span: Span,
-    forms: Option<&[Form]>,
-    damaged: bool,
-    report: &mut Report,
-) -> BudgetRequest {
+fn budget(span: Span, forms: Option<&[Form]>, damaged: bool, report: &mut Report) -> BudgetRequest {
     let mut request = BudgetRequest::default();
     let Some(forms) = forms else {
         return BudgetRequest {

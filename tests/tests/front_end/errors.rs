@@ -258,6 +258,26 @@ const CASES: &[(&str, &str)] = &[
     emit(symmetric, transfer))] struct Pendulum;",
     ),
     (
+        "budget_forms",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(budget(parsival, canonical = 2, matrix, matrix, amplitude = 9, amplitude)),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_without_form",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(budget()),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_without_siblings",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1), emit(budget))] struct Pendulum;",
+    ),
+    (
         "nested_groups",
         "#[branched_pendulum(gravity = 1,
     a: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1),

@@ -181,7 +181,13 @@ impl Copies<'_> {
     ) -> [Fields; 2] {
         let factors = self.factors(values, &motion.pose);
         let forces = self.conservative_forces(values, &motion.pose, &motion.rates);
+        for force in &forces {
+            self.named(force, "torque");
+        }
         let conservative = self.solve(&factors, &forces);
+        for acceleration in &conservative {
+            self.named(acceleration, "alpha");
+        }
         let other = if motion.forces.iter().all(super::field::Field::is_zero) {
             self.zeros()
         } else {

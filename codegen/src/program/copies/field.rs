@@ -154,11 +154,7 @@ impl<'b> Copies<'b> {
     }
 
     /// The terms of that sum; the mean's stands under `None`.
-    pub(super) fn dot_by_place(
-        &mut self,
-        f: &Field,
-        g: &Field,
-    ) -> BTreeMap<Option<Place>, Series> {
+    pub(super) fn dot_by_place(&mut self, f: &Field, g: &Field) -> BTreeMap<Option<Place>, Series> {
         debug_assert_eq!(f.orbit, g.orbit);
         let mut parts = BTreeMap::new();
         let links = self.graded.integer(self.orbits[f.orbit].links as i64);
@@ -233,7 +229,8 @@ impl<'b> Copies<'b> {
             sum = self.graded.add(&sum, value);
         }
         let share = Rational::from_ratio(1, values.len() as i64);
-        self.graded.scale(&share.unwrap_or_else(Rational::one), &sum)
+        self.graded
+            .scale(&share.unwrap_or_else(Rational::one), &sum)
     }
 
     /// Product, link by link.
@@ -260,10 +257,7 @@ impl<'b> Copies<'b> {
         let Some(branch) = branch else {
             return Series::default();
         };
-        let (f_varies, g_varies) = (
-            f.varies_below(Some(branch)),
-            g.varies_below(Some(branch)),
-        );
+        let (f_varies, g_varies) = (f.varies_below(Some(branch)), g.varies_below(Some(branch)));
         if !f_varies && !g_varies {
             return Series::default();
         }

@@ -68,7 +68,15 @@ pub(in crate::program) struct Factors {
 impl Copies<'_> {
     /// The configuration with these angles.
     pub(in crate::program) fn pose(&mut self, values: &Values, angles: Fields) -> Pose {
-        let directions: Vec<Direction> = angles.iter().map(|angle| self.direction(angle)).collect();
+        let directions: Vec<Direction> = angles
+            .iter()
+            .map(|angle| {
+                let direction = self.direction(angle);
+                self.named(&direction.cos, "cosine");
+                self.named(&direction.sin, "sine");
+                direction
+            })
+            .collect();
         let mut entries = Vec::new();
         for coupling in &values.couplings {
             let CouplingValues { row, column, .. } = *coupling;
@@ -89,11 +97,16 @@ impl Copies<'_> {
                 self.scale(&coupling.sine, &cos),
                 self.scale(&coupling.cosine, &sin),
             ];
+            let value = self.add(&parts[0], &parts[1]);
+            let slope = self.sub(&parts[2], &parts[3]);
+            let above = self.orbits[column].name(None).to_owned();
+            self.named(&value, &format!("mass_{above}"));
+            self.named(&slope, &format!("slope_{above}"));
             entries.push(Entry {
                 row,
                 column,
-                value: self.add(&parts[0], &parts[1]),
-                slope: self.sub(&parts[2], &parts[3]),
+                value,
+                slope,
             });
         }
         Pose {
@@ -115,7 +128,10 @@ impl Copies<'_> {
     fn mass_matrix(&mut self, values: &Values, pose: &Pose) -> OrbitMatrix {
         let mut matrix = OrbitMatrix::new();
         for (orbit, constants) in values.orbits.iter().enumerate() {
-            matrix.insert((orbit, orbit), Field::uniform(orbit, constants.moment.clone()));
+            matrix.insert(
+                (orbit, orbit),
+                Field::uniform(orbit, constants.moment.clone()),
+            );
         }
         for entry in &pose.entries {
             matrix.insert((entry.row, entry.column), entry.value.clone());
@@ -124,7 +140,12 @@ impl Copies<'_> {
     }
 
     /// M v.
-    pub(in crate::program) fn momenta(&mut self, values: &Values, pose: &Pose, rates: &Fields) -> Fields {
+    pub(in crate::program) fn momenta(
+        &mut self,
+        values: &Values,
+        pose: &Pose,
+        rates: &Fields,
+    ) -> Fields {
         let mut momenta: Fields = rates
             .iter()
             .zip(&values.orbits)
@@ -149,12 +170,16 @@ impl Copies<'_> {
         let mut ratios = Vec::new();
         for orbit in (0..self.orbits.len()).rev() {
             let pivot = matrix[&(orbit, orbit)].clone();
+            self.named(&pivot, "pivot");
             let inverse = self.reciprocal(&pivot);
+            self.named(&inverse, "inverse_pivot");
             let row: Vec<(usize, Field)> = (0..orbit)
                 .filter_map(|above| Some((above, matrix.get(&(orbit, above))?.clone())))
                 .collect();
             for (above, value) in &row {
                 let ratio = self.mul(value, &inverse);
+                let name = format!("ratio_{}", self.orbits[*above].name(None));
+                self.named(&ratio, &name);
                 for (other, entry) in row.iter().filter(|(other, _)| other <= above) {
                     let product = self.mul(&ratio, entry);
                     let product = self.gather(&product, *above);
@@ -200,7 +225,9 @@ impl Copies<'_> {
             self.accumulate(&mut gradient, &along);
             self.accumulate(&mut gradient, &across);
         }
-        self.in_joints(&mut gradient, &pose.angles, values, |constants| &constants.spring);
+        self.in_joints(&mut gradient, &pose.angles, values, |constants| {
+            &constants.spring
+        });
         gradient
     }
 
@@ -241,7 +268,11 @@ impl Copies<'_> {
     }
 
     /// Generalized forces of friction and drag, Q = −∂R/∂ω.
-    pub(in crate::program) fn dissipative_forces(&mut self, values: &Values, rates: &Fields) -> Fields {
+    pub(in crate::program) fn dissipative_forces(
+        &mut self,
+        values: &Values,
+        rates: &Fields,
+    ) -> Fields {
         let mut losses = self.zeros();
         self.in_joints(&mut losses, rates, values, |constants| &constants.friction);
         for (constants, rate) in values.orbits.iter().zip(rates) {
@@ -326,7 +357,10 @@ impl Copies<'_> {
     /// Names the mean and the differences of a field: `theta_child_m`.
     pub(in crate::program) fn named(&mut self, field: &Field, letter: &str) {
         let orbit = &self.orbits[field.orbit];
-        let parts = field.differences.iter().map(|(&place, value)| (Some(place), value));
+        let parts = field
+            .differences
+            .iter()
+            .map(|(&place, value)| (Some(place), value));
         for (which, value) in std::iter::once((None, &field.mean)).chain(parts) {
             if let Some(value) = value.coefficient(0) {
                 let name = format!("{letter}_{}", orbit.name(which));

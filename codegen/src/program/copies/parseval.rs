@@ -84,7 +84,11 @@ impl Copies<'_> {
         centres
     }
 
-    pub(in crate::program) fn kinematics(&mut self, values: &Values, motion: &Motion) -> Kinematics {
+    pub(in crate::program) fn kinematics(
+        &mut self,
+        values: &Values,
+        motion: &Motion,
+    ) -> Kinematics {
         let velocities = self.of_centres(values, motion, |copies, lever, orbit| {
             copies.times(lever, &motion.rates[orbit])
         });
@@ -133,7 +137,11 @@ impl Copies<'_> {
         [conservative, other]: [&Fields; 2],
     ) -> Vec<Share> {
         let kinematics = self.kinematics(values, motion);
-        let squares: Fields = motion.rates.iter().map(|rate| self.mul(rate, rate)).collect();
+        let squares: Fields = motion
+            .rates
+            .iter()
+            .map(|rate| self.mul(rate, rate))
+            .collect();
         let accelerations = self.of_centres(values, motion, |copies, lever, orbit| {
             let along = copies.times(lever, &conservative[orbit]);
             let across = copies.across(lever);
@@ -202,7 +210,13 @@ impl Copies<'_> {
             let constants = &values.orbits[orbit];
             let direction = motion.pose.directions[orbit].clone();
             let lever = self.lever(&constants.com, &direction);
-            self.moment(&mut by_rates, &mut by_angles, &lever, &impulses[orbit], motion);
+            self.moment(
+                &mut by_rates,
+                &mut by_angles,
+                &lever,
+                &impulses[orbit],
+                motion,
+            );
             if let Some(parent) = self.orbits[orbit].parent {
                 let above = [0, 1].map(|axis| self.gather(&carried[orbit][axis].clone(), parent));
                 carried[parent] = self.add_planes(&carried[parent].clone(), &above);

@@ -20,7 +20,10 @@ impl Copies<'_> {
     /// left out where both parts share it.
     fn chord(&mut self, pose: &Pose, orbit: usize, which: Which) -> [Series; 2] {
         let direction = &pose.directions[orbit];
-        let (cos, sin) = (direction.cos.component(which), direction.sin.component(which));
+        let (cos, sin) = (
+            direction.cos.component(which),
+            direction.sin.component(which),
+        );
         if which.is_some() {
             return [cos, sin];
         }

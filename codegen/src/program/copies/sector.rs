@@ -101,7 +101,9 @@ impl<'b> Copies<'b> {
             return self.projected(field, None);
         };
         let root = self.orbits[field.orbit].branch.as_ref();
-        let Some((branch, mean)) = root.and_then(|root| self.mean_at(root, field, &field.mean.clone(), group)) else {
+        let Some((branch, mean)) =
+            root.and_then(|root| self.mean_at(root, field, &field.mean.clone(), group))
+        else {
             unreachable!("a sector without this orbit")
         };
         if branch.copies.len() == 2 {
@@ -286,11 +288,7 @@ impl<'b> Copies<'b> {
     }
 
     /// For each orbit of the sector, the projection of a vector.
-    pub(super) fn projections(
-        &mut self,
-        fields: &Fields,
-        which: Which,
-    ) -> BTreeMap<usize, Series> {
+    pub(super) fn projections(&mut self, fields: &Fields, which: Which) -> BTreeMap<usize, Series> {
         let orbits = self.orbits_of(which);
         orbits
             .into_iter()

@@ -100,25 +100,11 @@ impl Graded<'_> {
     }
 
     pub(super) fn add(&mut self, a: &Series, b: &Series) -> Series {
-        let sum = |builder: &mut Builder, a, b| {
-            if a != b {
-                return builder.add(a, b);
-            }
-            let two = builder.integer(2);
-            builder.mul(two, a)
-        };
-        self.by_order(a, b, sum, |_, value| value)
+        self.by_order(a, b, Builder::add, |_, value| value)
     }
 
     pub(super) fn sub(&mut self, a: &Series, b: &Series) -> Series {
-        let difference = |builder: &mut Builder, a, b| {
-            if a == b {
-                builder.integer(0)
-            } else {
-                builder.sub(a, b)
-            }
-        };
-        self.by_order(a, b, difference, Builder::neg)
+        self.by_order(a, b, Builder::sub, Builder::neg)
     }
 
     pub(super) fn neg(&mut self, a: &Series) -> Series {

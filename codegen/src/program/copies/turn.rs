@@ -42,7 +42,10 @@ impl Copies<'_> {
         imaginary.mean = across;
         // (cos + i sin)(1 + real + i imaginary)
         let mut whole = [Field::zero(orbit), Field::zero(orbit)];
-        let parts = [(&cos, &real, &sin, &imaginary, true), (&cos, &imaginary, &sin, &real, false)];
+        let parts = [
+            (&cos, &real, &sin, &imaginary, true),
+            (&cos, &imaginary, &sin, &real, false),
+        ];
         for (result, (c, x, s, y, opposite)) in whole.iter_mut().zip(parts) {
             let first = self.scale(c, x);
             let second = self.scale(s, y);
@@ -163,6 +166,8 @@ impl Copies<'_> {
         let sine = builder.mul(two, product);
         let square = builder.mul(sin, sin);
         let versine = builder.mul(two, square);
+        builder.name(sine, &format!("sin_{label}"));
+        builder.name(versine, &format!("vers_{label}"));
         let sine = if opposite { builder.neg(sine) } else { sine };
         Turn {
             versine: self.graded.value(versine),
@@ -179,7 +184,11 @@ impl Copies<'_> {
             term = self.graded.mul(&term, angle);
             let share = Rational::from_ratio(1, power as i64).unwrap_or_else(Rational::one);
             term = self.graded.scale(&share, &term);
-            let target = if power % 2 == 1 { &mut sine } else { &mut versine };
+            let target = if power % 2 == 1 {
+                &mut sine
+            } else {
+                &mut versine
+            };
             // vers: + − +, from x²/2; sin: + − +, from x.
             *target = if (power - 1) / 2 % 2 == 0 {
                 self.graded.add(target, &term)

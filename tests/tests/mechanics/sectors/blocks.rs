@@ -76,7 +76,9 @@ fn off_blocks_vanish_and_spectra_of_blocks_are_the_spectrum() {
         blockwise.sort_by(f64::total_cmp);
         let full = spectrum(&mass, &stiffness);
         assert_eq!(full.len(), blockwise.len());
-        let scale = full.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let scale = full
+            .iter()
+            .fold(0.0_f64, |most, value| most.max(value.abs()));
         for (full, block) in full.iter().zip(&blockwise) {
             spectra.note(full - block, scale, || format!("seed {seed}"));
         }
@@ -100,6 +102,11 @@ fn a_full_binary_tree_has_a_sector_for_every_branching() {
         .collect();
     assert_eq!(
         sizes,
-        [("in_phase", 3), ("arm_2_d", 2), ("arm_3_1_d", 1), ("arm_3_2_d", 1)]
+        [
+            ("in_phase", 3),
+            ("arm_2_d", 2),
+            ("arm_3_1_d", 1),
+            ("arm_3_2_d", 1)
+        ]
     );
 }

@@ -42,7 +42,12 @@ pub(crate) static SAMPLES: LazyLock<Vec<Budgeted>> = LazyLock::new(|| {
 pub(crate) fn states(links: usize, count: usize, seed: u64) -> Vec<[Vec<f64>; 2]> {
     let mut random = Random::new(seed);
     (0..count)
-        .map(|_| [random.around_zero(links, 3.0), random.around_zero(links, 5.0)])
+        .map(|_| {
+            [
+                random.around_zero(links, 3.0),
+                random.around_zero(links, 5.0),
+            ]
+        })
         .collect()
 }
 
@@ -71,7 +76,9 @@ fn energies_agree_with_dense_matrices() {
                 let got = sample.compiled.evaluate(entry, &[&theta, &omega]);
                 let scale: f64 = expected.iter().map(|energy| energy.abs()).sum();
                 for (expected, got) in expected.iter().zip(&got[..count]) {
-                    worst.note(got - expected, scale, || format!("{entry} of tree {number}"));
+                    worst.note(got - expected, scale, || {
+                        format!("{entry} of tree {number}")
+                    });
                 }
             }
         }
@@ -86,7 +93,9 @@ fn energies_by_parseval_sum_to_the_energy() {
         let count = sample.basis.sectors.len();
         for [theta, omega] in states(sample.tree.links.len(), 20, 50 + number as u64) {
             let motion = Motion::new(&sample.tree, &theta, &omega);
-            let got = sample.compiled.evaluate("budget_parseval", &[&theta, &omega]);
+            let got = sample
+                .compiled
+                .evaluate("budget_parseval", &[&theta, &omega]);
             let sum: f64 = got[..count].iter().sum();
             worst.note(
                 sum - motion.kinetic - motion.potential,
@@ -112,7 +121,9 @@ fn budgets_from_symmetric_coordinates_are_the_same() {
                 let got = sample.compiled.evaluate(&entry, &[&q, &v]);
                 let scale = expected.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
                 for (expected, got) in expected.iter().zip(&got) {
-                    worst.note(got - expected, scale, || format!("{entry} of tree {number}"));
+                    worst.note(got - expected, scale, || {
+                        format!("{entry} of tree {number}")
+                    });
                 }
             }
         }
@@ -164,7 +175,10 @@ fn in_phase_motion_feeds_no_other_sector() {
         for (_, entry) in DEFINITIONS {
             let budget = sample.compiled.evaluate(entry, &[&theta, &omega]);
             for part in budget.chunks(count) {
-                assert!(part[1..].iter().all(|value| *value == 0.0), "{entry}: {part:?}");
+                assert!(
+                    part[1..].iter().all(|value| *value == 0.0),
+                    "{entry}: {part:?}"
+                );
             }
             assert!(budget[0] != 0.0);
         }

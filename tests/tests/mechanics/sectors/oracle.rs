@@ -138,7 +138,11 @@ pub(crate) fn potentials(tree: &Tree, basis: &Basis, theta: &[f64]) -> Vec<f64> 
                     let chord = weights[link][0] * (x * x + y * y);
                     let spring = tree.links[link].spring * turn * turn;
                     // The sector of the means comes first.
-                    let lateral = if sector == 0 { weights[link][1] * y } else { 0.0 };
+                    let lateral = if sector == 0 {
+                        weights[link][1] * y
+                    } else {
+                        0.0
+                    };
                     norm * (0.5 * (chord + spring) + lateral)
                 })
                 .sum()

@@ -42,7 +42,10 @@ fn assert_orders(compiled: &Compiled, orders: &[u32], gained: u32, epsilon: f64)
         let slope = (coarse / fine).log2();
         let expected = f64::from(order + gained);
         println!("order {order}: errors {coarse:.2e}, {fine:.2e}, slope {slope:.2}");
-        assert!((slope - expected).abs() < 0.35, "order {order}: slope {slope:.2}");
+        assert!(
+            (slope - expected).abs() < 0.35,
+            "order {order}: slope {slope:.2}"
+        );
     }
 }
 
@@ -96,7 +99,11 @@ fn leaves_have_the_transfers_of_the_symbolic_series() {
         let pairs = [
             ("transfer_amplitude_2", "sector_transfers_amplitude_2", &p),
             ("transfer_amplitude_4", "sector_transfers_amplitude_4", &p),
-            ("transfer_exact_from_rates", "symmetric_sector_transfers", &v),
+            (
+                "transfer_exact_from_rates",
+                "symmetric_sector_transfers",
+                &v,
+            ),
         ];
         for (symbolic, by_sectors, second) in pairs {
             let expected = compiled.evaluate(symbolic, &[&q, second]);

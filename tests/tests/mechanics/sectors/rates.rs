@@ -79,14 +79,18 @@ fn the_potential_part_is_the_potential_energys() {
     let (tree, basis) = (&sample.tree, &sample.basis);
     let count = basis.sectors.len();
     for [theta, omega] in states(tree.links.len(), 4, 350) {
-        let parts = sample.compiled.evaluate("sector_transfers", &[&theta, &omega]);
+        let parts = sample
+            .compiled
+            .evaluate("sector_transfers", &[&theta, &omega]);
         // {E_s, U − V_s} = −∂T_s/∂p · ∂(U − V_s)/∂q, with ∂T_s/∂p = B⁻¹ p.
         let mass = Motion::new(tree, &theta, &omega).mass;
         let momenta = basis.j.transpose() * (&mass * nalgebra::DVector::from_row_slice(&omega));
         for sector in 0..count {
             let block = basis.block(&mass, sector);
             let own = momenta.select_rows(&basis.sectors[sector]);
-            let speed = nalgebra::Cholesky::new(block).expect("positive definite").solve(&own);
+            let speed = nalgebra::Cholesky::new(block)
+                .expect("positive definite")
+                .solve(&own);
             let along = |h: f64| {
                 let mut moved = theta.clone();
                 for (&coordinate, speed) in basis.sectors[sector].iter().zip(&speed) {
@@ -101,7 +105,10 @@ fn the_potential_part_is_the_potential_energys() {
             let expected = -derivative(1e-4, along)[0];
             let scale = parts.iter().map(|part| part.abs()).sum::<f64>();
             let error = (parts[2 * sector + 1] - expected).abs();
-            assert!(error <= 1e-8 * scale, "sector {sector}: {error:e} of {scale:e}");
+            assert!(
+                error <= 1e-8 * scale,
+                "sector {sector}: {error:e} of {scale:e}"
+            );
         }
     }
 }
@@ -115,7 +122,9 @@ fn the_transfer_matrix_is_antisymmetric_and_sums_to_the_transfers() {
             let inputs: [&[f64]; 2] = [&theta, &omega];
             let matrix = sample.compiled.evaluate("transfer_matrix", &inputs);
             let budget = sample.compiled.evaluate("budget_parseval", &inputs);
-            let scale = matrix.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
+            let scale = matrix
+                .iter()
+                .fold(0.0_f64, |most, entry| most.max(entry.abs()));
             for into in 0..count {
                 let row = &matrix[into * count..][..count];
                 for from in 0..count {
@@ -139,7 +148,9 @@ fn entries_of_the_transfer_matrix_are_poisson_brackets() {
         let (tree, basis) = (&sample.tree, &sample.basis);
         let (n, count) = (tree.links.len(), basis.sectors.len());
         for [theta, omega] in states(n, 2, 500 + number as u64) {
-            let matrix = sample.compiled.evaluate("transfer_matrix", &[&theta, &omega]);
+            let matrix = sample
+                .compiled
+                .evaluate("transfer_matrix", &[&theta, &omega]);
             let mass = Motion::new(tree, &theta, &omega).mass;
             let momenta = &mass * nalgebra::DVector::from_row_slice(&omega);
             let energies_at = |theta: &[f64], momenta: &nalgebra::DVector<f64>| {
@@ -166,7 +177,9 @@ fn entries_of_the_transfer_matrix_are_poisson_brackets() {
                     })
                 })
                 .collect();
-            let scale = matrix.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
+            let scale = matrix
+                .iter()
+                .fold(0.0_f64, |most, entry| most.max(entry.abs()));
             for s in 0..count {
                 for r in 0..count {
                     let bracket: f64 = (0..n)
