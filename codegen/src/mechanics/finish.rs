@@ -97,6 +97,8 @@ impl Derivation<'_> {
                 }
             }),
             momentum: requests.momenta.then(|| self.exprs(&frame.momentum())),
+            dissipative_forces: self.exprs(&frame.dissipative_forces()),
+            drive: self.exprs(&frame.drive_forces(self)),
             bias: self.exprs(&frame.bias(self)),
         }
     }

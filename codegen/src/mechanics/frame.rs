@@ -52,6 +52,9 @@ pub(super) struct Frame {
     /// The part of the potential energy that is in torsion springs.
     pub(super) springs: Formula,
     pub(super) dissipation: Formula,
+    /// What the generalized forces of the drive are the gradient of, at fixed
+    /// time; zero without a drive.
+    pub(super) drive: Formula,
 }
 
 impl Frame {
@@ -107,12 +110,30 @@ impl Frame {
 
     /// ∂U/∂q_i.
     pub(super) fn potential_gradient(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
-        let depends = derivation.coordinates_of(&self.potential);
+        self.gradient(&self.potential, derivation)
+    }
+
+    /// −∂R/∂v_i, the generalized forces of friction and drag.
+    pub(super) fn dissipative_forces(&self) -> Vec<Formula> {
+        self.velocities
+            .iter()
+            .map(|&velocity| (-self.dissipation.derivative(velocity)).expand())
+            .collect()
+    }
+
+    /// The generalized forces of the drive, at fixed time.
+    pub(super) fn drive_forces(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        self.gradient(&self.drive, derivation)
+    }
+
+    /// The partial derivatives of a function of the coordinates.
+    fn gradient(&self, function: &Formula, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let depends = derivation.coordinates_of(function);
         self.coordinates
             .iter()
             .map(|coordinate| {
                 if depends.contains(coordinate) {
-                    derivation.partial(&self.potential, *coordinate).expand()
+                    derivation.partial(function, *coordinate).expand()
                 } else {
                     Formula::zero()
                 }
@@ -121,7 +142,7 @@ impl Frame {
     }
 
     /// What the Euler–Lagrange equations hold beside M q̈, so that
-    /// d/dt ∂L/∂v_i − ∂L/∂q_i + ∂R/∂v_i = Σ_j M_ij q̈_j + bias_i.
+    /// d/dt ∂L/∂v_i − ∂L/∂q_i + ∂R/∂v_i − Q_i = Σ_j M_ij q̈_j + bias_i.
     pub(super) fn bias(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
         let mut rows: Vec<Vec<Formula>> = vec![Vec::new(); self.coordinates.len()];
         for (a, b, term) in self.kinetic_terms() {
@@ -137,13 +158,17 @@ impl Frame {
                 rows[self.index(coordinate)].push(-derivation.partial(&term, coordinate));
             }
         }
-        let potential = self.potential_gradient(derivation);
+        let forces = self
+            .dissipative_forces()
+            .into_iter()
+            .zip(self.drive_forces(derivation));
         rows.into_iter()
-            .zip(potential)
-            .zip(&self.velocities)
-            .map(|((mut row, potential), &velocity)| {
+            .zip(self.potential_gradient(derivation))
+            .zip(forces)
+            .map(|((mut row, potential), (dissipative, drive))| {
                 row.push(potential);
-                row.push(self.dissipation.derivative(velocity));
+                row.push(-dissipative);
+                row.push(-drive);
                 row.into_iter().sum::<Formula>().expand()
             })
             .collect()

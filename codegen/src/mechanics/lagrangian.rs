@@ -37,6 +37,7 @@ impl Derivation<'_> {
             potential: &potential + &springs,
             springs,
             dissipation,
+            drive: Formula::zero(),
         }
     }
 

@@ -83,7 +83,14 @@ pub struct Frame {
     pub energies: Option<Energies>,
     /// p_i = ∂L/∂v_i in coordinates and velocities, if momenta are asked for.
     pub momentum: Option<Vec<Expr>>,
-    /// Centrifugal, gravity and friction terms of the Euler–Lagrange equations.
+    /// Generalized forces −∂R/∂v_i of friction and drag, zero where there are
+    /// none; contained in `bias` with the opposite sign.
+    pub dissipative_forces: Vec<Expr>,
+    /// Generalized forces Q_i(t, q) of the drive, zero where there are none;
+    /// contained in `bias` with the opposite sign.
+    pub drive: Vec<Expr>,
+    /// Centrifugal, gravity, friction and drive terms of the Euler–Lagrange
+    /// equations.
     pub bias: Vec<Expr>,
 }
 

@@ -106,6 +106,7 @@ impl Derivation<'_> {
                 .dissipation
                 .substitute(&linear(&absolute.velocities, &velocities))
                 .expand(),
+            drive: Formula::zero(),
             coordinates: ids,
             velocities,
             momenta,
