@@ -15,6 +15,11 @@ impl Display for Description {
         if let Some(gravity) = &self.gravity {
             writeln!(f, "{gravity}")?;
         }
+        if let Some(drive) = &self.drive {
+            write!(f, "{}(", drive.name)?;
+            separated(&drive.parts, f)?;
+            writeln!(f, ")")?;
+        }
         for root in &self.roots {
             node(root, 0, f)?;
         }

@@ -2,6 +2,7 @@
 //! entry point, the runtime's traits, and the docs that carry the formulas.
 
 mod docs;
+mod drive;
 mod formulas;
 mod function;
 mod model;

@@ -24,13 +24,13 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Vec<Entry> 
     list.entries
 }
 
-struct EntryList<'l, 'm> {
-    lowering: &'l mut Lowering<'m>,
+pub(super) struct EntryList<'l, 'm> {
+    pub(super) lowering: &'l mut Lowering<'m>,
     entries: Vec<Entry>,
 }
 
 impl EntryList<'_, '_> {
-    fn push(
+    pub(super) fn push(
         &mut self,
         name: &str,
         purpose: Purpose,
@@ -88,7 +88,7 @@ impl EntryList<'_, '_> {
         self.push(
             "accelerations",
             Purpose::Accelerations,
-            &both,
+            &self.timed(&both),
             alpha,
             Shape::Vector,
         );
@@ -109,6 +109,9 @@ impl EntryList<'_, '_> {
                 vec![potential],
                 Shape::Scalar,
             );
+        }
+        if let Some(drive) = &mechanics.drive {
+            self.powers(&mut motion, drive);
         }
         if let Some(momentum) = &frame.momentum {
             let momenta = self.exprs(&mut motion, momentum);
@@ -207,7 +210,7 @@ impl EntryList<'_, '_> {
         self.push(
             "symmetric_accelerations",
             Purpose::SymmetricAccelerations,
-            &[Coordinates, Rates],
+            &self.timed(&[Coordinates, Rates]),
             accelerations,
             Shape::Vector,
         );
@@ -357,6 +360,16 @@ impl EntryList<'_, '_> {
                 &format!("antiphase_friction_power{place}"),
                 Purpose::FrictionPower(number),
                 &[Coordinates, Rates],
+                vec![power],
+                Shape::Scalar,
+            );
+        }
+        if !transfer.drive.is_zero() {
+            let power = self.lowering.expr(&mut motion, &transfer.drive);
+            self.push(
+                &format!("antiphase_drive_power{place}"),
+                Purpose::AntiphaseDrivePower(number),
+                &[Argument::Time, Coordinates, Rates],
                 vec![power],
                 Shape::Scalar,
             );

@@ -79,6 +79,7 @@ impl<'a> Lowering<'a> {
                 let constant = self.constant(symbol);
                 self.builder.constant(constant)
             }
+            Role::Temporal => self.temporal(door, symbol),
             Role::Trigonometric => {
                 let value = self.trigonometric(door, symbol);
                 self.builder.name(value, &entry.code)

@@ -8,6 +8,7 @@
 mod builder;
 mod constants;
 mod count;
+mod drive;
 mod entries;
 mod interpret;
 mod lower;
@@ -41,9 +42,11 @@ pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ValueId(pub u32);
 
-/// An array that an entry point receives.
+/// What an entry point receives: an array, but for the time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Argument {
+    /// Time, s: a single number.
+    Time,
     /// Absolute angles, rad.
     Theta,
     /// Angular velocities, rad/s.
@@ -168,6 +171,12 @@ pub enum Purpose {
     ExactTransferFromRates(usize),
     /// Power of friction on H_d.
     FrictionPower(usize),
+    /// Power of the drive on H_d.
+    AntiphaseDrivePower(usize),
+    /// Power of the drive on the whole tree.
+    DrivePower,
+    /// Power of friction and drag on the whole tree.
+    TotalFrictionPower,
 }
 
 /// An entry point: the program pruned to its outputs becomes a function.

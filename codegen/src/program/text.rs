@@ -7,6 +7,7 @@ impl Argument {
     /// Name of the argument in emitted code.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Time => "time",
             Self::Theta => "theta",
             Self::Omega => "omega",
             Self::AbsoluteMomenta | Self::Momenta => "momenta",
@@ -71,6 +72,7 @@ impl Program {
         let mut line = format!("{} = ", value(id));
         // Writing to a string cannot fail.
         let _ = match &definition.op {
+            Op::Input(Argument::Time, _) => write!(line, "{}", Argument::Time.name()),
             Op::Input(argument, index) => write!(line, "{}[{index}]", argument.name()),
             Op::Constant(constant) => {
                 write!(line, "k{} ({})", constant.0, self.setup.get(*constant).name)

@@ -81,7 +81,7 @@ impl Values {
     }
 
     /// A part of an expression.
-    fn operand(
+    pub(super) fn operand(
         &mut self,
         expression: &Expression,
         usage: &Usage<'_>,
