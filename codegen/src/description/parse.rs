@@ -68,8 +68,13 @@ pub fn parse(
             Entry::Drive(drive) => {
                 let span = drive.name.span();
                 let message = Message::duplicate_property(&drive.name);
-                if description.drive.replace(drive).is_some() {
-                    report.error(span, message);
+                match &mut description.drive {
+                    None => description.drive = Some(drive),
+                    Some(first) => {
+                        report.error(span, message);
+                        first.parts.extend(drive.parts);
+                        first.damaged |= drive.damaged;
+                    }
                 }
             }
             Entry::Emit(name, requests) => {
