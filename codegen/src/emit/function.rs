@@ -102,9 +102,11 @@ impl Emission<'_> {
         let array = ident(argument.name());
         if argument == Argument::Time {
             let used = |id: &ValueId| matches!(self.op(*id), Op::Input(Argument::Time, _));
-            return (!needed.iter().any(used))
-                .then(|| quote!(let _ = #array;))
-                .unwrap_or_default();
+            return if needed.iter().any(used) {
+                TokenStream::new()
+            } else {
+                quote!(let _ = #array;)
+            };
         }
         let mut any = false;
         let elements: Vec<TokenStream> = (0..self.scene.links.len())

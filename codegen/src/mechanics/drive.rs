@@ -200,6 +200,9 @@ impl Derivation<'_> {
             }
             Signal::Function(function, argument) => {
                 let argument = self.signal(argument).expand();
+                if argument.is_zero() {
+                    return Formula::integer(i64::from(*function == Function::Cos));
+                }
                 let (sin, cos) = self.rotation_in_time(&argument);
                 Formula::symbol(match function {
                     Function::Sin => sin,
