@@ -168,8 +168,8 @@ pub enum Message {
         /// The function.
         name: String,
     },
-    /// A function that does not exist.
-    UnknownFunction {
+    /// A function in the drive that does not exist.
+    DriveFunction {
         /// As written.
         name: String,
         /// The known one that is spelt most alike.

@@ -218,9 +218,9 @@ impl Message {
                 "values are made of `+ - * / ^`",
                 "compute it beforehand and write the digits, or make it a parameter",
             ),
-            M::UnknownFunction { name, nearest } => problem(
+            M::DriveFunction { name, nearest } => problem(
                 format!("unknown function `{name}`"),
-                "not a function",
+                "not a function of a drive",
                 suggest(
                     nearest,
                     "functions are `sin(...)` and `cos(...)`, of angles in rad",

@@ -183,7 +183,7 @@ fn part(
                 _ => {
                     let nearest = nearest(&name, FUNCTIONS);
                     let span = function.span();
-                    report.error(span, Message::UnknownFunction { name, nearest });
+                    report.error(span, Message::DriveFunction { name, nearest });
                     return None;
                 }
             };
