@@ -5,6 +5,7 @@
 //! entry       = "crate" "=" path
 //!             | "gravity" "=" expression
 //!             | "emit" "(" [ request { "," request } [ "," ] ] ")"
+//!             | "drive" "(" [ property { "," property } [ "," ] ] ")"
 //!             | link
 //! link        = name [ ":" shape ] "(" [ property { "," property } [ "," ] ] ")"
 //!               [ "[" [ link { "," link } [ "," ] ] "]" ] [ "*" integer ]
@@ -17,12 +18,13 @@
 //! term        = factor { ( "*" | "/" ) factor }
 //! factor      = [ "-" ] power
 //! power       = primary [ "^" ( [ "-" ] integer | "(" [ "-" ] integer ")" ) ]
-//! primary     = decimal | name | "(" expression ")"
+//! primary     = decimal | name | function | "(" expression ")"
+//! function    = name "(" expression ")"
 //! ```
 //!
 //! Unlike in Rust, `^` is a power and binds tightest: `-a^2` is `-(a^2)`. A
 //! `decimal` is read exactly; a `name` is a parameter of the model, the same
-//! name being the same parameter everywhere. A pair is a point of a link,
+//! name being the same parameter everywhere. Properties have no functions. A pair is a point of a link,
 //! `(along, lateral)`; a single value there means `(along, 0)`. Which properties
 //! and requests there are, and what they mean, is the business of
 //! [`scene`](crate::scene); this module knows their shape only.
@@ -37,6 +39,9 @@ use proc_macro2::{Ident, Span, TokenStream};
 pub use expression::{Expression, ExpressionKind};
 pub use parse::parse;
 
+/// The name of time in `drive(...)`, s.
+pub const TIME: &str = "t";
+
 /// An attribute and the struct it stands on.
 #[derive(Debug, Clone)]
 pub struct Description {
@@ -46,6 +51,8 @@ pub struct Description {
     pub crate_path: Option<syn::Path>,
     /// `gravity = ...`, m/s².
     pub gravity: Option<Property>,
+    /// `drive(...)`.
+    pub drive: Option<Drive>,
     /// The links at the top level; a right description has one.
     pub roots: Vec<Node>,
     /// What `emit(...)` asks for.
@@ -71,6 +78,15 @@ impl Description {
         for root in &self.roots {
             root.for_each_name(&mut visit);
         }
+        // In a drive, `t` is the time.
+        let mut visit_drive = |name: &Ident| {
+            if name != TIME {
+                visit(name);
+            }
+        };
+        for part in self.drive.iter().flat_map(|drive| &drive.parts) {
+            part.value.for_each_name(&mut visit_drive);
+        }
         names
     }
 }
@@ -87,6 +103,17 @@ pub struct StructItem {
     /// The item as it was given, to be repeated where nothing else can be
     /// emitted.
     pub tokens: TokenStream,
+}
+
+/// What moves the tree from outside.
+#[derive(Debug, Clone)]
+pub struct Drive {
+    /// The word `drive`.
+    pub name: Ident,
+    /// What the parentheses hold.
+    pub parts: Vec<Property>,
+    /// Whether part of it was unreadable, which is reported already.
+    pub damaged: bool,
 }
 
 /// A link, or a rule for several.

@@ -10,7 +10,7 @@ use syn::{Token, token};
 use super::expression::literal;
 use super::list::{Fault, List, expected, group, identifier, list, parse_all, take};
 use super::{
-    Description, Expression, Form, Multiplicity, Node, Property, Request, StructItem, Value,
+    Description, Drive, Expression, Form, Multiplicity, Node, Property, Request, StructItem, Value,
 };
 use crate::report::{Diagnostic, Message, Report};
 
@@ -45,6 +45,7 @@ pub fn parse(
         item: parse_item(item, report)?,
         crate_path: None,
         gravity: None,
+        drive: None,
         roots: Vec::new(),
         requests: Vec::new(),
         damaged: entries.damaged,
@@ -62,6 +63,18 @@ pub fn parse(
                 let message = Message::duplicate_property(&property.name);
                 if description.gravity.replace(property).is_some() {
                     report.error(span, message);
+                }
+            }
+            Entry::Drive(drive) => {
+                let span = drive.name.span();
+                let message = Message::duplicate_property(&drive.name);
+                match &mut description.drive {
+                    None => description.drive = Some(drive),
+                    Some(first) => {
+                        report.error(span, message);
+                        first.parts.extend(drive.parts);
+                        first.damaged |= drive.damaged;
+                    }
                 }
             }
             Entry::Emit(name, requests) => {
@@ -137,18 +150,32 @@ fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
 enum Entry {
     Crate(Ident, syn::Path),
     Gravity(Property),
+    Drive(Drive),
     Emit(Ident, Vec<Request>),
     Link(Node),
 }
 
 fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
-    let name = identifier(input, "a link, `gravity`, `emit` or `crate`")?;
+    let name = identifier(input, "a link, `gravity`, `drive`, `emit` or `crate`")?;
     if input.peek(Token![=]) {
         return assignment(name, input);
     }
     if name == "emit" {
         let requests = group(input, Delimiter::Parenthesis, "`(` and what to emit")?;
         return Ok(Entry::Emit(name, list(requests, report, request).members));
+    }
+    if name == "drive" && !input.peek(Token![:]) {
+        let parts = group(
+            input,
+            Delimiter::Parenthesis,
+            "`(` and what drives the tree",
+        )?;
+        let parts = list(parts, report, property);
+        return Ok(Entry::Drive(Drive {
+            name,
+            parts: parts.members,
+            damaged: parts.damaged,
+        }));
     }
     if name == "gravity" || name == "crate" {
         return Err(expected(input, "`=` and a value"));

@@ -15,6 +15,11 @@ impl Display for Description {
         if let Some(gravity) = &self.gravity {
             writeln!(f, "{gravity}")?;
         }
+        if let Some(drive) = &self.drive {
+            write!(f, "{}(", drive.name)?;
+            separated(&drive.parts, f)?;
+            writeln!(f, ")")?;
+        }
         for root in &self.roots {
             node(root, 0, f)?;
         }
@@ -109,6 +114,7 @@ impl Display for Expression {
                 write!(f, "-")?;
                 operand(value, f)
             }
+            ExpressionKind::Call { function, argument } => write!(f, "{function}({argument})"),
         }
     }
 }
@@ -124,10 +130,12 @@ fn joined(operands: &[Expression], operator: &str, f: &mut Formatter<'_>) -> fmt
     Ok(())
 }
 
-/// Writes an operand, in parentheses unless it is a number or a name.
+/// Writes an operand, in parentheses unless it is a number, a name or a function.
 fn operand(value: &Expression, f: &mut Formatter<'_>) -> fmt::Result {
     match value.kind {
-        ExpressionKind::Number(_) | ExpressionKind::Name(_) => write!(f, "{value}"),
+        ExpressionKind::Number(_) | ExpressionKind::Name(_) | ExpressionKind::Call { .. } => {
+            write!(f, "{value}")
+        }
         _ => write!(f, "({value})"),
     }
 }

@@ -47,6 +47,10 @@ impl Emission<'_> {
                 wrapped_names(&names)
             ));
         }
+        if self.mechanics.drive.is_some() {
+            lines.extend(self.drive_docs());
+            self.show(&self.drive_formulas(), &mut lines);
+        }
         if !scene.requests.energies && scene.requests.transfer.is_none() {
             lines.push(String::new());
             lines.push("More can be asked for with `emit(…)` in the attribute.".into());
@@ -85,11 +89,11 @@ impl Emission<'_> {
         };
         let lines: Vec<String> = match purpose {
             Purpose::Accelerations => vec![
-                "Angular accelerations (in rad/s²) at angles `theta` (in rad) and angular velocities `omega` (in rad/s).".into(),
+                format!("Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s).", self.at_time()),
                 String::new(),
-                "Solves the Euler–Lagrange equations M(θ) θ̈ + b(θ, ω) = 0 by elimination along the tree (Featherstone, Rigid Body Dynamics Algorithms, 2008, §6.5).".into(),
+                format!("Solves the Euler–Lagrange equations M(θ) θ̈ + b(θ, ω{}) = 0 by elimination along the tree (Featherstone, Rigid Body Dynamics Algorithms, 2008, §6.5).", self.and_time()),
             ],
-            Purpose::KineticEnergy => vec!["Kinetic energy K = ½ ωᵀ M(θ) ω (in J).".into()],
+            Purpose::KineticEnergy => vec![format!("Kinetic energy K = ½ ωᵀ M(θ) ω (in J).{}", self.frame_note())],
             Purpose::PotentialEnergy => {
                 vec!["Potential energy U (in J), zero where all angles are zero.".into()]
             }
@@ -114,9 +118,9 @@ impl Emission<'_> {
                 "Absolute angles from symmetric coordinates, or angular velocities from their velocities.".into(),
             ],
             Purpose::SymmetricAccelerations => vec![
-                "Second time derivatives (in rad/s²) of the symmetric coordinates at `coordinates` (in rad) and `rates` (in rad/s).".into(),
+                format!("Second time derivatives (in rad/s²) of the symmetric coordinates at {}`coordinates` (in rad) and `rates` (in rad/s).", self.at_time()),
                 String::new(),
-                "Solves M̃(q) q̈ + b̃(q, q̇) = 0. A difference that is zero with its rate stays exactly zero.".into(),
+                format!("Solves M̃(q) q̈ + b̃(q, q̇{}) = 0. A difference that is zero with its rate stays exactly zero.", self.and_time()),
             ],
             Purpose::SymmetricMomenta => {
                 vec!["Generalized momenta p = M̃(q) q̇ (in kg m²/s) in symmetric coordinates (paper, Eq. 10).".into()]
@@ -162,10 +166,10 @@ impl Emission<'_> {
                 format!("Coefficients a_pp, a_pq, a_qq of the quadratic form W ≈ a_pp p² + a_pq p θ + a_qq θ² for `{}`, at the in-phase state given; the difference's own coordinate and momentum are not read.", difference(n)),
             ],
             Purpose::ExactTransfer(n) => vec![
-                format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and momenta: the velocities are solved for, no inverse is expanded. Conservative part; friction's power comes on top.", difference(n)),
+                format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and momenta: the velocities are solved for, no inverse is expanded. Conservative part; {}.", difference(n), self.on_top()),
             ],
             Purpose::ExactTransferFromRates(n) => vec![
-                format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; friction's power comes on top.", difference(n)),
+                format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; {}.", difference(n), self.on_top()),
             ],
             Purpose::FrictionPower(n) => vec![
                 format!("Power (in W) of friction and drag on H_d of `{}`.", difference(n)),
@@ -173,6 +177,15 @@ impl Emission<'_> {
             Purpose::Budget(definition) => self.budget_meaning(definition),
             Purpose::SectorTransfers(order) => self.sector_transfers_meaning(order),
             Purpose::TransferMatrix => self.matrix_meaning(),
+            Purpose::AntiphaseDrivePower(n) => vec![
+                format!("Power Σ ∂H_d/∂p Q (in W) of the drive on H_d of `{}` at `time` (in s), by the inertial forces of the moving pivot; a torque on the root has none.", difference(n)),
+            ],
+            Purpose::DrivePower => vec![
+                "Power Σ Q_i ω_i (in W) of the drive on the whole tree at `time` (in s): dE/dt of E = K + U without friction.".into(),
+            ],
+            Purpose::TotalFrictionPower => vec![
+                "Power −2 R (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.".into(),
+            ],
         };
         lines
     }

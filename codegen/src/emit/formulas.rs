@@ -66,6 +66,18 @@ impl Emission<'_> {
                     .collect(),
                 None => Vec::new(),
             },
+            Purpose::AntiphaseDrivePower(n) => self.power_formulas(&mechanics.transfers[n].drive),
+            Purpose::DrivePower => match mechanics.drive.as_ref().and_then(|d| d.power.as_ref()) {
+                Some(power) => self.power_formulas(power),
+                None => Vec::new(),
+            },
+            Purpose::TotalFrictionPower => {
+                let drive = mechanics.drive.as_ref();
+                match drive.and_then(|drive| drive.friction_power.as_ref()) {
+                    Some(power) => simple("P", power),
+                    None => Vec::new(),
+                }
+            }
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
             Purpose::AbsoluteVelocities
             | Purpose::MassMatrix
@@ -88,7 +100,7 @@ impl Emission<'_> {
         }
     }
 
-    fn rows(&self, symbols: &[SymbolId], exprs: &[Expr]) -> Vec<Formula> {
+    pub(super) fn rows(&self, symbols: &[SymbolId], exprs: &[Expr]) -> Vec<Formula> {
         symbols
             .iter()
             .zip(exprs)

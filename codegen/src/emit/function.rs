@@ -27,6 +27,9 @@ impl Emission<'_> {
         let name = ident(&entry.name);
         let arguments = entry.arguments.iter().map(|&argument| {
             let name = ident(argument.name());
+            if argument == Argument::Time {
+                return quote!(#name: T);
+            }
             let size = self.argument_size(argument);
             quote!(#name: &[T; #size])
         });
@@ -136,6 +139,14 @@ impl Emission<'_> {
     /// `let [theta_parent, _, theta_child_2] = *theta;`
     fn take_apart(&self, argument: Argument, needed: &[ValueId], locals: &Locals) -> TokenStream {
         let array = ident(argument.name());
+        if argument == Argument::Time {
+            let used = |id: &ValueId| matches!(self.op(*id), Op::Input(Argument::Time, _));
+            return if needed.iter().any(used) {
+                TokenStream::new()
+            } else {
+                quote!(let _ = #array;)
+            };
+        }
         let mut any = false;
         let elements: Vec<TokenStream> = (0..self.scene.links.len())
             .map(|index| {

@@ -3,6 +3,7 @@
 
 mod budget;
 mod docs;
+mod drive;
 mod formulas;
 mod function;
 mod model;

@@ -49,6 +49,11 @@ impl Emission<'_> {
             let several = uses.get(&id).is_some_and(|count| *count > 1) || depth > DEEPEST;
             let wanted = match (&definition.op, &definition.name) {
                 (Op::Constant(_), _) => continue,
+                // The argument itself, of which there is one.
+                (Op::Input(Argument::Time, _), _) => {
+                    locals.names.insert(id, Argument::Time.name().to_owned());
+                    continue;
+                }
                 (Op::Input(argument, index), _) => Some(self.input_name(*argument, *index)),
                 (Op::Number(_), _) => None,
                 (Op::Sin(_) | Op::Cos(_), Some(name)) => Some(name.clone()),
@@ -77,6 +82,7 @@ impl Emission<'_> {
     pub(super) fn input_name(&self, argument: Argument, index: usize) -> String {
         let mechanics = self.mechanics;
         let symbols = match argument {
+            Argument::Time => return argument.name().to_owned(),
             Argument::Theta | Argument::Absolute => &mechanics.absolute.coordinates,
             Argument::Omega => &mechanics.absolute.velocities,
             Argument::AbsoluteMomenta => &mechanics.absolute.momenta,

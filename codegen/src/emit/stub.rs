@@ -7,15 +7,15 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 /// Methods from two arrays to one.
-const MAPS: [&str; 7] = [
-    "accelerations",
+const MAPS: [&str; 5] = [
     "momenta",
     "velocities",
-    "symmetric_accelerations",
     "symmetric_momenta",
     "symmetric_velocities",
     "transfer_quadratic_form",
 ];
+/// Such methods that take the time first where there is a drive.
+const MOTIONS: [&str; 2] = ["accelerations", "symmetric_accelerations"];
 /// Methods from one array to one.
 const TRANSFORMS: [&str; 2] = ["to_symmetric", "from_symmetric"];
 /// Methods from one array to a matrix.
@@ -27,6 +27,8 @@ const NUMBERS: [&str; 4] = [
     "antiphase_energy",
     "antiphase_friction_power",
 ];
+/// Methods from the time and two arrays to a number.
+const POWERS: [&str; 2] = ["drive_power", "antiphase_drive_power"];
 /// Methods from two arrays to a transfer.
 const TRANSFERS: [&str; 2] = ["transfer_exact", "transfer_exact_from_rates"];
 
@@ -43,6 +45,8 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             .collect()
     };
     let (maps, transforms, matrices) = (idents(&MAPS), idents(&TRANSFORMS), idents(&MATRICES));
+    let (motions, powers) = (idents(&MOTIONS), idents(&POWERS));
+    let time = description.drive.as_ref().map(|_| quote!(time: T,));
     let (numbers, mut transfers) = (idents(&NUMBERS), idents(&TRANSFERS));
     for order in 1..=8 {
         transfers.push(format_ident!("transfer_angle_{order}"));
@@ -59,6 +63,16 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             #(pub fn #maps<const N: usize>(&self, first: &[T; N], second: &[T; N]) -> [T; N] {
                 ::core::unimplemented!()
             })*
+            #(pub fn #motions<const N: usize>(
+                &self, #time first: &[T; N], second: &[T; N],
+            ) -> [T; N] {
+                ::core::unimplemented!()
+            })*
+            #(pub fn #powers<const N: usize>(
+                &self, time: T, first: &[T; N], second: &[T; N],
+            ) -> T {
+                ::core::unimplemented!()
+            })*
             #(pub fn #transforms<const N: usize>(&self, values: &[T; N]) -> [T; N] {
                 ::core::unimplemented!()
             })*
@@ -73,6 +87,9 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             ) -> #runtime::Transfer<T> {
                 ::core::unimplemented!()
             })*
+            pub fn friction_power<const N: usize>(&self, omega: &[T; N]) -> T {
+                ::core::unimplemented!()
+            }
             pub fn potential_energy<const N: usize>(&self, theta: &[T; N]) -> T {
                 ::core::unimplemented!()
             }

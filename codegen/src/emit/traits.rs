@@ -30,6 +30,15 @@ impl Emission<'_> {
         Literal::usize_unsuffixed(self.scene.links.len())
     }
 
+    /// The time of the equations of motion, which undriven trees ignore.
+    fn time_name(&self) -> Ident {
+        let name = match self.mechanics.drive {
+            Some(_) => "time",
+            None => "_time",
+        };
+        Ident::new(name, Span::call_site())
+    }
+
     /// Copies slices into arrays of the same names.
     fn with_arrays(
         &self,
@@ -70,18 +79,23 @@ impl Emission<'_> {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let link_names = self.scene.links.iter().map(|link| &link.name);
         let output = Ident::new("alpha", Span::call_site());
+        let driven = self.mechanics.drive.is_some();
         let body = self.fill(
             &output,
             &["theta", "omega"],
-            quote!(self.accelerations(&theta, &omega)),
+            match driven {
+                true => quote!(self.accelerations(time, &theta, &omega)),
+                false => quote!(self.accelerations(&theta, &omega)),
+            },
         );
+        let time = self.time_name();
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
                 const LINKS: usize = #links;
                 const LINK_NAMES: &'static [&'static str] = &[#(#link_names),*];
 
                 #[inline]
-                fn accelerations_into(&self, _time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+                fn accelerations_into(&self, #time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
                     #body
                 }
             }
@@ -125,8 +139,12 @@ impl Emission<'_> {
         let body = self.fill(
             &output,
             &["coordinates", "rates"],
-            quote!(self.symmetric_accelerations(&coordinates, &rates)),
+            match self.mechanics.drive.is_some() {
+                true => quote!(self.symmetric_accelerations(time, &coordinates, &rates)),
+                false => quote!(self.symmetric_accelerations(&coordinates, &rates)),
+            },
         );
+        let time = self.time_name();
         quote! {
             impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {
                 const COORDINATE_NAMES: &'static [&'static str] = &[#(#names),*];
@@ -134,7 +152,7 @@ impl Emission<'_> {
                 #[inline]
                 fn symmetric_accelerations_into(
                     &self,
-                    _time: T,
+                    #time: T,
                     coordinates: &[T],
                     rates: &[T],
                     accelerations: &mut [T],

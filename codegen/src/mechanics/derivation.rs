@@ -2,6 +2,7 @@
 //! the chain rule.
 
 use super::algebra::Formula;
+use super::drive::DerivedDrive;
 use super::expression::{Role, SymbolId, Symbols};
 use super::print::latex_name;
 use crate::scene::Scene;
@@ -49,6 +50,7 @@ pub(super) struct Derivation<'s> {
     of_one: BTreeMap<SymbolId, (SymbolId, SymbolId)>,
     of_two: BTreeMap<(SymbolId, SymbolId), (SymbolId, SymbolId)>,
     pub(super) combinations: Vec<Combination>,
+    pub(super) drive: DerivedDrive,
     pub(super) groups_of: BTreeMap<SymbolId, usize>,
     of_combination: Vec<(SymbolId, SymbolId)>,
 }
@@ -74,6 +76,7 @@ impl<'s> Derivation<'s> {
             of_one: BTreeMap::new(),
             of_two: BTreeMap::new(),
             combinations: Vec::new(),
+            drive: DerivedDrive::default(),
             groups_of: BTreeMap::new(),
             of_combination: Vec::new(),
         }

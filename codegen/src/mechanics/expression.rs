@@ -19,6 +19,8 @@ pub enum Role {
     Parameter,
     /// A combination of masses and lengths, folded into the model once.
     Constant,
+    /// A function of time alone: time itself, what is formed of it by a drive.
+    Temporal,
     /// Cosine or sine of one coordinate or of a difference of two.
     Trigonometric,
     /// A quantity that a linear system defines (in-phase velocities, D).

@@ -24,6 +24,7 @@ impl Derivation<'_> {
             trigonometry: BTreeMap::new(),
             combinations: Vec::new(),
             constants: Vec::new(),
+            drive: self.plain_drive(&absolute),
             absolute: self.frame(&absolute),
             coordinates: Vec::new(),
             symmetric: None,
@@ -263,6 +264,7 @@ impl Derivation<'_> {
             higher,
             exact: exact.map(|parts| self.parts(&parts)),
             friction: self.expr(&self.friction_power(frame, energy)),
+            drive: self.expr(&self.drive_power(frame, energy)),
         }
     }
 

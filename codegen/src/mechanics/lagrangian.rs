@@ -6,7 +6,7 @@ use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::{Frame, MassMatrix};
 use super::print::latex_name;
-use crate::scene::{LinkId, Offset, Quantity};
+use crate::scene::{Link, LinkId, Offset, Quantity};
 
 /// A constant to be named.
 struct Letter {
@@ -29,6 +29,8 @@ impl Derivation<'_> {
         let potential = self.potential(&coordinates);
         let springs = self.springs(&coordinates);
         let dissipation = self.dissipation(&velocities);
+        self.drive.note_friction(&dissipation);
+        let drive = self.drive_work(&coordinates);
         Frame {
             coordinates,
             velocities,
@@ -36,8 +38,8 @@ impl Derivation<'_> {
             mass,
             potential: &potential + &springs,
             springs,
-            dissipation,
-            drive: Formula::zero(),
+            dissipation: dissipation.into_iter().sum(),
+            drive,
         }
     }
 
@@ -164,13 +166,17 @@ impl Derivation<'_> {
         &(&a * &Formula::symbol(cos)) + &(&b * &Formula::symbol(sin))
     }
 
-    /// U = g Σ m_l (height of l), zero where all angles are zero.
-    fn potential(&mut self, angles: &[SymbolId]) -> Formula {
+    /// Σ weight_l (height of l), in cosines and sines.
+    pub(super) fn heights(
+        &self,
+        angles: &[SymbolId],
+        weight: impl Fn(&Self, &Link) -> Formula,
+    ) -> Formula {
         let mut heights = Vec::new();
         for index in 0..angles.len() {
             let path = self.path(LinkId(index));
             let link = &self.scene.links[index];
-            let weight = &self.quantity(&self.scene.gravity) * &self.quantity(&link.mass);
+            let weight = weight(self, link);
             for (step, &on_path) in path.iter().enumerate() {
                 let offset = match path.get(step + 1) {
                     Some(&next) => &self.scene.links[next].pivot,
@@ -183,7 +189,14 @@ impl Derivation<'_> {
                 heights.push(&weight * &height);
             }
         }
-        let total = heights.into_iter().sum::<Formula>().expand();
+        heights.into_iter().sum::<Formula>().expand()
+    }
+
+    /// U = g Σ m_l (height of l), zero where all angles are zero.
+    fn potential(&mut self, angles: &[SymbolId]) -> Formula {
+        let total = self.heights(angles, |derivation, link| {
+            &derivation.quantity(&derivation.scene.gravity) * &derivation.quantity(&link.mass)
+        });
         let mut potential = Vec::new();
         for (index, &angle) in angles.iter().enumerate() {
             let orbit = self.orbit_name(index);
@@ -213,8 +226,8 @@ impl Derivation<'_> {
 
     /// Rayleigh's dissipation function R = ½ Σ c_i (ω_i − ω_π(i))² + ½ Σ k_i ω_i²
     /// of friction in the pivots and drag against the ground, so that the
-    /// generalized torque of both is −∂R/∂ω_i.
-    fn dissipation(&mut self, velocities: &[SymbolId]) -> Formula {
+    /// generalized torque of both is −∂R/∂ω_i, term by term.
+    fn dissipation(&mut self, velocities: &[SymbolId]) -> Vec<Formula> {
         let mut terms = Vec::new();
         for index in 0..velocities.len() {
             let orbit = self.orbit_name(index);
@@ -241,7 +254,7 @@ impl Derivation<'_> {
                 terms.push(self.half_square(letter, &orbit, &drag, &own));
             }
         }
-        terms.into_iter().sum::<Formula>()
+        terms
     }
 
     /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i))².
@@ -308,7 +321,7 @@ impl Derivation<'_> {
         path
     }
 
-    fn orbit_name(&self, link: usize) -> String {
+    pub(super) fn orbit_name(&self, link: usize) -> String {
         let orbit = self.scene.links[link].orbit;
         self.scene.orbits[orbit.0].name.clone()
     }
@@ -333,7 +346,7 @@ impl Derivation<'_> {
 
     /// A named constant of the model with its value; zero stays zero and is
     /// not named, so that what a scene lacks leaves no trace.
-    fn constant(
+    pub(super) fn constant(
         &mut self,
         code: &str,
         text: &str,

@@ -8,6 +8,7 @@ pub mod algebra;
 mod bracket;
 pub mod coordinates;
 mod derivation;
+mod drive;
 pub mod expression;
 mod finish;
 mod frame;
@@ -23,6 +24,7 @@ mod transfer;
 pub use algebra::AlgebraError;
 pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
+pub use drive::{Drive, PivotMotion, Temporal};
 pub use inverse_mass::Counting;
 pub use print::{latex, text};
 pub use sectors::{Coupling, OrbitConstants, Sector, Sectors};
@@ -128,6 +130,8 @@ pub struct Transfer {
     pub exact: Option<Parts>,
     /// The power of friction and drag on H_d; zero without both.
     pub friction: Expr,
+    /// The power of the drive on H_d; zero without a moving pivot.
+    pub drive: Expr,
 }
 
 /// W cut off at an order.
@@ -196,6 +200,8 @@ pub struct Mechanics {
     pub combinations: Vec<Combination>,
     /// Constants of the model, in the order of their symbols.
     pub constants: Vec<Constant>,
+    /// What moves the tree from outside, if anything does.
+    pub drive: Option<Drive>,
     /// The mechanics in absolute angles.
     pub absolute: Frame,
     /// The symmetric coordinates, if asked for.

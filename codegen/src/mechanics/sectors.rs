@@ -37,6 +37,9 @@ pub struct OrbitConstants {
     pub friction: Expr,
     /// Viscous drag against the ground.
     pub drag: Expr,
+    /// Functions of time c, s, τ in the generalized force of the drive,
+    /// Q = s cos θ − c sin θ + τ.
+    pub drive: [Expr; 3],
 }
 
 /// Entry of the mass matrix between the links of an orbit and those of an
@@ -134,6 +137,8 @@ impl Derivation<'_> {
                 spring: optional(&link.spring, "κ"),
                 friction: optional(&link.friction, "c"),
                 drag: optional(&link.drag, "k"),
+                drive: [self.cos(angle), self.sin(angle), angle]
+                    .map(|symbol| expr(frame.drive.derivative(symbol).expand())),
             });
             let mut above = link.parent;
             while let Some(LinkId(ancestor)) = above {

@@ -2,7 +2,7 @@
 
 use super::coordinates::Kind;
 use super::expression::{Expr, SymbolId};
-use super::{Counting, Entry, Frame, Mechanics, Parts, text};
+use super::{Counting, Drive, Entry, Frame, Mechanics, Parts, Temporal, text};
 use std::fmt;
 
 impl fmt::Display for Mechanics {
@@ -17,6 +17,9 @@ impl fmt::Display for Mechanics {
                 constant.unit,
                 constant.meaning
             )?;
+        }
+        if let Some(drive) = &self.drive {
+            self.drive(f, drive)?;
         }
         writeln!(f, "absolute angles")?;
         self.frame(f, &self.absolute)?;
@@ -73,6 +76,9 @@ impl fmt::Display for Mechanics {
             if !transfer.friction.is_zero() {
                 self.line(f, "power of friction", &transfer.friction)?;
             }
+            if !transfer.drive.is_zero() {
+                self.line(f, "power of the drive", &transfer.drive)?;
+            }
         }
         Ok(())
     }
@@ -118,6 +124,11 @@ impl Mechanics {
         for (index, bias) in frame.bias.iter().enumerate() {
             self.line(f, &format!("b[{}]", index + 1), bias)?;
         }
+        for (index, force) in frame.drive.iter().enumerate() {
+            if !force.is_zero() {
+                self.line(f, &format!("Q[{}]", index + 1), force)?;
+            }
+        }
         for (&symbol, value) in frame.momenta.iter().zip(frame.momentum.iter().flatten()) {
             self.line(f, &self.name(symbol), value)?;
         }
@@ -125,6 +136,26 @@ impl Mechanics {
             Some(stiffness) => self.matrix(f, "∂²U", stiffness),
             None => Ok(()),
         }
+    }
+
+    fn drive(&self, f: &mut fmt::Formatter<'_>, drive: &Drive) -> fmt::Result {
+        writeln!(f, "drive")?;
+        for motion in &drive.pivot {
+            self.line(f, motion.name, &motion.position)?;
+        }
+        for (&symbol, meaning) in &drive.temporal {
+            if let Temporal::Given(value) = meaning {
+                self.line(f, &self.name(symbol), value)?;
+            }
+        }
+        let powers = [
+            ("power", &drive.power),
+            ("power of friction", &drive.friction_power),
+        ];
+        powers.iter().try_for_each(|(name, power)| match power {
+            Some(power) => self.line(f, name, power),
+            None => Ok(()),
+        })
     }
 
     fn coordinates(&self, f: &mut fmt::Formatter<'_>, frame: &Frame) -> fmt::Result {

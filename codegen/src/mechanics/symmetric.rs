@@ -97,7 +97,13 @@ impl Derivation<'_> {
             .springs
             .substitute(&linear(&absolute.coordinates, &ids))
             .expand();
-        let gravity = self.symmetric_potential(absolute, &replacements);
+        let gravity = self.symmetric_sum(absolute, &absolute.potential, &replacements);
+        // A torque's work is linear in the root's angle, which stays one.
+        let moment = self.symmetric_sum(absolute, &absolute.drive, &replacements);
+        let torque: Formula = linear(&absolute.coordinates, &ids)
+            .iter()
+            .map(|(angle, value)| &absolute.drive.derivative(*angle) * value)
+            .sum();
         Frame {
             mass: mass.map(|_, _, sum| sum.expand()),
             potential: &gravity + &springs,
@@ -106,7 +112,7 @@ impl Derivation<'_> {
                 .dissipation
                 .substitute(&linear(&absolute.velocities, &velocities))
                 .expand(),
-            drive: Formula::zero(),
+            drive: &moment + &torque,
             coordinates: ids,
             velocities,
             momenta,
@@ -254,17 +260,20 @@ impl Derivation<'_> {
         }
     }
 
-    /// The energy in gravity orbit by orbit as G (n − Σ cos θ): the sum over an orbit is what
-    /// becomes short, and the difference from its rest value stays one.
-    fn symmetric_potential(
+    /// A sum of multiples of 1 − cos θ and sin θ, equal within an orbit, as the
+    /// energy in gravity is: orbit by orbit as G (n − Σ cos θ), since the sum over
+    /// an orbit is what becomes short, and the difference from its rest value
+    /// stays one.
+    fn symmetric_sum(
         &self,
         absolute: &Frame,
+        sum: &Formula,
         replacements: &[(SymbolId, Formula)],
     ) -> Formula {
         let mut terms = Vec::new();
         for orbit in &self.scene.orbits {
             let count = Formula::integer(orbit.links.len() as i64);
-            let sum = |function: fn(&Self, SymbolId) -> SymbolId| -> Formula {
+            let total = |function: fn(&Self, SymbolId) -> SymbolId| -> Formula {
                 orbit
                     .links
                     .iter()
@@ -275,11 +284,11 @@ impl Derivation<'_> {
             };
             let constant = |function: fn(&Self, SymbolId) -> SymbolId| {
                 let one = function(self, absolute.coordinates[orbit.links[0].0]);
-                absolute.potential.derivative(one)
+                sum.derivative(one)
             };
             let weight = -constant(Self::cos);
-            terms.push(&weight * &(&count - &sum(Self::cos)));
-            terms.push(&constant(Self::sin) * &sum(Self::sin));
+            terms.push(&weight * &(&count - &total(Self::cos)));
+            terms.push(&constant(Self::sin) * &total(Self::sin));
         }
         terms.into_iter().sum()
     }

@@ -237,4 +237,12 @@ impl Derivation<'_> {
         let torque = -frame.dissipation.derivative(frame.velocities[s]);
         (&velocity * &torque).expand()
     }
+
+    /// The power of the drive on H_d: Σ ∂H_d/∂p_s Q_s. A torque on the root
+    /// acts on no difference.
+    pub(super) fn drive_power(&self, frame: &Frame, energy: &SubHamiltonian) -> Formula {
+        let s = energy.coordinate;
+        let velocity = energy.kinetic.derivative(frame.momenta[s]);
+        (&velocity * &frame.drive_forces(self)[s]).expand()
+    }
 }

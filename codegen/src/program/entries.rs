@@ -97,7 +97,7 @@ impl EntryList<'_, '_> {
         self.push(
             "accelerations",
             Purpose::Accelerations,
-            &both,
+            &self.timed(&both),
             alpha,
             Shape::Vector,
         );
@@ -118,6 +118,9 @@ impl EntryList<'_, '_> {
                 vec![potential],
                 Shape::Scalar,
             );
+        }
+        if let Some(drive) = &mechanics.drive {
+            self.powers(&mut motion, drive);
         }
         if let Some(momentum) = &frame.momentum {
             let momenta = self.exprs(&mut motion, momentum);
@@ -216,7 +219,7 @@ impl EntryList<'_, '_> {
         self.push(
             "symmetric_accelerations",
             Purpose::SymmetricAccelerations,
-            &[Coordinates, Rates],
+            &self.timed(&[Coordinates, Rates]),
             accelerations,
             Shape::Vector,
         );
@@ -366,6 +369,16 @@ impl EntryList<'_, '_> {
                 &format!("antiphase_friction_power{place}"),
                 Purpose::FrictionPower(number),
                 &[Coordinates, Rates],
+                vec![power],
+                Shape::Scalar,
+            );
+        }
+        if !transfer.drive.is_zero() {
+            let power = self.lowering.expr(&mut motion, &transfer.drive);
+            self.push(
+                &format!("antiphase_drive_power{place}"),
+                Purpose::AntiphaseDrivePower(number),
+                &[Argument::Time, Coordinates, Rates],
                 vec![power],
                 Shape::Scalar,
             );

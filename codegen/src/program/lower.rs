@@ -79,6 +79,7 @@ impl<'a> Lowering<'a> {
                 let constant = self.constant(symbol);
                 self.builder.constant(constant)
             }
+            Role::Temporal => self.temporal(door, symbol),
             Role::Trigonometric => {
                 let value = self.trigonometric(door, symbol);
                 self.builder.name(value, &entry.code)
@@ -267,12 +268,6 @@ impl<'a> Lowering<'a> {
             self.builder.name(value, &name);
         }
         matrix
-    }
-
-    /// An expression in constants and parameters as a value.
-    pub(super) fn constant_value(&mut self, expr: &Expr) -> ValueId {
-        let constant = self.constant_expr(expr);
-        self.builder.constant(constant)
     }
 
     /// A matrix's entries as values.

@@ -9,6 +9,7 @@ mod builder;
 mod constants;
 mod copies;
 mod count;
+mod drive;
 mod entries;
 mod interpret;
 mod lower;
@@ -43,9 +44,11 @@ pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ValueId(pub u32);
 
-/// An array that an entry point receives.
+/// What an entry point receives: an array, but for the time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Argument {
+    /// Time, s: a single number.
+    Time,
     /// Absolute angles, rad.
     Theta,
     /// Angular velocities, rad/s.
@@ -194,6 +197,12 @@ pub enum Purpose {
     SectorTransfers(Option<u32>),
     /// {E_s, E_r} of the sectors by Parseval.
     TransferMatrix,
+    /// Power of the drive on H_d.
+    AntiphaseDrivePower(usize),
+    /// Power of the drive on the whole tree.
+    DrivePower,
+    /// Power of friction and drag on the whole tree.
+    TotalFrictionPower,
 }
 
 /// An entry point: the program pruned to its outputs becomes a function.

@@ -31,7 +31,7 @@ impl Lowering<'_> {
     }
 
     /// An expression in parameters as a constant of the setup.
-    pub(super) fn constant_expr(&mut self, expr: &Expr) -> ConstantId {
+    fn constant_expr(&mut self, expr: &Expr) -> ConstantId {
         match expr {
             Expr::Number(number) => self.builder.setup.number(number.clone()),
             Expr::Symbol(symbol) => self.constant(*symbol),

@@ -3,7 +3,7 @@
 
 use super::{Argument, ConstantId, ConstantOp, Op, Program, ValueId};
 use crate::mechanics::expression::{Expr, SymbolId};
-use crate::mechanics::{Mechanics, Trigonometric};
+use crate::mechanics::{Mechanics, Temporal, Trigonometric};
 
 /// Expressions of a program's values in the symbols of its mechanics.
 pub struct Rebuilt<'a> {
@@ -42,6 +42,7 @@ impl<'a> Rebuilt<'a> {
         let absolute = &self.mechanics.absolute;
         let symmetric = self.mechanics.symmetric.as_ref();
         let symbols = match argument {
+            Argument::Time => return self.mechanics.drive.as_ref()?.time(),
             Argument::Theta | Argument::Absolute => &absolute.coordinates,
             Argument::Omega => &absolute.velocities,
             Argument::AbsoluteMomenta => &absolute.momenta,
@@ -58,11 +59,29 @@ impl<'a> Rebuilt<'a> {
         function: fn(SymbolId) -> Trigonometric,
     ) -> Option<Expr> {
         let Op::Input(argument, index) = self.program.definition(angle).op else {
-            return None;
+            return self.rotation_in_time(angle, function);
         };
         let wanted = function(self.input(argument, index)?);
         let table = &self.mechanics.trigonometry;
         let (&symbol, _) = table.iter().find(|(_, meaning)| **meaning == wanted)?;
+        Some(Expr::Symbol(symbol))
+    }
+
+    /// The sine or cosine of a function of time.
+    fn rotation_in_time(
+        &self,
+        angle: ValueId,
+        function: fn(SymbolId) -> Trigonometric,
+    ) -> Option<Expr> {
+        let symbols = &self.mechanics.symbols;
+        let argument = flat(self.value(angle)?).canonical(symbols);
+        let drive = self.mechanics.drive.as_ref()?;
+        let is_sine = matches!(function(SymbolId(0)), Trigonometric::Sin(_));
+        let (&symbol, _) = drive.temporal.iter().find(|(_, meaning)| match meaning {
+            Temporal::Sin(known) => is_sine && *known == argument,
+            Temporal::Cos(known) => !is_sine && *known == argument,
+            _ => false,
+        })?;
         Some(Expr::Symbol(symbol))
     }
 
@@ -88,4 +107,30 @@ impl<'a> Rebuilt<'a> {
 
 fn minus(expr: Expr) -> Expr {
     Expr::Product(vec![Expr::Number((-1).into()), expr])
+}
+
+/// The same with sums of sums and products of products as one, and without
+/// what changes nothing.
+fn flat(expr: Expr) -> Expr {
+    match expr {
+        Expr::Sum(parts) => {
+            let parts = parts.into_iter().map(flat);
+            Expr::Sum(parts.flat_map(|part| part.terms().to_vec()).collect())
+        }
+        Expr::Product(parts) => {
+            let parts = parts.into_iter().map(flat);
+            let mut factors: Vec<Expr> = parts.flat_map(|part| part.factors().to_vec()).collect();
+            factors.retain(|factor| !matches!(factor, Expr::Number(number) if number.is_one()));
+            match factors.pop() {
+                Some(only) if factors.is_empty() => only,
+                last => {
+                    factors.extend(last);
+                    Expr::Product(factors)
+                }
+            }
+        }
+        Expr::Power(base, 1) => flat(*base),
+        Expr::Power(base, exponent) => Expr::Power(Box::new(flat(*base)), exponent),
+        leaf => leaf,
+    }
 }

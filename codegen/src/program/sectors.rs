@@ -6,7 +6,7 @@ use super::copies::{
     Which, orbits,
 };
 use super::entries::EntryList;
-use super::lower::Lowering;
+use super::lower::{Door, Lowering};
 use super::{Argument, EnergyDefinition, Purpose, Shape, ValueId};
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{Mechanics, Sectors};
@@ -55,7 +55,7 @@ impl EntryList<'_, '_> {
         self.push(
             "symmetric_accelerations",
             Purpose::SymmetricAccelerations,
-            &[Coordinates, Rates],
+            &self.timed(&[Coordinates, Rates]),
             accelerations,
             Shape::Vector,
         );
@@ -192,17 +192,17 @@ impl EntryList<'_, '_> {
             ));
         }
         for (name, purpose, outputs, shape) in found {
-            match state {
-                State::Absolute => {
-                    let arguments = [Argument::Theta, Argument::Omega];
-                    self.push(name, purpose, &arguments, outputs, shape);
-                }
-                State::Rates | State::Momenta => {
-                    let name = format!("symmetric_{name}");
-                    let arguments = [Argument::Coordinates, Argument::Rates];
-                    self.push(&name, purpose, &arguments, outputs, shape);
-                }
+            let (name, mut arguments) = match state {
+                State::Absolute => (name.to_owned(), vec![Argument::Theta, Argument::Omega]),
+                State::Rates | State::Momenta => (
+                    format!("symmetric_{name}"),
+                    vec![Argument::Coordinates, Argument::Rates],
+                ),
+            };
+            if matches!(purpose, Purpose::Budget(_)) {
+                arguments = self.timed(&arguments);
             }
+            self.push(&name, purpose, &arguments, outputs, shape);
         }
     }
 
@@ -242,8 +242,14 @@ fn copies<'b>(
 
 /// The constants as values of the program.
 fn values(lowering: &mut Lowering<'_>, sectors: &Sectors) -> Values {
+    let mut door = Door::new(
+        &lowering.mechanics.absolute,
+        Argument::Theta,
+        Some(Argument::Omega),
+        None,
+    );
     let mut series = |expr: &Expr| {
-        let value = lowering.constant_value(expr);
+        let value = lowering.expr(&mut door, expr);
         if lowering.builder.is(value, 0) {
             Series::default()
         } else {
@@ -264,6 +270,7 @@ fn values(lowering: &mut Lowering<'_>, sectors: &Sectors) -> Values {
             spring: series(&orbit.spring),
             friction: series(&orbit.friction),
             drag: series(&orbit.drag),
+            drive: [0, 1, 2].map(|part| series(&orbit.drive[part])),
         })
         .collect();
     let couplings = sectors
@@ -339,7 +346,7 @@ fn motion(
         copies.named(rate, "omega");
         copies.named(momentum, "momentum");
     }
-    let forces = copies.dissipative_forces(values, &rates);
+    let forces = copies.other_forces(values, &pose, &rates);
     Motion {
         pose,
         rates,

@@ -7,6 +7,7 @@ impl Argument {
     /// Name of the argument in emitted code.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Time => "time",
             Self::Theta => "theta",
             Self::Omega => "omega",
             Self::AbsoluteMomenta | Self::Momenta => "momenta",
@@ -25,6 +26,7 @@ impl Argument {
             Self::Theta | Self::Coordinates | Self::Absolute | Self::Symmetric => "theta",
             Self::Omega | Self::Rates => "omega",
             Self::AbsoluteMomenta | Self::Momenta => "p",
+            Self::Time => "time",
         }
     }
 }
@@ -82,6 +84,7 @@ impl Program {
         let mut line = format!("{} = ", value(id));
         // Writing to a string cannot fail.
         let _ = match &definition.op {
+            Op::Input(Argument::Time, _) => write!(line, "{}", Argument::Time.name()),
             Op::Input(argument, index) => write!(line, "{}[{index}]", argument.name()),
             Op::Constant(constant) => {
                 write!(line, "k{} ({})", constant.0, self.setup.get(*constant).name)

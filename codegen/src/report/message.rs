@@ -168,6 +168,26 @@ pub enum Message {
         /// The function.
         name: String,
     },
+    /// A function in the drive that does not exist.
+    DriveFunction {
+        /// As written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<&'static str>,
+    },
+    /// `drive()` without a torque or a motion.
+    EmptyDrive,
+    /// A part of the drive that does not exist.
+    UnknownDrive {
+        /// As written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<&'static str>,
+    },
+    /// A divisor in the drive that depends on time.
+    TimeDivisor,
+    /// `t` where nothing depends on time.
+    TimeOutsideDrive,
     /// A mathematical constant without exact value.
     NotExact {
         /// The name.
@@ -260,7 +280,7 @@ impl Message {
 
     /// An unknown setting of the scene.
     pub fn unknown_entry(name: String) -> Self {
-        let nearest = nearest(&name, &["gravity", "crate", "emit"]);
+        let nearest = nearest(&name, &["gravity", "crate", "drive", "emit"]);
         Self::UnknownEntry { name, nearest }
     }
 }

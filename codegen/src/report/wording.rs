@@ -50,7 +50,7 @@ impl Message {
                 "not a setting of the scene",
                 suggest(
                     nearest,
-                    "settings are `gravity = ...`, `crate = ...`, `emit(...)`",
+                    "settings are `gravity = ...`, `crate = ...`, `drive(...)`, `emit(...)`",
                 ),
             ),
             M::MissingGravity => problem(
@@ -217,6 +217,38 @@ impl Message {
                 format!("`{name}(...)`: values have no functions"),
                 "values are made of `+ - * / ^`",
                 "compute it beforehand and write the digits, or make it a parameter",
+            ),
+            M::DriveFunction { name, nearest } => problem(
+                format!("unknown function `{name}`"),
+                "not a function of a drive",
+                suggest(
+                    nearest,
+                    "functions are `sin(...)` and `cos(...)`, of angles in rad",
+                ),
+            ),
+            M::EmptyDrive => problem(
+                "the drive is empty",
+                "drives nothing",
+                "write `drive(torque = ...)`, or the motion of the root's pivot, \
+                   `drive(x = ..., y = ...)`",
+            ),
+            M::UnknownDrive { name, nearest } => problem(
+                format!("unknown part `{name}` of the drive"),
+                "not a part of the drive",
+                suggest(
+                    nearest,
+                    "parts are `torque`, on the root in N m, and `x` and `y`, of its pivot in m",
+                ),
+            ),
+            M::TimeDivisor => problem(
+                "division by a function",
+                "may vanish at some time",
+                "divide by numbers and parameters only, so that the drive is finite at all times",
+            ),
+            M::TimeOutsideDrive => problem(
+                "`t` is the time",
+                "does not depend on time",
+                "only `drive(...)` does; give a parameter another name",
             ),
             M::NotExact { name, digits } => problem(
                 format!("`{name}` has no exact value"),

@@ -13,6 +13,7 @@
 //! - what `requests` asks for can be derived for this tree.
 
 mod bodies;
+mod drive;
 mod expand;
 mod names;
 mod properties;
@@ -25,6 +26,7 @@ mod template;
 mod text;
 mod values;
 
+pub use drive::{Drive, Function, Signal};
 pub use quantity::Quantity;
 pub use resolve::resolve;
 
@@ -56,8 +58,11 @@ pub struct Scene {
     pub orbits: Vec<Orbit>,
     /// Identical sibling subtrees, in the order of their first link.
     pub groups: Vec<Group>,
+    /// What moves the tree from outside, if anything does.
+    pub drive: Option<Drive>,
     /// Named values that the model is given at run time: gravity's first, then
-    /// link by link in the order in which the description names them.
+    /// link by link in the order in which the description names them, then the
+    /// drive's.
     pub parameters: Vec<Parameter>,
     /// Conditions on values that depend on parameters, to be checked when the
     /// model is built.

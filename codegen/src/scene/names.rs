@@ -2,6 +2,7 @@
 
 use proc_macro2::{Ident, Span};
 
+use crate::description::TIME;
 use crate::report::{Message, Report};
 
 /// Keywords of Rust 2024, reserved ones included.
@@ -17,8 +18,8 @@ const KEYWORDS: &[&str] = &[
 /// Names that the emitted code gives to things of its own.
 #[rustfmt::skip]
 const EMITTED: &[&str] = &[
-    "accelerations", "angles", "emit", "model", "momenta", "out", "scalar", "state", "time",
-    "velocities",
+    "accelerations", "angles", "drive", "emit", "model", "momenta", "out", "scalar", "state", "time",
+    "velocities", TIME,
 ];
 
 /// Constants that look like parameters, with digits to write instead.
@@ -36,6 +37,10 @@ pub(super) fn check_link(name: &Ident, report: &mut Report) {
 
 /// Checks the name of a parameter; a fault goes to `report`.
 pub(super) fn check_parameter(name: &str, span: Span, report: &mut Report) -> Option<()> {
+    if name == TIME {
+        report.error(span, Message::TimeOutsideDrive);
+        return None;
+    }
     let constant = CONSTANTS.iter().find(|(constant, _)| *constant == name);
     let message = match constant {
         Some(&(name, digits)) => Some(Message::NotExact {

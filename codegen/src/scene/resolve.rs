@@ -1,5 +1,6 @@
 //! Description to scene, on one page.
 
+use super::drive::resolve_drive;
 use super::expand::{check_names, check_size, expand};
 use super::requests::{check_symmetry, resolve_requests};
 use super::singular::check_regular;
@@ -20,6 +21,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     for root in &description.roots {
         builder.add_root(root, report);
     }
+    let drive = resolve_drive(description.drive.as_ref(), &mut builder.values, report);
     let Builder { templates, values } = builder;
     let resolved = resolve_requests(&description.requests, report);
     if description.roots.len() > 1 || !check_size(&templates, report) {
@@ -51,6 +53,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         links: expansion.links,
         orbits: expansion.orbits,
         groups: expansion.groups,
+        drive,
         parameters: values.parameters,
         requirements: values.requirements,
         requests: resolved.requests,

@@ -3,8 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, CratePath, Group, Link, Offset, Orbit, Parameter, Requests, Requirement, Scene,
-    Sign, TransferRequest,
+    BudgetRequest, CratePath, Drive, Group, Link, Offset, Orbit, Parameter, Requests, Requirement,
+    Scene, Sign, TransferRequest,
 };
 
 impl Display for Scene {
@@ -16,6 +16,7 @@ impl Display for Scene {
             links,
             orbits,
             groups,
+            drive,
             parameters,
             requirements,
             requests,
@@ -52,6 +53,9 @@ impl Display for Scene {
                 write!(f, " on {}", self.names([parent.0]))?;
             }
             writeln!(f, ": {}", self.names(copies.iter().map(|copy| copy.0)))?;
+        }
+        for (name, signal, unit) in drive.iter().flat_map(Drive::parts) {
+            writeln!(f, "drive {name} {} {unit}", signal.display(parameters))?;
         }
         writeln!(f, "requests {requests}")
     }

@@ -81,7 +81,7 @@ impl Values {
     }
 
     /// A part of an expression.
-    fn operand(
+    pub(super) fn operand(
         &mut self,
         expression: &Expression,
         usage: &Usage<'_>,
@@ -108,6 +108,11 @@ impl Values {
                 self.operand(base, usage, report)?.power(*exponent)
             }
             ExpressionKind::Negative(value) => Ok(self.operand(value, usage, report)?.negative()),
+            ExpressionKind::Call { function, .. } => {
+                let name = function.to_string();
+                report.error(function.span(), Message::FunctionCall { name });
+                return None;
+            }
         };
         match value {
             Ok(Quantity::Exact(number)) if !number.is_short() => {

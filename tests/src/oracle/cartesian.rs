@@ -4,10 +4,11 @@
 //! With r_l = Σ (offset vectors from the root to the centre of mass of l),
 //! ṙ_l = J_l ω and r̈_l = J_l ω̇ + J̇_l ω, d'Alembert's principle reads
 //! Σ_l [m_l J_lᵀ (r̈_l + g ŷ) + I_l ω̇_l e_l] + torques in the pivots
-//! and of drag = 0.
+//! and of drag = 0. A moving pivot adds its acceleration to every r̈_l.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+use super::drive::Push;
 use super::{Tree, Vector, dot, perpendicular, turned, turned_terms};
 
 /// What the tree does in one state, and how large the terms are that each
@@ -75,6 +76,12 @@ impl Motion {
     /// The tree with angles `theta` (rad) and angular velocities `omega`
     /// (rad/s).
     pub fn new(tree: &Tree, theta: &[f64], omega: &[f64]) -> Self {
+        Self::driven(tree, theta, omega, &Push::default())
+    }
+
+    /// The same with a torque on the root and an accelerated pivot. Velocities
+    /// and energies are relative to the pivot.
+    pub fn driven(tree: &Tree, theta: &[f64], omega: &[f64], push: &Push) -> Self {
         let n = tree.links.len();
         let mut motion = Self {
             mass: DMatrix::zeros(n, n),
@@ -87,7 +94,7 @@ impl Motion {
             potential_terms: 0.0,
         };
         for (index, link) in tree.links.iter().enumerate() {
-            motion.add_body(tree, index, theta, omega);
+            motion.add_body(tree, index, [theta, omega], push);
             let (torque, terms) = link.pivot_torque(index, theta, omega);
             motion.bias[index] += link.drag * omega[index] - torque;
             motion.bias_terms[index] += (link.drag * omega[index]).abs() + terms;
@@ -99,10 +106,13 @@ impl Motion {
             motion.potential += 0.5 * link.spring * turn * turn;
             motion.potential_terms += 0.5 * link.spring * turn * turn;
         }
+        motion.bias[0] -= push.torque;
+        motion.bias_terms[0] += push.torque_terms;
         motion
     }
 
-    fn add_body(&mut self, tree: &Tree, index: usize, theta: &[f64], omega: &[f64]) {
+    fn add_body(&mut self, tree: &Tree, index: usize, state: [&[f64]; 2], push: &Push) {
+        let [theta, omega] = state;
         let link = &tree.links[index];
         let point = Point::of(tree, index, theta, omega);
         let mut velocity = [0.0; 2];
@@ -116,10 +126,10 @@ impl Motion {
                 self.mass[(i, j)] += link.mass * dot(column, other);
                 self.mass_terms[(i, j)] += link.mass * dot(terms, other_terms);
             }
-            let [x, y] = point.drift;
-            self.bias[i] += link.mass * dot(column, [x, y + tree.gravity]);
-            let [x, y] = point.drift_terms;
-            self.bias_terms[i] += link.mass * dot(terms, [x, y + tree.gravity]);
+            let ([x, y], [a, b]) = (point.drift, push.acceleration);
+            self.bias[i] += link.mass * dot(column, [x + a, y + b + tree.gravity]);
+            let ([x, y], [a, b]) = (point.drift_terms, push.acceleration_terms);
+            self.bias_terms[i] += link.mass * dot(terms, [x + a, y + b + tree.gravity]);
         }
         self.mass[(index, index)] += link.inertia;
         self.mass_terms[(index, index)] += link.inertia;

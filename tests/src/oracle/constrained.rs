@@ -7,6 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::drive::Push;
 use super::{Tree, perpendicular, turned};
 
 /// The angular accelerations, rad/s², of the tree with angles `theta` (rad)
@@ -24,6 +25,15 @@ use super::{Tree, perpendicular, turned};
 /// # Panics
 /// If the system is singular.
 pub fn accelerations(tree: &Tree, theta: &[f64], omega: &[f64]) -> Vec<f64> {
+    driven(tree, theta, omega, &Push::default())
+}
+
+/// The same with a torque on the root and an accelerated pivot, all in the
+/// frame of the ground: only the condition on the root's pivot changes.
+///
+/// # Panics
+/// As [`accelerations`].
+pub fn driven(tree: &Tree, theta: &[f64], omega: &[f64], push: &Push) -> Vec<f64> {
     let n = tree.links.len();
     // Blocks of unknowns: x and y by body, angles, forces by joint.
     let position = |body: usize, axis: usize| 2 * body + axis;
@@ -50,7 +60,13 @@ pub fn accelerations(tree: &Tree, theta: &[f64], omega: &[f64]) -> Vec<f64> {
         right[position(body, 1)] = -link.mass * tree.gravity;
         let (torque, _) = link.pivot_torque(body, theta, omega);
         right[angle(body)] += torque - link.drag * omega[body];
-        let Some(parent) = link.parent else { continue };
+        let Some(parent) = link.parent else {
+            right[angle(body)] += push.torque;
+            for axis in 0..2 {
+                right[force(body, axis)] += push.acceleration[axis];
+            }
+            continue;
+        };
         right[angle(parent)] -= torque;
         // From the parent's centre of mass to this pivot.
         let com = tree.links[parent].com;

@@ -10,6 +10,7 @@
 pub mod cartesian;
 pub mod closed_form;
 pub mod constrained;
+pub mod drive;
 pub mod generator;
 
 /// A vector in the plane of motion: x to the side, y upwards, m.

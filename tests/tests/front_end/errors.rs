@@ -220,6 +220,42 @@ const CASES: &[(&str, &str)] = &[
         "not_exact",
         "#[branched_pendulum(gravity = pi^2, a: rod(mass = 1, length = tau))] struct Pendulum;",
     ),
+    // The drive.
+    (
+        "empty_drive",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), drive())] struct Pendulum;",
+    ),
+    (
+        "unknown_drive",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1),
+    drive(torqe = 1, z = t, 3 = 4),
+)] struct Pendulum;",
+    ),
+    (
+        "duplicate_drive",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1),
+    drive(x = 1, x = 2),
+    drive(y = (1, 2)),
+)] struct Pendulum;",
+    ),
+    (
+        "drive_functions",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1),
+    drive(torque = tau * coz(w * t), x = tan(t) + sin(), y = M * cos(a * t)),
+)] struct Pendulum;",
+    ),
+    (
+        "time_divisor",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1),
+    drive(torque = 1 / (1 + t), x = cos(t)^-1, y = t / (cos(w) * (1 - 1)) + t / 0),
+)] struct Pendulum;",
+    ),
+    (
+        "time_outside_drive",
+        "#[branched_pendulum(gravity = t, t: rod(mass = 1, length = 2 * t + cos(t)) [ drive: rod(mass = 1, length = 1) ],
+    drive(x = t),
+)] struct Pendulum;",
+    ),
     // Requests.
     (
         "unknown_request",

@@ -36,13 +36,19 @@ const SEEDS: &[&str] = &[
         emit(transfer),
     )]
     struct Tree;",
+    "#[branched_pendulum(
+        gravity = 9.8,
+        rod: rod(mass = 1, length = 1),
+        drive(torque = a * cos(w * t + p) + 0.1, x = b * t^2 / 2, y = -sin(2 * w * t) / w),
+    )]
+    struct Driven;",
 ];
 
 /// Tokens to put in, beside those of the seeds.
 const TOKENS: &str = "0 1 2 -1 0.5 1e300 1e-300 1e999 1e99999999999 4294967296 0x1F 1f64 \"text\" 'c' b\"b\" r#type \
      = == , ; : :: * ** / ^ + - ( ) [ ] { } (1, 2) (,) () [] {} (((1))) \
      mass com inertia joint at friction length radius width margin bob_mass count branching shape \
-     mass_ratio length_ratio gravity emit crate energies momenta transfer angle amplitude exact \
+     mass_ratio length_ratio gravity drive torque x y t sin cos emit crate energies momenta transfer angle amplitude exact \
      point rod disc generations parent child m g l pi self type Self _ é Ω true struct enum fn pub where <T> #";
 
 /// Applies one random change somewhere in the tokens.

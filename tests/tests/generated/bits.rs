@@ -6,6 +6,7 @@ use branched_pendulum_codegen::program::Argument;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
     chain::Chain,
+    driven::{Driven, DrivenParameters},
     offset::Offset,
     paper::Paper,
     paper_expanded,
@@ -49,6 +50,7 @@ impl Values for Transfer<f64> {
 /// Compares functions of a compiled model with the entries of the same name.
 macro_rules! agree {
     ($scene:literal, $model:expr, $parameters:expr, $n:literal,
+     $(timed: [$($timed:ident),*], rates: [$($rates:ident),*],)?
      two: [$($two:ident),*], one: [$($one:ident),*]) => {{
         let stages = scene($scene);
         let model = $model;
@@ -58,11 +60,13 @@ macro_rules! agree {
         for _ in 0..STATES {
             let first: [f64; $n] = random.array(-4.0, 4.0);
             let second: [f64; $n] = random.array(-9.0, 9.0);
+            let time = random.between(-5.0, 50.0);
             let input = |argument: Argument, index: usize| match argument {
                 Argument::Omega
                 | Argument::Rates
                 | Argument::AbsoluteMomenta
                 | Argument::Momenta => second[index],
+                Argument::Time => time,
                 _ => first[index],
             };
             let compare = |name: &str, compiled: Vec<f64>| {
@@ -71,6 +75,9 @@ macro_rules! agree {
                 let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
                 assert_eq!(bits(&compiled), bits(&interpreted), "{name} at {first:?}, {second:?}");
             };
+            $($(compare(stringify!($timed), model.$timed(time, &first, &second).values());
+                checked += 1;)*
+            $(compare(stringify!($rates), model.$rates(&second).values()); checked += 1;)*)?
             $(compare(stringify!($two), model.$two(&first, &second).values()); checked += 1;)*
             $(compare(stringify!($one), model.$one(&first).values()); checked += 1;)*
         }
@@ -141,6 +148,24 @@ fn sweep() {
     let model = Sweep::new(parameters).expect("possible parameters");
     agree!("sweep", model, [9.7, 0.21, 3e-3, 0.17], 3,
         two: [accelerations, momenta, velocities], one: []);
+}
+
+#[test]
+fn driven() {
+    let parameters = DrivenParameters {
+        push: 0.3,
+        pace: 7.1,
+        phase: -0.4,
+        sway: 0.05,
+    };
+    let model = Driven::new(parameters).expect("possible parameters");
+    agree!("driven", model, [0.3, 7.1, -0.4, 0.05], 3,
+        timed: [accelerations, symmetric_accelerations, drive_power, antiphase_drive_power],
+        rates: [friction_power],
+        two: [kinetic_energy, momenta, velocities, symmetric_momenta, symmetric_velocities,
+              hamiltonian, antiphase_energy, transfer_exact, transfer_exact_from_rates,
+              antiphase_friction_power],
+        one: [potential_energy, to_symmetric, from_symmetric]);
 }
 
 #[test]

@@ -144,3 +144,67 @@ fn names_like_ours_mean_what_the_user_means() {
     close(a.total(), b.total());
     close(named.inertia_d(), literal.inertia_leaf());
 }
+
+mod driven {
+    //! Functions of time with parameters and links spelled like locals of ours.
+    #[::branched_pendulum::branched_pendulum(
+        gravity = 9.8,
+        cos_drive(mass = 1, com = 0.1, joint = 0.2, inertia = 0.01) [
+            leaf(mass = 0.5, com = 0.1, inertia = 1e-3) * 3
+        ],
+        drive(
+            torque = drive_torque * sin(cos(a_x) + 2 * sin_drive),
+            x = pivot_acceleration_x * t^2 / 2,
+            y = 0.1 * t - 3,
+        ),
+        emit(energies, symmetric),
+    )]
+    pub(super) struct Driven;
+
+    #[::branched_pendulum::branched_pendulum(
+        gravity = 9.8,
+        rod: rod(mass = 1, length = 1),
+        drive(x = 0.5 * t, y = 0),
+        emit(energies),
+    )]
+    pub(super) struct Steady;
+}
+
+#[test]
+fn functions_of_time_named_like_locals() {
+    let model = driven::Driven::new(driven::DrivenParameters {
+        drive_torque: 0.3,
+        a_x: 0.2,
+        sin_drive: 0.4,
+        pivot_acceleration_x: 2.0,
+    })
+    .expect("possible parameters");
+    let (theta, omega) = ([0.3, -0.2, 0.1, 0.7], [0.0; 4]);
+    let torque = 0.3 * (0.2_f64.cos() + 0.8).sin();
+    // h = m d + l (three leaves), and that of a leaf.
+    let levers = [0.1 + 0.2 * 1.5, 0.05, 0.05, 0.05];
+    let power = |omega: &[f64; 4]| model.drive_power(1.5, &theta, omega);
+    for link in 0..4 {
+        let mut unit = [0.0; 4];
+        unit[link] = 1.0;
+        let mut expected = -2.0 * levers[link] * theta[link].cos();
+        if link == 0 {
+            expected += torque;
+        }
+        assert!((power(&unit) - expected).abs() < 1e-14, "{link}");
+    }
+    let mut alpha = [0.0; 4];
+    model.accelerations_into(1.5, &theta, &omega, &mut alpha);
+    assert_eq!(alpha, model.accelerations(1.5, &theta, &omega));
+}
+
+/// A pivot at constant velocity drives nothing, and the time is not read.
+#[test]
+fn a_steady_pivot_is_no_drive() {
+    let model = driven::Steady::new();
+    assert_eq!(model.drive_power(2.0, &[0.3], &[0.7]), 0.0);
+    assert_eq!(
+        model.accelerations(2.0, &[0.3], &[0.7]),
+        model.accelerations(f64::NAN, &[0.3], &[0.7])
+    );
+}

@@ -197,12 +197,38 @@ pub fn use_it() -> Result<[f64; 3], ParameterError> {
 }
 "#;
 
+/// The same with a drive, which gives functions a time.
+const WRONG_WITH_DRIVE: &str = r#"
+//! A user's crate in the middle of an edit.
+use branched_pendulum::prelude::*;
+
+/// A mass below zero.
+#[branched_pendulum(
+    gravity = 9.8,
+    parent: rod(mass = 0.1, length = 0.2) [
+        child(mass = -0.1, com = 0.04, inertia = 1e-4) * 2
+    ],
+    drive(torque = 0.1 * cos(w * t), y = 0.01 * sin(t)),
+    emit(energies, transfer(exact)),
+)]
+pub struct Wrong;
+
+/// Calls what has to do with the drive.
+pub fn use_it() -> Result<f64, ParameterError> {
+    let model = Wrong::new(WrongParameters { w: 9.8 })?;
+    let (q, v) = ([0.1; 3], [0.0; 3]);
+    let a = model.accelerations(0.0, &q, &model.symmetric_accelerations(0.0, &q, &v));
+    let antiphase = model.antiphase_drive_power(0.0, &q, &a);
+    Ok(model.drive_power(0.0, &q, &a) + model.friction_power(&a) + antiphase)
+}
+"#;
+
 #[test]
 fn one_mistake_is_one_error() {
     let folder = std::env::temp_dir().join(format!("branched-pendulum-w{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("the temporary folder is writable");
     let external = format!("branched_pendulum={}", runtime(&folder).display());
-    for source in [WRONG, WRONG_WITH_PARAMETERS] {
+    for source in [WRONG, WRONG_WITH_PARAMETERS, WRONG_WITH_DRIVE] {
         let output = rustc(&folder, "wrong", source, &external, "metadata")
             .output()
             .expect("the compiler runs");

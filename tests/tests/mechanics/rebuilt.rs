@@ -3,12 +3,14 @@
 
 use branched_pendulum_codegen::mechanics::algebra::Formula;
 use branched_pendulum_codegen::mechanics::expression::{Expr, SymbolId};
-use branched_pendulum_codegen::mechanics::{Entry, Trigonometric};
+use branched_pendulum_codegen::mechanics::{Entry, Temporal, Trigonometric};
 use branched_pendulum_codegen::program::Rebuilt;
 
 use crate::fixtures::FRICTIONAL;
 use crate::formulas::{Algebra, inside, product};
-use crate::support::{compile_item, compile_paper, energies};
+use branched_pendulum_tests::source;
+
+use crate::support::{Compiled, compile_item, compile_paper, energies};
 
 impl Algebra<'_> {
     /// The outputs of an entry point, from its program.
@@ -48,9 +50,22 @@ impl Algebra<'_> {
             })
             .collect();
         formula
+            .substitute(&self.functions_of_time())
             .substitute(&self.written_out())
             .substitute(&[self.determinant()])
             .substitute(&turned)
+    }
+
+    /// Torque and accelerations of the drive, where there is one.
+    fn functions_of_time(&self) -> Vec<(SymbolId, Formula)> {
+        let drive = self.mechanics().drive.iter();
+        drive
+            .flat_map(|drive| &drive.temporal)
+            .filter_map(|(&id, meaning)| match meaning {
+                Temporal::Given(value) => Some((id, Formula::from_expr(value))),
+                _ => None,
+            })
+            .collect()
     }
 
     /// Fails unless the outputs of an entry point are the derived expressions,
@@ -160,6 +175,84 @@ fn accelerations_solve_the_equations_of_motion() {
         ] {
             let bias: Vec<Formula> = frame.bias.iter().map(Formula::from_expr).collect();
             algebra.assert_solves(entry, &frame.mass, &bias);
+        }
+    });
+}
+
+/// The same of a driven tree, and the powers that belong to it.
+#[test]
+fn drive() {
+    let compiled: Compiled = source::scene("driven").into();
+    inside(&compiled, |algebra| {
+        let mechanics = algebra.mechanics();
+        for (entry, frame) in [
+            ("accelerations", &mechanics.absolute),
+            ("symmetric_accelerations", algebra.symmetric()),
+        ] {
+            let bias: Vec<Formula> = frame.bias.iter().map(Formula::from_expr).collect();
+            algebra.assert_solves(entry, &frame.mass, &bias);
+        }
+        let drive = mechanics.drive.as_ref().expect("the scene has one");
+        for (entry, power) in [
+            ("drive_power", &drive.power),
+            ("friction_power", &drive.friction_power),
+        ] {
+            let power = power.as_ref().expect("the scene asks for energies");
+            algebra.assert_rebuilt(entry, &[power], &[]);
+        }
+    });
+}
+
+/// The drive of H_d of a pair: −(h p_d/M) sin θ_d (a_y cos θ_m − a_x sin θ_m).
+#[test]
+fn antiphase_drive_power() {
+    let compiled: Compiled = source::scene("driven").into();
+    inside(&compiled, |algebra| {
+        let drive = &algebra.mechanics().transfers[0].drive;
+        let up = product([&algebra.s("a_y"), &algebra.s("cos θ_m")]);
+        let aside = product([&algebra.s("a_x"), &algebra.s("sin θ_m")]);
+        let lever = product([
+            &algebra.s("h_twig"),
+            &algebra.s("p_d"),
+            &algebra.s("sin θ_d"),
+        ]);
+        let expected = -(&(&lever * &(&up - &aside)) / &algebra.s("M_twig"));
+        let difference = &Formula::from_expr(drive) - &expected;
+        assert!(difference.together().is_zero());
+        let name = "antiphase_drive_power";
+        let frame = algebra.symmetric();
+        let momenta = frame.momentum.iter().flatten();
+        let momenta: Vec<(SymbolId, Formula)> = frame
+            .momenta
+            .iter()
+            .zip(momenta)
+            .map(|(&id, value)| (id, Formula::from_expr(value)))
+            .collect();
+        algebra.assert_rebuilt(name, &[drive], &momenta);
+    });
+}
+
+/// The powers are those of the generalized forces: Σ Q_i ω_i.
+#[test]
+fn powers_are_those_of_the_forces() {
+    let compiled: Compiled = source::scene("driven").into();
+    inside(&compiled, |algebra| {
+        let mechanics = algebra.mechanics();
+        let drive = mechanics.drive.as_ref().expect("the scene has one");
+        let sum = |forces: &[Expr], velocities: &[SymbolId]| -> Formula {
+            let terms = forces.iter().zip(velocities);
+            terms
+                .map(|(force, &v)| &Formula::from_expr(force) * &Formula::symbol(v))
+                .sum()
+        };
+        let frame = &mechanics.absolute;
+        for (forces, power) in [
+            (&frame.drive, &drive.power),
+            (&frame.dissipative_forces, &drive.friction_power),
+        ] {
+            let power = Formula::from_expr(power.as_ref().expect("asked for"));
+            let difference = &sum(forces, &frame.velocities) - &power;
+            assert!(!power.is_zero() && difference.expand().is_zero());
         }
     });
 }

@@ -117,3 +117,18 @@ fn paper() {
         ],
     );
 }
+
+#[test]
+fn driven() {
+    stages_of("driven");
+    operations("driven");
+    functions(
+        "driven",
+        &[
+            "accelerations",
+            "drive_power",
+            "friction_power",
+            "antiphase_drive_power",
+        ],
+    );
+}

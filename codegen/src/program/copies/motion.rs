@@ -19,6 +19,7 @@ pub(in crate::program) struct OrbitValues {
     pub(in crate::program) spring: Series,
     pub(in crate::program) friction: Series,
     pub(in crate::program) drag: Series,
+    pub(in crate::program) drive: [Series; 3],
 }
 
 /// Values of a coupling's constants, and the orbits that it couples.
@@ -267,10 +268,11 @@ impl Copies<'_> {
         }
     }
 
-    /// Generalized forces of friction and drag, Q = −∂R/∂ω.
-    pub(in crate::program) fn dissipative_forces(
+    /// Generalized forces of friction and drag, Q = −∂R/∂ω, and of the drive.
+    pub(in crate::program) fn other_forces(
         &mut self,
         values: &Values,
+        pose: &Pose,
         rates: &Fields,
     ) -> Fields {
         let mut losses = self.zeros();
@@ -279,7 +281,18 @@ impl Copies<'_> {
             let drag = self.scale(&constants.drag, rate);
             self.accumulate(&mut losses, &drag);
         }
-        losses.iter().map(|loss| self.neg(loss)).collect()
+        let mut forces: Fields = losses.iter().map(|loss| self.neg(loss)).collect();
+        for (orbit, constants) in values.orbits.iter().enumerate() {
+            let [c, s, torque] = &constants.drive;
+            let direction = &pose.directions[orbit];
+            let along = self.scale(s, &direction.cos);
+            let across = self.scale(c, &direction.sin);
+            let pushed = self.sub(&along, &across);
+            let turned = Field::uniform(orbit, torque.clone());
+            self.accumulate(&mut forces, &pushed);
+            self.accumulate(&mut forces, &turned);
+        }
+        forces
     }
 
     /// ∂K/∂θ at fixed velocities.

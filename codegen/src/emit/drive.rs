@@ -1,0 +1,109 @@
+//! Docs of driven trees.
+
+use super::Emission;
+use super::formulas::Formula;
+use crate::mechanics::expression::{Expr, SymbolId};
+use crate::mechanics::{Drive, PivotMotion, Temporal};
+
+impl Emission<'_> {
+    /// The drive in words, for the model's docs.
+    pub(super) fn drive_docs(&self) -> Vec<String> {
+        let Some(drive) = &self.mechanics.drive else {
+            return Vec::new();
+        };
+        let torque = drive.torque.map(|_| "a torque on the root");
+        let pivot = (!drive.pivot.is_empty()).then_some("a motion of the root's pivot");
+        let what: Vec<&str> = torque.into_iter().chain(pivot).collect();
+        let frame = if self.has_moving_pivot() {
+            " Energies and momenta are those in the frame of reference that moves with the pivot, where its acceleration acts as an inertial force on every centre of mass."
+        } else {
+            ""
+        };
+        let what = match what.as_slice() {
+            [] => "no force: the drive is zero at all times".to_owned(),
+            what => what.join(" and "),
+        };
+        vec![String::new(), format!("Driven by {what}.{frame}")]
+    }
+
+    /// What the docs of a function of the kinetic energy add about the frame.
+    pub(super) fn frame_note(&self) -> &'static str {
+        if self.has_moving_pivot() {
+            " In the frame of reference that moves with the root's pivot."
+        } else {
+            ""
+        }
+    }
+
+    /// What the docs of accelerations say after `at `.
+    pub(super) fn at_time(&self) -> &'static str {
+        if self.mechanics.drive.is_some() {
+            "`time` (in s), "
+        } else {
+            ""
+        }
+    }
+
+    /// What b depends on beside the state.
+    pub(super) fn and_time(&self) -> &'static str {
+        if self.mechanics.drive.is_some() {
+            ", t"
+        } else {
+            ""
+        }
+    }
+
+    /// What is missing from the conservative transfer.
+    pub(super) fn on_top(&self) -> &'static str {
+        if self.has_moving_pivot() {
+            "the powers of friction and of the drive come on top"
+        } else {
+            "friction's power comes on top"
+        }
+    }
+
+    fn has_moving_pivot(&self) -> bool {
+        let drive = self.mechanics.drive.as_ref();
+        drive.is_some_and(|drive| !drive.pivot.is_empty())
+    }
+
+    /// The functions of time, by definition: x and y as given, then τ and the
+    /// accelerations that follow.
+    pub(super) fn drive_formulas(&self) -> Vec<Formula> {
+        let Some(Drive {
+            temporal, pivot, ..
+        }) = &self.mechanics.drive
+        else {
+            return Vec::new();
+        };
+        let positions = pivot.iter().map(|PivotMotion { name, position, .. }| {
+            let name = (*name).to_owned();
+            Formula {
+                left: name.clone(),
+                left_latex: name,
+                right: position.clone(),
+            }
+        });
+        let given: Vec<(SymbolId, Expr)> = temporal
+            .iter()
+            .filter_map(|(&symbol, meaning)| match meaning {
+                Temporal::Given(value) => Some((symbol, value.clone())),
+                _ => None,
+            })
+            .collect();
+        let (symbols, values): (Vec<SymbolId>, Vec<Expr>) = given.into_iter().unzip();
+        positions.chain(self.rows(&symbols, &values)).collect()
+    }
+
+    /// The power of the drive, and the functions of time in it.
+    pub(super) fn power_formulas(&self, power: &Expr) -> Vec<Formula> {
+        let power = Formula {
+            left: "P".to_owned(),
+            left_latex: "P".to_owned(),
+            right: power.clone(),
+        };
+        std::iter::once(power)
+            .chain(self.drive_formulas())
+            .collect()
+    }
+}

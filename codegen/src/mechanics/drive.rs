@@ -1,0 +1,316 @@
+//! What moves the tree from outside (physics §7): a torque on the root and a
+//! motion of its pivot, as functions of time.
+//!
+//! The frame of reference moves with the pivot. There the pivot's acceleration
+//! a acts on every link as the inertial force −m a in its centre of mass, so
+//! that kinetic energy, potential energy and momenta are those of a tree on a
+//! fixed pivot, and the drive is a set of generalized forces Q_i(t, θ).
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::expression::{Expr, Role, SymbolId};
+use super::frame::Frame;
+use super::print::{latex, latex_name, text};
+use crate::scene::{Function, Signal};
+use std::collections::BTreeMap;
+
+/// What a symbol means that depends on time alone.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Temporal<F = Expr> {
+    /// Time itself, s.
+    Time,
+    /// Sine of a function of time.
+    Sin(F),
+    /// Cosine of a function of time.
+    Cos(F),
+    /// A function of time with a name.
+    Given(F),
+}
+
+/// One component of the motion of the root's pivot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PivotMotion {
+    /// `x` or `y`.
+    pub name: &'static str,
+    /// Position, m.
+    pub position: Expr,
+    /// Acceleration, m/s²; `None` where it is zero at all times.
+    pub acceleration: Option<SymbolId>,
+}
+
+/// What moves the tree from outside.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// Meaning of the symbols that depend on time alone, each in terms of
+    /// earlier ones.
+    pub temporal: BTreeMap<SymbolId, Temporal>,
+    /// Torque on the root, N m.
+    pub torque: Option<SymbolId>,
+    /// Components of the motion of the root's pivot that are given.
+    pub pivot: Vec<PivotMotion>,
+    /// Power Σ Q_i ω_i of the drive, in absolute angles, if energies are asked
+    /// for.
+    pub power: Option<Expr>,
+    /// Power −2 R of friction and drag, if energies are asked for and there are
+    /// any.
+    pub friction_power: Option<Expr>,
+}
+
+impl Drive {
+    /// The symbol of time, if anything depends on it.
+    pub fn time(&self) -> Option<SymbolId> {
+        let mut symbols = self.temporal.iter();
+        symbols.find_map(|(&symbol, meaning)| (*meaning == Temporal::Time).then_some(symbol))
+    }
+}
+
+/// Symbols that depend on time alone, while they are derived.
+pub(super) struct DerivedDrive {
+    temporal: BTreeMap<SymbolId, Temporal<Formula>>,
+    /// Sine and cosine of each argument.
+    rotations: Vec<(Formula, SymbolId, SymbolId)>,
+    torque: Option<SymbolId>,
+    pivot: Vec<(&'static str, Formula, Option<SymbolId>)>,
+    friction: Formula,
+}
+
+impl Default for DerivedDrive {
+    fn default() -> Self {
+        Self {
+            temporal: BTreeMap::new(),
+            rotations: Vec::new(),
+            torque: None,
+            pivot: Vec::new(),
+            friction: Formula::zero(),
+        }
+    }
+}
+
+impl DerivedDrive {
+    /// Notes −2 R, given the terms of R: left as squares, so that no rounding
+    /// turns its sign.
+    pub(super) fn note_friction(&mut self, dissipation: &[Formula]) {
+        let minus_two = Formula::integer(-2);
+        self.friction = dissipation.iter().map(|term| &minus_two * term).sum();
+    }
+}
+
+impl Derivation<'_> {
+    /// W(t, θ), of which the generalized forces of the drive are the gradient
+    /// at fixed time: W = τ θ_root − a_x X − a_y Y, where (X, Y) is the first
+    /// moment of mass Σ m_l r_l above its value where all angles are zero, so
+    /// that Q_i = τ ∂θ_root/∂θ_i − Σ_l m_l a·∂r_l/∂θ_i.
+    pub(super) fn drive_work(&mut self, angles: &[SymbolId]) -> Formula {
+        let Some(scene) = self.scene.drive.as_ref() else {
+            return Formula::zero();
+        };
+        let mut work = Vec::new();
+        if let Some(torque) = &scene.torque {
+            let value = self.signal(torque);
+            let torque = self.given("drive_torque", "τ", "\\tau", value);
+            self.drive.torque = torque;
+            let torque = torque.map_or_else(Formula::zero, Formula::symbol);
+            work.push(&torque * &Formula::symbol(angles[0]));
+        }
+        let mut accelerations = [Formula::zero(), Formula::zero()];
+        let axes = [("x", &scene.x), ("y", &scene.y)];
+        for ((name, signal), place) in axes.into_iter().zip(&mut accelerations) {
+            let Some(signal) = signal else { continue };
+            let position = self.signal(signal);
+            let velocity = self.time_derivative(&position);
+            let acceleration = self.time_derivative(&velocity).expand();
+            let code = format!("pivot_acceleration_{name}");
+            let symbol = self.given(
+                &code,
+                &format!("a_{name}"),
+                &format!("a_{{{name}}}"),
+                acceleration,
+            );
+            *place = symbol.map_or_else(Formula::zero, Formula::symbol);
+            self.drive.pivot.push((name, position, symbol));
+        }
+        let [x, y] = accelerations;
+        if !x.is_zero() || !y.is_zero() {
+            for ((along, lateral), &angle) in self.mass_moments(angles).iter().zip(angles) {
+                let (cos, sin) = (self.cos(angle), self.sin(angle));
+                let fall = &Formula::integer(1) - &Formula::symbol(cos);
+                let sin = Formula::symbol(sin);
+                let to_side = &(along * &sin) - &(lateral * &fall);
+                let upwards = &(along * &fall) + &(lateral * &sin);
+                work.push(-(&x * &to_side));
+                work.push(-(&y * &upwards));
+            }
+        }
+        work.into_iter().sum()
+    }
+
+    /// First moments of the mass that each link carries, about its pivot, along
+    /// the link and across it.
+    fn mass_moments(&mut self, angles: &[SymbolId]) -> Vec<(Formula, Formula)> {
+        let total = self.heights(angles, |derivation, link| derivation.quantity(&link.mass));
+        let mut moments = Vec::new();
+        for (index, &angle) in angles.iter().enumerate() {
+            let orbit = self.orbit_name(index);
+            let tex = latex_name(&orbit);
+            let (cos, sin) = (self.cos(angle), self.sin(angle));
+            let along = self.constant(
+                &format!("moment_{orbit}"),
+                &format!("h_{orbit}"),
+                &format!("h_{{\\mathrm{{{tex}}}}}"),
+                &format!("mass that `{orbit}` carries times its lever"),
+                "kg m",
+                -total.derivative(cos).expand(),
+            );
+            let lateral = self.constant(
+                &format!("lateral_moment_{orbit}"),
+                &format!("e_{orbit}"),
+                &format!("e_{{\\mathrm{{{tex}}}}}"),
+                &format!("mass that `{orbit}` carries times its lateral lever"),
+                "kg m",
+                total.derivative(sin).expand(),
+            );
+            moments.push((along, lateral));
+        }
+        moments
+    }
+
+    /// A function of time with a name; none where it is zero.
+    fn given(&mut self, code: &str, text: &str, latex: &str, value: Formula) -> Option<SymbolId> {
+        if value.is_zero() {
+            return None;
+        }
+        let symbol = self.symbols.intern(Role::Temporal, code, text, latex);
+        self.drive.temporal.insert(symbol, Temporal::Given(value));
+        Some(symbol)
+    }
+
+    /// A function of time as a formula in t, sines and cosines.
+    fn signal(&mut self, signal: &Signal) -> Formula {
+        match signal {
+            Signal::Constant(value) => self.quantity(value),
+            Signal::Time => Formula::symbol(self.time()),
+            Signal::Sum(members) => members.iter().map(|member| self.signal(member)).sum(),
+            Signal::Product(factors) => factors
+                .iter()
+                .map(|factor| self.signal(factor))
+                .fold(Formula::integer(1), |product, factor| product * factor),
+            Signal::Power(base, exponent) => {
+                let base = self.signal(base);
+                (0..*exponent).fold(Formula::integer(1), |power, _| &power * &base)
+            }
+            Signal::Function(function, argument) => {
+                let argument = self.signal(argument).expand();
+                if argument.is_zero() {
+                    return Formula::integer(i64::from(*function == Function::Cos));
+                }
+                let (sin, cos) = self.rotation_in_time(&argument);
+                Formula::symbol(match function {
+                    Function::Sin => sin,
+                    Function::Cos => cos,
+                })
+            }
+        }
+    }
+
+    fn time(&mut self) -> SymbolId {
+        let time = self.symbols.intern(Role::Temporal, "time", "t", "t");
+        self.drive.temporal.insert(time, Temporal::Time);
+        time
+    }
+
+    /// Sine and cosine of a function of time: each is the other's slope.
+    fn rotation_in_time(&mut self, argument: &Formula) -> (SymbolId, SymbolId) {
+        let known = self.drive.rotations.iter().find(|(a, ..)| a == argument);
+        if let Some(&(_, sin, cos)) = known {
+            return (sin, cos);
+        }
+        let expr = argument.to_expr(&self.symbols);
+        let plain = text(&expr, &self.symbols);
+        let tex = latex(&expr, &self.symbols);
+        let mut make = |function: &str| {
+            self.symbols.intern(
+                Role::Temporal,
+                &format!("{function}_drive"),
+                &format!("{function}({plain})"),
+                &format!("\\{function}\\left({tex}\\right)"),
+            )
+        };
+        let (sin, cos) = (make("sin"), make("cos"));
+        let temporal = &mut self.drive.temporal;
+        temporal.insert(sin, Temporal::Sin(argument.clone()));
+        temporal.insert(cos, Temporal::Cos(argument.clone()));
+        self.drive.rotations.push((argument.clone(), sin, cos));
+        (sin, cos)
+    }
+
+    /// d/dt of a function of time, through every sine and cosine in it.
+    fn time_derivative(&self, formula: &Formula) -> Formula {
+        formula
+            .symbols()
+            .into_iter()
+            .filter_map(|symbol| {
+                let slope = match self.drive.temporal.get(&symbol)? {
+                    Temporal::Time => Formula::integer(1),
+                    Temporal::Sin(argument) => {
+                        let cos = Formula::symbol(self.partner(symbol)?);
+                        &cos * &self.time_derivative(argument)
+                    }
+                    Temporal::Cos(argument) => {
+                        let sin = Formula::symbol(self.partner(symbol)?);
+                        -(&sin * &self.time_derivative(argument))
+                    }
+                    Temporal::Given(value) => self.time_derivative(value),
+                };
+                Some(&formula.derivative(symbol) * &slope)
+            })
+            .sum()
+    }
+
+    /// The cosine that belongs to a sine, and the other way round.
+    fn partner(&self, symbol: SymbolId) -> Option<SymbolId> {
+        self.drive.rotations.iter().find_map(|&(_, sin, cos)| {
+            (sin == symbol)
+                .then_some(cos)
+                .or((cos == symbol).then_some(sin))
+        })
+    }
+
+    /// The drive as plain data.
+    pub(super) fn plain_drive(&self, frame: &Frame) -> Option<Drive> {
+        self.scene.drive.as_ref()?;
+        let DerivedDrive {
+            temporal,
+            rotations: _,
+            torque,
+            pivot,
+            friction,
+        } = &self.drive;
+        let expr = |formula: &Formula| formula.to_expr(&self.symbols);
+        let plain = |meaning: &Temporal<Formula>| match meaning {
+            Temporal::Time => Temporal::Time,
+            Temporal::Sin(argument) => Temporal::Sin(expr(argument)),
+            Temporal::Cos(argument) => Temporal::Cos(expr(argument)),
+            Temporal::Given(value) => Temporal::Given(expr(value)),
+        };
+        let energies = self.scene.requests.energies;
+        let power = || {
+            let forces = frame.drive_forces(self);
+            let terms = forces.iter().zip(&frame.velocities);
+            expr(&terms.map(|(force, &v)| force * &Formula::symbol(v)).sum())
+        };
+        Some(Drive {
+            temporal: temporal.iter().map(|(&s, m)| (s, plain(m))).collect(),
+            torque: *torque,
+            pivot: pivot
+                .iter()
+                .map(|(name, position, acceleration)| PivotMotion {
+                    name,
+                    position: expr(position),
+                    acceleration: *acceleration,
+                })
+                .collect(),
+            power: energies.then(power),
+            friction_power: (energies && !friction.is_zero()).then(|| expr(friction)),
+        })
+    }
+}

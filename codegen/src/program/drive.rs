@@ -1,0 +1,70 @@
+//! Functions of time, and the powers of what moves and brakes the tree.
+
+use super::entries::EntryList;
+use super::lower::{Door, Lowering};
+use super::{Argument, Purpose, Shape, ValueId};
+use crate::mechanics::expression::SymbolId;
+use crate::mechanics::{Drive, Temporal};
+
+impl Lowering<'_> {
+    /// The value of a symbol that depends on time alone.
+    pub(super) fn temporal(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
+        let mechanics = self.mechanics;
+        let Some(meaning) = mechanics
+            .drive
+            .as_ref()
+            .and_then(|drive| drive.temporal.get(&symbol))
+        else {
+            unreachable!("what depends on time comes with a drive");
+        };
+        let value = match meaning {
+            Temporal::Time => self.builder.input(Argument::Time, 0),
+            Temporal::Sin(argument) => {
+                let argument = self.expr(door, argument);
+                self.builder.sin(argument)
+            }
+            Temporal::Cos(argument) => {
+                let argument = self.expr(door, argument);
+                self.builder.cos(argument)
+            }
+            Temporal::Given(value) => self.expr(door, value),
+        };
+        let code = &mechanics.symbols.get(symbol).code;
+        self.builder.name(value, code)
+    }
+}
+
+impl EntryList<'_, '_> {
+    /// The arguments of an entry point that depends on time where there is a
+    /// drive.
+    pub(super) fn timed(&self, arguments: &[Argument]) -> Vec<Argument> {
+        let time = self.lowering.mechanics.drive.as_ref();
+        let time = time.map(|_| Argument::Time);
+        time.into_iter().chain(arguments.iter().copied()).collect()
+    }
+
+    /// The powers of drive and friction, which balance the energy.
+    pub(super) fn powers(&mut self, door: &mut Door<'_>, drive: &Drive) {
+        use Argument::{Omega, Theta, Time};
+        if let Some(power) = &drive.power {
+            let power = self.lowering.expr(door, power);
+            self.push(
+                "drive_power",
+                Purpose::DrivePower,
+                &[Time, Theta, Omega],
+                vec![power],
+                Shape::Scalar,
+            );
+        }
+        if let Some(power) = &drive.friction_power {
+            let power = self.lowering.expr(door, power);
+            self.push(
+                "friction_power",
+                Purpose::TotalFrictionPower,
+                &[Omega],
+                vec![power],
+                Shape::Scalar,
+            );
+        }
+    }
+}

@@ -1,0 +1,294 @@
+//! What moves the tree from outside, as functions of time.
+
+use std::fmt::{self, Display, Formatter};
+
+use super::values::{Usage, Values};
+use super::{Parameter, Quantity, Sign};
+use crate::description::{self, Expression, ExpressionKind, Property, TIME, Value};
+use crate::report::{Message, Report, nearest};
+
+/// A torque on the root and a motion of its pivot; at least one of them.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Drive {
+    /// Torque on the root, against the ground, N m.
+    pub torque: Option<Signal>,
+    /// Position of the root's pivot in the direction in which positive angles
+    /// move a link's end, m.
+    pub x: Option<Signal>,
+    /// Position of the root's pivot upwards, m.
+    pub y: Option<Signal>,
+}
+
+/// A function of time that is smooth at every time: nothing that depends on
+/// time is divided by.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Signal {
+    /// A value that does not change.
+    Constant(Quantity),
+    /// Time, s.
+    Time,
+    /// A sum of two or more members.
+    Sum(Vec<Signal>),
+    /// A product of two or more factors.
+    Product(Vec<Signal>),
+    /// A power, not negative.
+    Power(Box<Signal>, u32),
+    /// A function of an angle in rad.
+    Function(Function, Box<Signal>),
+}
+
+/// The functions that a drive may use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Function {
+    /// Sine.
+    Sin,
+    /// Cosine.
+    Cos,
+}
+
+/// The parts of a drive.
+const PARTS: &[&str] = &["torque", "x", "y"];
+
+/// The functions by name.
+const FUNCTIONS: &[&str] = &["sin", "cos"];
+
+/// Reads the drive; what is wrong goes to `report`.
+pub(super) fn resolve_drive(
+    drive: Option<&description::Drive>,
+    values: &mut Values,
+    report: &mut Report,
+) -> Option<Drive> {
+    let description::Drive {
+        name,
+        parts,
+        damaged,
+    } = drive?;
+    if parts.is_empty() && !damaged {
+        report.error(name.span(), Message::EmptyDrive);
+    }
+    let mut resolved = Drive::default();
+    let mut seen: Vec<String> = Vec::new();
+    for Property { name, value } in parts {
+        let (text, span) = (name.to_string(), name.span());
+        if seen.contains(&text) {
+            report.error(span, Message::duplicate_property(name));
+            continue;
+        }
+        let (part, what, unit) = match text.as_str() {
+            "torque" => (&mut resolved.torque, "torque on the root", "N m"),
+            "x" => (&mut resolved.x, "position x of the root's pivot", "m"),
+            "y" => (&mut resolved.y, "position y of the root's pivot", "m"),
+            _ => {
+                let nearest = nearest(&text, PARTS);
+                report.error(
+                    span,
+                    Message::UnknownDrive {
+                        name: text,
+                        nearest,
+                    },
+                );
+                continue;
+            }
+        };
+        seen.push(text.clone());
+        let usage = Usage {
+            what: what.to_owned(),
+            unit,
+            sign: Sign::Any,
+        };
+        match value {
+            Value::Single(value) => *part = signal(value, &usage, values, report),
+            Value::Pair(..) => report.error(span, Message::NotAPoint { name: text }),
+        }
+    }
+    Some(resolved)
+}
+
+/// The function of time that an expression states.
+fn signal(
+    expression: &Expression,
+    usage: &Usage<'_>,
+    values: &mut Values,
+    report: &mut Report,
+) -> Option<Signal> {
+    if is_plain(expression) {
+        let value = values.evaluate(expression, usage, report)?;
+        return Some(Signal::Constant(value));
+    }
+    part(expression, usage, values, report)
+}
+
+/// Whether an expression is what a property could have: no time, no function.
+fn is_plain(expression: &Expression) -> bool {
+    match &expression.kind {
+        ExpressionKind::Number(_) => true,
+        ExpressionKind::Name(name) => name != TIME,
+        ExpressionKind::Sum(members) => members.iter().all(is_plain),
+        ExpressionKind::Product { factors, divisors } => {
+            factors.iter().chain(divisors).all(is_plain)
+        }
+        ExpressionKind::Power(base, _) | ExpressionKind::Negative(base) => is_plain(base),
+        ExpressionKind::Call { .. } => false,
+    }
+}
+
+/// A part of a larger expression.
+fn part(
+    expression: &Expression,
+    usage: &Usage<'_>,
+    values: &mut Values,
+    report: &mut Report,
+) -> Option<Signal> {
+    let mut inner = |value: &Expression| part(value, usage, values, report);
+    Some(match &expression.kind {
+        _ if is_plain(expression) => {
+            let value = values.operand(expression, usage, report)?;
+            Signal::Constant(values.accept(value, usage, expression.span, report)?)
+        }
+        ExpressionKind::Number(_) | ExpressionKind::Name(_) => Signal::Time,
+        ExpressionKind::Sum(members) => {
+            let members: Vec<Option<Signal>> = members.iter().map(inner).collect();
+            Signal::Sum(members.into_iter().collect::<Option<_>>()?)
+        }
+        ExpressionKind::Product { factors, divisors } => {
+            let factors: Vec<Option<Signal>> = factors.iter().map(inner).collect();
+            let divisor = divisor(divisors, usage, values, report);
+            let mut factors: Vec<Signal> = factors.into_iter().collect::<Option<_>>()?;
+            factors.extend(divisor?);
+            match factors.pop() {
+                Some(only) if factors.is_empty() => only,
+                last => {
+                    factors.extend(last);
+                    Signal::Product(factors)
+                }
+            }
+        }
+        ExpressionKind::Power(base, exponent) => {
+            let Ok(exponent) = u32::try_from(*exponent) else {
+                report.error(expression.span, Message::TimeDivisor);
+                return None;
+            };
+            Signal::Power(Box::new(inner(base)?), exponent)
+        }
+        ExpressionKind::Negative(value) => {
+            let minus = Signal::Constant(Quantity::integer(-1));
+            Signal::Product(vec![minus, inner(value)?])
+        }
+        ExpressionKind::Call { function, argument } => {
+            let argument = inner(argument);
+            let name = function.to_string();
+            let function = match name.as_str() {
+                "sin" => Function::Sin,
+                "cos" => Function::Cos,
+                _ => {
+                    let nearest = nearest(&name, FUNCTIONS);
+                    let span = function.span();
+                    report.error(span, Message::DriveFunction { name, nearest });
+                    return None;
+                }
+            };
+            Signal::Function(function, Box::new(argument?))
+        }
+    })
+}
+
+/// The factor that divisors amount to, none without any. They are the same at
+/// all times, so that the drive is finite at all times.
+fn divisor(
+    divisors: &[Expression],
+    usage: &Usage<'_>,
+    values: &mut Values,
+    report: &mut Report,
+) -> Option<Option<Signal>> {
+    let mut product = Quantity::integer(1);
+    for divisor in divisors {
+        if !is_plain(divisor) {
+            report.error(divisor.span, Message::TimeDivisor);
+            return None;
+        }
+        let value = values.operand(divisor, usage, report)?;
+        let value = values.accept(value, usage, divisor.span, report)?;
+        let Ok(quotient) = product.divided_by(value) else {
+            report.error(divisor.span, Message::DivisionByZero);
+            return None;
+        };
+        product = quotient;
+    }
+    Some((!divisors.is_empty()).then_some(Signal::Constant(product)))
+}
+
+impl Drive {
+    /// Its parts by name, with their units.
+    pub fn parts(&self) -> impl Iterator<Item = (&'static str, &Signal, &'static str)> {
+        let parts = [
+            ("torque", &self.torque, "N m"),
+            ("x", &self.x, "m"),
+            ("y", &self.y, "m"),
+        ];
+        parts
+            .into_iter()
+            .filter_map(|(name, signal, unit)| Some((name, signal.as_ref()?, unit)))
+    }
+}
+
+impl Signal {
+    /// The function as text in the attribute's own notation, every operand in
+    /// parentheses that is no name, number or function. `parameters` are those
+    /// of the scene.
+    pub fn display<'a>(&'a self, parameters: &'a [Parameter]) -> impl Display + 'a {
+        Shown {
+            signal: self,
+            parameters,
+        }
+    }
+}
+
+/// A signal on its way to text.
+struct Shown<'a> {
+    signal: &'a Signal,
+    parameters: &'a [Parameter],
+}
+
+impl Shown<'_> {
+    fn operand(&self, signal: &Signal, f: &mut Formatter<'_>) -> fmt::Result {
+        let shown = signal.display(self.parameters);
+        match signal {
+            Signal::Constant(Quantity::Exact(_) | Quantity::Parameter(_))
+            | Signal::Time
+            | Signal::Function(..) => write!(f, "{shown}"),
+            _ => write!(f, "({shown})"),
+        }
+    }
+
+    fn joined(&self, operands: &[Signal], operator: &str, f: &mut Formatter<'_>) -> fmt::Result {
+        for (index, operand) in operands.iter().enumerate() {
+            if index > 0 {
+                f.write_str(operator)?;
+            }
+            self.operand(operand, f)?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for Shown<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self.signal {
+            Signal::Constant(value) => write!(f, "{}", value.display(self.parameters)),
+            Signal::Time => f.write_str(TIME),
+            Signal::Sum(members) => self.joined(members, " + ", f),
+            Signal::Product(factors) => self.joined(factors, " * ", f),
+            Signal::Power(base, exponent) => {
+                self.operand(base, f)?;
+                write!(f, "^{exponent}")
+            }
+            Signal::Function(function, argument) => {
+                let name = match function {
+                    Function::Sin => "sin",
+                    Function::Cos => "cos",
+                };
+                write!(f, "{name}({})", argument.display(self.parameters))
+            }
+        }
+    }
+}
