@@ -2,8 +2,8 @@
 //! of their energies.
 
 use super::Emission;
-use crate::mechanics::Sectors;
 use crate::mechanics::expression::Expr;
+use crate::mechanics::{Counting, Sectors};
 use crate::program::EnergyDefinition;
 use crate::scene::LinkId;
 use proc_macro2::{Literal, TokenStream};
@@ -113,12 +113,17 @@ impl Emission<'_> {
         lines
     }
 
-    pub(super) fn sector_transfers_meaning(&self, order: Option<u32>) -> Vec<String> {
+    pub(super) fn sector_transfers_meaning(&self, order: Option<(Counting, u32)>) -> Vec<String> {
         let mut lines = match order {
             None => vec![
                 "Energy transfer W_s = {E_s, H} (in W) into every sector without truncation, by what does it: the kinetic energy of the rest of the tree or its potential energy. E_s as in `budget_canonical`.".to_owned(),
             ],
-            Some(order) => vec![
+            Some((Counting::Angle, order)) => vec![
+                format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector with the kinetic energy through order {order} in the angles of all differences, momenta whole, as the paper counts. The slope of that energy in the differences has one order less. E_s as in `budget_canonical`."),
+                String::new(),
+                "In an oscillation, momenta are as small as angles: `sector_transfers_amplitude_…` count both.".into(),
+            ],
+            Some((Counting::Amplitude, order)) => vec![
                 format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector through order {order} in the amplitude ε of all differences, angles and momenta alike. E_s as in `budget_canonical`. Remainder of order {} in ε, one more where all branchings are into two and none lies within another.", order + 1),
             ],
         };

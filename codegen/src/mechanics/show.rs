@@ -2,7 +2,7 @@
 
 use super::coordinates::Kind;
 use super::expression::{Expr, SymbolId};
-use super::{Counting, Drive, Entry, Frame, Mechanics, Parts, Temporal, text};
+use super::{Counting, Drive, Entry, Frame, Mechanics, Parts, Sectors, Temporal, text};
 use std::fmt;
 
 impl fmt::Display for Mechanics {
@@ -27,6 +27,9 @@ impl fmt::Display for Mechanics {
             writeln!(f, "symmetric coordinates")?;
             self.coordinates(f, frame)?;
             self.frame(f, frame)?;
+        }
+        if let Some(sectors) = &self.sectors {
+            self.sectors(f, sectors)?;
         }
         if let Some(expansion) = &self.expansion {
             writeln!(f, "in-phase velocities: M⁽⁰⁾ w = p")?;
@@ -193,5 +196,53 @@ impl Mechanics {
             }
             None => Ok(()),
         }
+    }
+
+    /// The sectors, and their blocks of the mass matrix at the in-phase motion.
+    fn sectors(&self, f: &mut fmt::Formatter<'_>, sectors: &Sectors) -> fmt::Result {
+        for sector in &sectors.sectors {
+            writeln!(
+                f,
+                "sector {} of {} coordinates",
+                sector.name,
+                sector.coordinates.len()
+            )?;
+            let orbit = |coordinate: usize| self.coordinates[coordinate].kind.place().0;
+            let mean = |wanted: usize| {
+                let mut means = self.coordinates.iter();
+                let found = means.find(|c| c.kind.place() == (wanted, None));
+                found.map_or("", |coordinate| coordinate.name.as_str())
+            };
+            for (place, &row) in sector.coordinates.iter().enumerate() {
+                let (of_row, norm) = (orbit(row), self.coordinates[row].norm());
+                for &column in &sector.coordinates[..=place] {
+                    let of_column = orbit(column);
+                    let names = [row, column].map(|index| &self.coordinates[index].name);
+                    write!(f, "  B[{}, {}] = ", names[0], names[1])?;
+                    if row == column {
+                        let moment = self.text(&sectors.orbits[of_row].moment);
+                        writeln!(f, "{norm} {moment}")?;
+                        continue;
+                    }
+                    let coupling = sectors
+                        .couplings
+                        .iter()
+                        .find(|c| (c.row, c.column) == (of_row, of_column));
+                    let Some(coupling) = coupling else {
+                        writeln!(f, "0")?;
+                        continue;
+                    };
+                    let angle = format!("(θ_{} − θ_{})", mean(of_row), mean(of_column));
+                    let mut terms = Vec::new();
+                    for (factor, function) in [(&coupling.cosine, "cos"), (&coupling.sine, "sin")] {
+                        if !factor.is_zero() {
+                            terms.push(format!("{norm} {} {function}{angle}", self.text(factor)));
+                        }
+                    }
+                    writeln!(f, "{}", terms.join(" + "))?;
+                }
+            }
+        }
+        Ok(())
     }
 }

@@ -28,7 +28,7 @@ pub use rebuild::Rebuilt;
 pub use verify::Fault;
 
 use crate::exact::Rational;
-use crate::mechanics::Mechanics;
+use crate::mechanics::{Counting, Mechanics};
 use crate::scene::Scene;
 
 /// Lowers everything that the scene asks for into one program.
@@ -193,8 +193,8 @@ pub enum Purpose {
     /// Energies of all sectors, the transfers into them and the power of other
     /// forces.
     Budget(EnergyDefinition),
-    /// W of all sectors by parts: exact, or through an order in the amplitude.
-    SectorTransfers(Option<u32>),
+    /// W of all sectors by parts: exact, or through an order.
+    SectorTransfers(Option<(Counting, u32)>),
     /// {E_s, E_r} of the sectors by Parseval.
     TransferMatrix,
     /// Power of the drive on H_d.

@@ -9,7 +9,7 @@ use super::entries::EntryList;
 use super::lower::{Door, Lowering};
 use super::{Argument, EnergyDefinition, Purpose, Shape, ValueId};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Mechanics, Sectors};
+use crate::mechanics::{Counting, Mechanics, Sectors};
 use crate::scene::{BudgetRequest, LinkId, Scene};
 
 /// How a state is handed over.
@@ -19,9 +19,13 @@ enum State {
     Absolute,
     /// Symmetric coordinates and their velocities.
     Rates,
-    /// Symmetric coordinates and their momenta.
-    Momenta,
+    /// Symmetric coordinates and their momenta; where differences are small,
+    /// the momenta are or are not.
+    Momenta(Counting),
 }
+
+/// Without a truncation nothing is counted.
+const CANONICAL: State = State::Momenta(Counting::Amplitude);
 
 impl EntryList<'_, '_> {
     /// What [`EntryList::symmetric`] gives for flat trees.
@@ -39,7 +43,7 @@ impl EntryList<'_, '_> {
         let momenta = by_coordinate(&mut copies, mechanics, &motion.momenta, Copies::projected);
         let requests = &scene.requests;
         let canonical = requests.momenta.then(|| {
-            let motion = self::motion(&mut copies, scene, mechanics, &values, State::Momenta);
+            let motion = self::motion(&mut copies, scene, mechanics, &values, CANONICAL);
             let hamiltonian = requests.energies.then(|| {
                 let energy = copies.hamiltonian(&values, &motion);
                 copies.graded.total(&energy)
@@ -97,8 +101,11 @@ impl EntryList<'_, '_> {
         for state in states {
             self.exact_budgets(scene, sectors, request, state);
         }
+        for &order in &request.angle_orders {
+            self.truncated_transfers(scene, sectors, Counting::Angle, order);
+        }
         for &order in &request.amplitude_orders {
-            self.truncated_transfers(scene, sectors, order);
+            self.truncated_transfers(scene, sectors, Counting::Amplitude, order);
         }
     }
 
@@ -169,7 +176,7 @@ impl EntryList<'_, '_> {
             }
         }
         if request.canonical {
-            let outputs = transfers(&mut copies, &values, &motion, &places);
+            let outputs = transfers(&mut copies, &values, &motion, &places, Counting::Amplitude);
             found.push((
                 "sector_transfers",
                 Purpose::SectorTransfers(None),
@@ -194,7 +201,7 @@ impl EntryList<'_, '_> {
         for (name, purpose, outputs, shape) in found {
             let (name, mut arguments) = match state {
                 State::Absolute => (name.to_owned(), vec![Argument::Theta, Argument::Omega]),
-                State::Rates | State::Momenta => (
+                State::Rates | State::Momenta(_) => (
                     format!("symmetric_{name}"),
                     vec![Argument::Coordinates, Argument::Rates],
                 ),
@@ -206,18 +213,29 @@ impl EntryList<'_, '_> {
         }
     }
 
-    /// W of every sector through an order in the amplitude of all differences.
-    fn truncated_transfers(&mut self, scene: &Scene, sectors: &Sectors, order: u32) {
+    /// W of every sector through an order in all differences.
+    fn truncated_transfers(
+        &mut self,
+        scene: &Scene,
+        sectors: &Sectors,
+        counting: Counting,
+        order: u32,
+    ) {
         let mechanics = self.lowering.mechanics;
         let orbits = orbits(scene, &mechanics.coordinates);
         let values = values(self.lowering, sectors);
         let mut copies = copies(self.lowering, &orbits, Some(order as usize));
-        let motion = motion(&mut copies, scene, mechanics, &values, State::Momenta);
+        let state = State::Momenta(counting);
+        let motion = motion(&mut copies, scene, mechanics, &values, state);
         let places: Vec<Which> = sectors.sectors.iter().map(|sector| sector.place).collect();
-        let outputs = transfers(&mut copies, &values, &motion, &places);
+        let outputs = transfers(&mut copies, &values, &motion, &places, counting);
+        let name = match counting {
+            Counting::Angle => "angle",
+            Counting::Amplitude => "amplitude",
+        };
         self.push(
-            &format!("sector_transfers_amplitude_{order}"),
-            Purpose::SectorTransfers(Some(order)),
+            &format!("sector_transfers_{name}_{order}"),
+            Purpose::SectorTransfers(Some((counting, order))),
             &[Argument::Coordinates, Argument::Momenta],
             outputs,
             Shape::Transfers(places.len()),
@@ -295,6 +313,7 @@ fn motion(
     state: State,
 ) -> Motion {
     let handed = |copies: &mut Copies<'_>, argument| -> Fields {
+        let whole = argument == Argument::Momenta && state == State::Momenta(Counting::Angle);
         match state {
             State::Absolute => scene
                 .orbits
@@ -311,7 +330,7 @@ fn motion(
                     field
                 })
                 .collect(),
-            State::Rates | State::Momenta => {
+            State::Rates | State::Momenta(_) => {
                 let mut fields = copies.zeros();
                 for (index, coordinate) in mechanics.coordinates.iter().enumerate() {
                     let value = copies.graded.builder.input(argument, index);
@@ -319,6 +338,7 @@ fn motion(
                     let field = &mut fields[orbit];
                     match which {
                         None => field.mean = copies.graded.value(value),
+                        Some(place) if whole => field.put(place, copies.graded.value(value)),
                         Some(place) => field.put(place, copies.graded.difference(value)),
                     }
                 }
@@ -329,12 +349,12 @@ fn motion(
     let [positions, motions] = match state {
         State::Absolute => [Argument::Theta, Argument::Omega],
         State::Rates => [Argument::Coordinates, Argument::Rates],
-        State::Momenta => [Argument::Coordinates, Argument::Momenta],
+        State::Momenta(_) => [Argument::Coordinates, Argument::Momenta],
     };
     let angles = handed(copies, positions);
     let pose: Pose = copies.pose(values, angles);
     let handed = handed(copies, motions);
-    let (rates, momenta) = if state == State::Momenta {
+    let (rates, momenta) = if let State::Momenta(_) = state {
         let momenta = copies.per_link(&handed);
         let factors = copies.factors(values, &pose);
         (copies.solve(&factors, &momenta), momenta)
@@ -387,17 +407,25 @@ fn flattened(copies: &mut Copies<'_>, shares: &[Share]) -> Vec<ValueId> {
     outputs
 }
 
-/// Kinetic and potential part of W, sector by sector.
+/// Kinetic and potential part of W, sector by sector. Where angles alone count,
+/// K is meant through the order kept and differentiated then, so that its slope
+/// in the differences has one order less.
 fn transfers(
     copies: &mut Copies<'_>,
     values: &Values,
     motion: &Motion,
     places: &[Which],
+    counting: Counting,
 ) -> Vec<ValueId> {
     let mut outputs = Vec::new();
     for &which in places {
         let parts = copies.transfer_parts(values, motion, which);
-        outputs.push(copies.graded.total(&parts.kinetic));
+        let slopes = match (counting, which) {
+            (Counting::Angle, Some(_)) => copies.graded.without_highest(&parts.slopes),
+            _ => parts.slopes,
+        };
+        let kinetic = copies.graded.add(&slopes, &parts.kinetic);
+        outputs.push(copies.graded.total(&kinetic));
         outputs.push(copies.graded.total(&parts.potential));
     }
     outputs

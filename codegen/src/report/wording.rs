@@ -290,7 +290,7 @@ impl Message {
                 suggest(
                     nearest,
                     "forms are `canonical`, `parseval`, `velocity`, `rest`, `matrix`, \
-                     `amplitude = 4`",
+                     `angle = 1`, `amplitude = 4`",
                 ),
             ),
             M::NoBudgetForm => problem(

@@ -226,6 +226,9 @@ pub struct BudgetRequest {
     /// Orders in the amplitude of the differences through which the transfers
     /// are expanded. Comes with `momenta` and `symmetric`.
     pub amplitude_orders: Vec<u32>,
+    /// Orders in the angles of the differences alone, momenta kept whole; 1 is
+    /// the counting of the paper. Comes with `momenta` and `symmetric`.
+    pub angle_orders: Vec<u32>,
 }
 
 /// Which forms of the energy transfer are asked for; at least one.

@@ -26,6 +26,7 @@ const BUDGET_FORMS: &[&str] = &[
     "velocity",
     "rest",
     "matrix",
+    "angle",
     "amplitude",
 ];
 
@@ -101,7 +102,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
     let truncated = wanted
         .budget
         .as_ref()
-        .is_some_and(|budget| !budget.amplitude_orders.is_empty());
+        .is_some_and(|b| !b.amplitude_orders.is_empty() || !b.angle_orders.is_empty());
     if wanted.transfer.is_some() || truncated {
         wanted.symmetric = true;
         wanted.momenta = true;
@@ -114,12 +115,11 @@ fn budget(span: Span, forms: Option<&[Form]>, damaged: bool, report: &mut Report
     let mut request = BudgetRequest::default();
     let Some(forms) = forms else {
         return BudgetRequest {
-            rest: false,
             canonical: true,
             parseval: true,
             velocity: true,
             matrix: true,
-            amplitude_orders: Vec::new(),
+            ..BudgetRequest::default()
         };
     };
     if forms.is_empty() && !damaged {
@@ -153,6 +153,10 @@ fn budget(span: Span, forms: Option<&[Form]>, damaged: bool, report: &mut Report
             (None, "amplitude") => match order.filter(|order| AMPLITUDE_ORDERS.contains(order)) {
                 Some(order) => request.amplitude_orders.push(order),
                 None => report.error(place, Message::AmplitudeOrder),
+            },
+            (None, "angle") => match order.filter(|order| ANGLE_ORDERS.contains(order)) {
+                Some(order) => request.angle_orders.push(order),
+                None => report.error(place, Message::AngleOrder),
             },
             _ => {
                 let nearest = nearest(&text, BUDGET_FORMS);

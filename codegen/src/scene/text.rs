@@ -175,6 +175,7 @@ impl Display for BudgetRequest {
             velocity,
             matrix,
             amplitude_orders,
+            angle_orders,
         } = self;
         let flags = [
             (rest, "rest"),
@@ -186,6 +187,7 @@ impl Display for BudgetRequest {
         let named = flags.iter().filter(|(wanted, _)| **wanted);
         let forms: Vec<String> = named
             .map(|(_, name)| (*name).to_owned())
+            .chain(angle_orders.iter().map(|order| format!("angle = {order}")))
             .chain(
                 amplitude_orders
                     .iter()

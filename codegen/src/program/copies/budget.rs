@@ -28,6 +28,9 @@ pub(in crate::program) struct Share {
 
 /// W_s by what does it: {E_s, K − T_s} and {E_s, U − V_s}.
 pub(in crate::program) struct TransferParts {
+    /// −∂T_s/∂p ∂K/∂q.
+    pub(in crate::program) slopes: Series,
+    /// The rest of {E_s, K − T_s}.
     pub(in crate::program) kinetic: Series,
     pub(in crate::program) potential: Series,
 }
@@ -116,9 +119,8 @@ impl Copies<'_> {
         let velocities = self.own_velocities(values, motion, which, false);
         let slopes = self.kinetic_gradient(&motion.pose, &motion.rates);
         let slopes = self.projections(&slopes, which);
-        let mut kinetic = self.inner(&velocities, &slopes);
-        let change = self.by_change_of_block(motion, which, &velocities);
-        kinetic = self.graded.add(&kinetic, &change);
+        let slopes = self.inner(&velocities, &slopes);
+        let mut kinetic = self.by_change_of_block(motion, which, &velocities);
         let weight = self.sector_weight_rate(values, &motion.pose, &motion.rates, which);
         kinetic = self.graded.add(&kinetic, &weight);
         let own = self.sector_weight_gradient(values, &motion.pose, which);
@@ -137,6 +139,7 @@ impl Copies<'_> {
         let gradient = self.projections(&gradient, which);
         let pull = self.inner(&velocities, &gradient);
         TransferParts {
+            slopes,
             kinetic,
             potential: self.graded.sub(&swing, &pull),
         }

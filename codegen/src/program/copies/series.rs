@@ -99,7 +99,7 @@ impl Graded<'_> {
         self.collected(coefficients)
     }
 
-    pub(super) fn add(&mut self, a: &Series, b: &Series) -> Series {
+    pub(in crate::program) fn add(&mut self, a: &Series, b: &Series) -> Series {
         self.by_order(a, b, Builder::add, |_, value| value)
     }
 
@@ -141,6 +141,13 @@ impl Graded<'_> {
             total = self.builder.add(total, value);
         }
         total
+    }
+
+    /// All orders but the highest one kept.
+    pub(in crate::program) fn without_highest(&mut self, series: &Series) -> Series {
+        let highest = self.highest();
+        let kept = series.0.iter().take(highest).copied().collect();
+        self.collected(kept)
     }
 
     /// 1/a, from the lowest order upwards; order 0 must be there.

@@ -88,8 +88,8 @@ fn leaves_have_the_transfers_of_the_symbolic_series() {
     let compiled = compile(
         "gravity = 9.80665, parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) \
          [child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2], \
-         emit(transfer(amplitude = 2, amplitude = 4, exact), \
-              budget(canonical, amplitude = 2, amplitude = 4))",
+         emit(transfer(angle = 1, angle = 2, angle = 3, amplitude = 2, amplitude = 4, exact), \
+              budget(canonical, angle = 1, angle = 2, angle = 3, amplitude = 2, amplitude = 4))",
     );
     let mut random = Random::new(5);
     for _ in 0..50 {
@@ -97,6 +97,9 @@ fn leaves_have_the_transfers_of_the_symbolic_series() {
         let p = random.around_zero(3, 0.02);
         let v = compiled.evaluate("symmetric_velocities", &[&q, &p]);
         let pairs = [
+            ("transfer_angle_1", "sector_transfers_angle_1", &p),
+            ("transfer_angle_2", "sector_transfers_angle_2", &p),
+            ("transfer_angle_3", "sector_transfers_angle_3", &p),
             ("transfer_amplitude_2", "sector_transfers_amplitude_2", &p),
             ("transfer_amplitude_4", "sector_transfers_amplitude_4", &p),
             (
