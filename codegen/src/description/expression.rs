@@ -42,10 +42,17 @@ pub enum ExpressionKind {
     Power(Box<Expression>, i32),
     /// The opposite.
     Negative(Box<Expression>),
+    /// A function of a value, whether or not there is one of that name.
+    Call {
+        /// The function.
+        function: Ident,
+        /// What stands in its parentheses.
+        argument: Box<Expression>,
+    },
 }
 
 impl Expression {
-    /// Calls `visit` with every name, in the order written.
+    /// Calls `visit` with every name of a value, in the order written.
     pub(super) fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
         match &self.kind {
             ExpressionKind::Number(_) => {}
@@ -56,9 +63,9 @@ impl Expression {
                     part.for_each_name(visit);
                 }
             }
-            ExpressionKind::Power(base, _) | ExpressionKind::Negative(base) => {
-                base.for_each_name(visit);
-            }
+            ExpressionKind::Power(base, _)
+            | ExpressionKind::Negative(base)
+            | ExpressionKind::Call { argument: base, .. } => base.for_each_name(visit),
         }
     }
 
@@ -152,11 +159,12 @@ impl Expression {
         Ok(power)
     }
 
-    /// The highest total power of parameters, divisors counted like factors.
+    /// The highest total power of names and functions, divisors counted like
+    /// factors.
     fn degree(&self) -> u32 {
         match &self.kind {
             ExpressionKind::Number(_) => 0,
-            ExpressionKind::Name(_) => 1,
+            ExpressionKind::Name(_) | ExpressionKind::Call { .. } => 1,
             ExpressionKind::Sum(members) => {
                 members.iter().map(Self::degree).max().unwrap_or_default()
             }
@@ -171,7 +179,8 @@ impl Expression {
         }
     }
 
-    /// Parses a literal, a name or an expression in parentheses.
+    /// Parses a literal, a name, a function of an expression or an expression
+    /// in parentheses.
     fn primary(input: ParseStream<'_>) -> Result<Self, Fault> {
         let span = input.span();
         // A fragment that `macro_rules!` passed on keeps together as if it
@@ -190,8 +199,12 @@ impl Expression {
         if input.peek(syn::Ident::peek_any) {
             let name = Ident::parse_any(input).map_err(|_| expected(input, Self::WHAT))?;
             if input.peek(token::Paren) {
-                let name = name.to_string();
-                return Err(Diagnostic::new(span, Message::FunctionCall { name }).into());
+                let (inside, end) = parenthesised(input)?;
+                let argument = Box::new(parse_all((inside, end), Self::parse)?);
+                let function = name;
+                let kind = ExpressionKind::Call { function, argument };
+                let span = span.join(end).unwrap_or(span);
+                return Ok(Self { span, kind });
             }
             let kind = ExpressionKind::Name(name);
             return Ok(Self { span, kind });

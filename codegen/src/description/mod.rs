@@ -17,12 +17,13 @@
 //! term        = factor { ( "*" | "/" ) factor }
 //! factor      = [ "-" ] power
 //! power       = primary [ "^" ( [ "-" ] integer | "(" [ "-" ] integer ")" ) ]
-//! primary     = decimal | name | "(" expression ")"
+//! primary     = decimal | name | function | "(" expression ")"
+//! function    = name "(" expression ")"
 //! ```
 //!
 //! Unlike in Rust, `^` is a power and binds tightest: `-a^2` is `-(a^2)`. A
 //! `decimal` is read exactly; a `name` is a parameter of the model, the same
-//! name being the same parameter everywhere. A pair is a point of a link,
+//! name being the same parameter everywhere. Properties have no functions. A pair is a point of a link,
 //! `(along, lateral)`; a single value there means `(along, 0)`. Which properties
 //! and requests there are, and what they mean, is the business of
 //! [`scene`](crate::scene); this module knows their shape only.

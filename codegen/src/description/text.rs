@@ -109,6 +109,7 @@ impl Display for Expression {
                 write!(f, "-")?;
                 operand(value, f)
             }
+            ExpressionKind::Call { function, argument } => write!(f, "{function}({argument})"),
         }
     }
 }
@@ -124,10 +125,12 @@ fn joined(operands: &[Expression], operator: &str, f: &mut Formatter<'_>) -> fmt
     Ok(())
 }
 
-/// Writes an operand, in parentheses unless it is a number or a name.
+/// Writes an operand, in parentheses unless it is a number, a name or a function.
 fn operand(value: &Expression, f: &mut Formatter<'_>) -> fmt::Result {
     match value.kind {
-        ExpressionKind::Number(_) | ExpressionKind::Name(_) => write!(f, "{value}"),
+        ExpressionKind::Number(_) | ExpressionKind::Name(_) | ExpressionKind::Call { .. } => {
+            write!(f, "{value}")
+        }
         _ => write!(f, "({value})"),
     }
 }

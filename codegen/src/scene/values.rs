@@ -108,6 +108,11 @@ impl Values {
                 self.operand(base, usage, report)?.power(*exponent)
             }
             ExpressionKind::Negative(value) => Ok(self.operand(value, usage, report)?.negative()),
+            ExpressionKind::Call { function, .. } => {
+                let name = function.to_string();
+                report.error(function.span(), Message::FunctionCall { name });
+                return None;
+            }
         };
         match value {
             Ok(Quantity::Exact(number)) if !number.is_short() => {
