@@ -67,6 +67,7 @@ impl Emission<'_> {
                 None => Vec::new(),
             },
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
+            Purpose::Observable(n, form) => self.observable_formulas(n, form),
             Purpose::AbsoluteVelocities
             | Purpose::MassMatrix
             | Purpose::HigherTransfer(..)
@@ -85,7 +86,7 @@ impl Emission<'_> {
         }
     }
 
-    fn rows(&self, symbols: &[SymbolId], exprs: &[Expr]) -> Vec<Formula> {
+    pub(super) fn rows(&self, symbols: &[SymbolId], exprs: &[Expr]) -> Vec<Formula> {
         symbols
             .iter()
             .zip(exprs)

@@ -6,6 +6,7 @@ mod formulas;
 mod function;
 mod model;
 mod names;
+mod observables;
 mod stub;
 mod traits;
 

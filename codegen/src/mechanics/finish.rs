@@ -9,8 +9,8 @@ use super::inverse_mass::{Counting, Expansion as DerivedExpansion};
 use super::series::Series;
 use super::transfer::{self, SubHamiltonian};
 use super::{
-    Constant, Correction, Energies, Entry, Expansion, Frame, Mechanics, Parts, Transfer, Truncated,
-    WrittenOut,
+    Constant, Correction, Energies, Entry, Expansion, Frame, Mechanics, Observables, Parts,
+    Transfer, Truncated, WrittenOut,
 };
 use crate::scene::{OrbitId, TransferRequest};
 use std::collections::BTreeMap;
@@ -29,7 +29,9 @@ impl Derivation<'_> {
             symmetric: None,
             expansion: None,
             transfers: Vec::new(),
+            observables: Observables::default(),
         };
+        let mut derived = None;
         if self.scene.requests.symmetric {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
             let symmetric = self.symmetric_frame(&absolute, &coordinates);
@@ -44,7 +46,12 @@ impl Derivation<'_> {
                 mechanics.expansion = Some(plain);
             }
             mechanics.coordinates = coordinates;
+            derived = Some(symmetric);
         }
+        let symmetric = derived
+            .as_ref()
+            .map(|frame| (frame, &*mechanics.coordinates));
+        mechanics.observables = self.observables(&absolute, symmetric);
         mechanics.constants = self
             .constants
             .iter()
@@ -61,11 +68,11 @@ impl Derivation<'_> {
         mechanics
     }
 
-    fn expr(&self, formula: &Formula) -> Expr {
+    pub(super) fn expr(&self, formula: &Formula) -> Expr {
         formula.to_expr(&self.symbols)
     }
 
-    fn exprs(&self, formulas: &[Formula]) -> Vec<Expr> {
+    pub(super) fn exprs(&self, formulas: &[Formula]) -> Vec<Expr> {
         formulas.iter().map(|f| self.expr(f)).collect()
     }
 

@@ -13,6 +13,8 @@ mod finish;
 mod frame;
 mod inverse_mass;
 mod lagrangian;
+mod observable;
+mod observable_rate;
 mod print;
 mod series;
 mod show;
@@ -23,6 +25,9 @@ pub use algebra::AlgebraError;
 pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use inverse_mass::Counting;
+pub use observable_rate::{
+    Canonical, FunctionOf, Observable, ObservableFrame, Observables, System,
+};
 pub use print::{latex, text};
 
 use crate::scene::Scene;
@@ -197,6 +202,8 @@ pub struct Mechanics {
     pub expansion: Option<Expansion>,
     /// Energy transfers, one for each difference, if asked for.
     pub transfers: Vec<Transfer>,
+    /// Quantities of the user's own with their rates.
+    pub observables: Observables,
 }
 
 impl Mechanics {

@@ -21,16 +21,17 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Vec<Entry> 
             list.transfer(mechanics, symmetric, number, transfer);
         }
     }
+    list.observables(mechanics);
     list.entries
 }
 
-struct EntryList<'l, 'm> {
-    lowering: &'l mut Lowering<'m>,
-    entries: Vec<Entry>,
+pub(super) struct EntryList<'l, 'm> {
+    pub(super) lowering: &'l mut Lowering<'m>,
+    pub(super) entries: Vec<Entry>,
 }
 
 impl EntryList<'_, '_> {
-    fn push(
+    pub(super) fn push(
         &mut self,
         name: &str,
         purpose: Purpose,

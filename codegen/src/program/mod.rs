@@ -12,6 +12,7 @@ mod entries;
 mod interpret;
 mod lower;
 mod named;
+mod observables;
 mod rebuild;
 mod solve;
 mod spelling;
@@ -75,6 +76,8 @@ pub enum Op {
     Sin(ValueId),
     /// Cosine.
     Cos(ValueId),
+    /// Square root.
+    Sqrt(ValueId),
     /// Opposite.
     Neg(ValueId),
     /// Sum.
@@ -92,7 +95,7 @@ impl Op {
     pub fn operands(&self) -> impl Iterator<Item = ValueId> {
         let (first, second) = match *self {
             Self::Input(..) | Self::Constant(_) | Self::Number(_) => (None, None),
-            Self::Sin(a) | Self::Cos(a) | Self::Neg(a) => (Some(a), None),
+            Self::Sin(a) | Self::Cos(a) | Self::Sqrt(a) | Self::Neg(a) => (Some(a), None),
             Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) => {
                 (Some(a), Some(b))
             }
@@ -168,6 +171,23 @@ pub enum Purpose {
     ExactTransferFromRates(usize),
     /// Power of friction on H_d.
     FrictionPower(usize),
+    /// The observable with that number.
+    Observable(usize, ObservableForm),
+}
+
+/// What a function says about an observable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObservableForm {
+    /// F from coordinates and velocities.
+    Value,
+    /// dF/dt from coordinates and velocities.
+    Rate,
+    /// The part of dF/dt that is friction and drag.
+    FrictionRate,
+    /// F from coordinates and momenta.
+    FromMomenta,
+    /// dF/dt from coordinates and momenta.
+    RateFromMomenta,
 }
 
 /// An entry point: the program pruned to its outputs becomes a function.
