@@ -1,8 +1,10 @@
-//! The six fixture scenes, compiled. Their files under `fixtures/scenes` are
+//! The seven fixture scenes, compiled. Their files under `fixtures/scenes` are
 //! what snapshots show, so that what is read is what is run.
 
 #[path = "../fixtures/scenes/chain.rs"]
 pub mod chain;
+#[path = "../fixtures/scenes/observed.rs"]
+pub mod observed;
 #[path = "../fixtures/scenes/offset.rs"]
 pub mod offset;
 #[path = "../fixtures/scenes/paper.rs"]

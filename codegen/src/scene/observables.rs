@@ -144,7 +144,14 @@ const METHODS: &[&str] = &[
 ];
 
 /// Beginnings of names of methods that are many.
-const METHOD_FAMILIES: &[&str] = &["antiphase_", "transfer_", "sector_"];
+const METHOD_FAMILIES: &[&str] = &[
+    "antiphase_energy",
+    "antiphase_friction_power",
+    "transfer_amplitude_",
+    "transfer_angle_",
+    "transfer_exact",
+    "transfer_quadratic_form",
+];
 
 /// Adds the observables to the scene, whose tree is complete; what is wrong
 /// goes to `report`. `owners` holds the names of links, orbits and groups.

@@ -48,13 +48,16 @@ impl Observable {
             };
         }
         let choice = random.below(12);
+        if choice == 6 || choice == 7 {
+            let argument = Self::argument(random, symbols, depth);
+            let function = if choice == 6 { Sin } else { Cos };
+            return function(Box::new(argument));
+        }
         let mut part = |depth| Box::new(Self::random(random, symbols, depth));
         match choice {
             0 | 1 => Sum(part(depth - 1), part(depth - 1)),
             2 => Difference(part(depth - 1), part(depth - 1)),
             3..=5 => Product(part(depth - 1), part(depth - 1)),
-            6 => Sin(part(depth - 1)),
-            7 => Cos(part(depth - 1)),
             8 => Negative(part(depth - 1)),
             9 => {
                 let base = part(0);
@@ -66,6 +69,14 @@ impl Observable {
             }
             _ => Sqrt(Box::new(away_from_zero(part(depth - 1)))),
         }
+    }
+
+    /// An argument of a sine or cosine: of large products, and of energies,
+    /// these would turn too fast for differences in time.
+    fn argument(random: &mut Random, symbols: &[String], depth: usize) -> Self {
+        let calm = symbols.iter().filter(|name| !name.ends_with("_energy"));
+        let calm: Vec<String> = calm.cloned().collect();
+        Self::random(random, &calm, 1.min(depth - 1))
     }
 
     /// The expression in the attribute's notation.
