@@ -245,8 +245,8 @@ pub enum Message {
     UnknownFunction {
         /// As written.
         name: String,
-        /// The known one that is spelt most alike.
-        nearest: Option<&'static str>,
+        /// All functions.
+        known: Vec<&'static str>,
     },
     /// An observable that would emit a function which exists already.
     FunctionTaken {

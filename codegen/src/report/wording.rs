@@ -299,10 +299,10 @@ impl Message {
                 "a parameter, and a symbol of the mechanics",
                 "give the parameter another name",
             ),
-            M::UnknownFunction { name, nearest } => problem(
+            M::UnknownFunction { name, known } => problem(
                 format!("unknown function `{name}`"),
                 "not a function of observables",
-                suggest(nearest, "functions are `sin(...)`, `cos(...)`, `sqrt(...)`"),
+                format!("functions are {}", listed(known)),
             ),
             M::FunctionTaken { name, function } => problem(
                 format!("there is a function `{function}` already"),

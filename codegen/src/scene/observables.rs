@@ -259,8 +259,8 @@ fn evaluate(expression: &Expression, symbols: &Symbols, report: &mut Report) -> 
             let known = Function::ALL.iter().find(|(known, _)| *known == name);
             let value = evaluate(argument, symbols, report);
             let Some(&(_, known)) = known else {
-                let nearest = nearest(&name, &Function::ALL.map(|(name, _)| name));
-                report.error(function.span(), Message::UnknownFunction { name, nearest });
+                let known = Function::ALL.map(|(name, _)| name).to_vec();
+                report.error(function.span(), Message::UnknownFunction { name, known });
                 return None;
             };
             let value = value?;

@@ -7,14 +7,14 @@ use std::sync::LazyLock;
 use branched_pendulum::integrate::{Dop853, Options};
 use branched_pendulum::system::{OdeFn, State};
 use branched_pendulum_codegen::mechanics::coordinates::{Coordinate, symmetric_coordinates};
-use branched_pendulum_codegen::report::Report;
+use branched_pendulum_codegen::report::{Message, Report};
 use branched_pendulum_codegen::{description, scene};
 use branched_pendulum_tests::oracle::Tree;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, sample};
 use branched_pendulum_tests::oracle::observable::Observable;
 use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::source::attributed_struct;
+use branched_pendulum_tests::source::{self, attributed_struct};
 use nalgebra::DVector;
 
 use crate::support::{Compiled, Worst, compile};
@@ -192,6 +192,41 @@ impl<'a> Point<'a> {
         let second = if suffix.ends_with("momenta") { p } else { v };
         let compiled = &self.case.compiled;
         compiled.evaluate(&format!("o_{number}{suffix}"), &[&q, &second])[0]
+    }
+}
+
+/// What a fixture's model has as a function, an observable cannot be called:
+/// the front end's list of them is complete.
+#[test]
+fn no_emitted_function_can_be_defined_again() {
+    for fixture in ["chain", "offset", "paper", "simple", "sweep", "triplet"] {
+        let path = source::fixture(&format!("scenes/{fixture}.rs"));
+        let text = std::fs::read_to_string(path).expect("the fixture exists");
+        let (attribute, item) = attributed_struct(&text);
+        let mut functions = Vec::new();
+        let code: syn::File = syn::parse2(source::scene(fixture).tokens).expect("it is Rust");
+        for block in code.items {
+            let syn::Item::Impl(block) = block else {
+                continue;
+            };
+            functions.extend(block.items.into_iter().filter_map(|member| match member {
+                syn::ImplItem::Fn(function) => Some(function.sig.ident),
+                _ => None,
+            }));
+        }
+        assert!(!functions.is_empty());
+        for function in functions {
+            let mut report = Report::new();
+            let attribute = quote::quote!(observe(#function = 1), #attribute);
+            let description = description::parse(attribute, item.clone(), &mut report);
+            let scene = description.and_then(|d| scene::resolve(&d, &mut report));
+            let messages: Vec<&Message> = report.diagnostics().iter().map(|d| &d.message).collect();
+            let refused = matches!(
+                messages[..],
+                [Message::FunctionTaken { .. } | Message::ReservedName { .. }]
+            );
+            assert!(scene.is_none() && refused, "{function}: {messages:?}");
+        }
     }
 }
 
