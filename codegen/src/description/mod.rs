@@ -25,11 +25,12 @@
 //!
 //! Unlike in Rust, `^` is a power and binds tightest: `-a^2` is `-(a^2)`. A
 //! `decimal` is read exactly; a `name` is a parameter of the model, the same
-//! name being the same parameter everywhere. Functions
-//! and the names of angles, velocities and momenta are for observables. A pair is a point of a link,
-//! `(along, lateral)`; a single value there means `(along, 0)`. Which properties
-//! and requests there are, and what they mean, is the business of
-//! [`scene`](crate::scene); this module knows their shape only.
+//! name being the same parameter everywhere. In observables a `name` is a symbol
+//! of the scene (an angle, a velocity, a momentum, a parameter, a constant of the
+//! model), and only they have functions. A pair is a point of a link,
+//! `(along, lateral)`; a single value there means `(along, 0)`. Which properties,
+//! requests, symbols and functions there are, and what they mean, is the
+//! business of [`scene`](crate::scene); this module knows their shape only.
 
 mod expression;
 mod list;

@@ -25,7 +25,7 @@ impl Emission<'_> {
             .observables
             .iter()
             .find(|written| written.name == *name)
-            .map(|written| written.value.display(&self.scene.parameters))
+            .map(|written| written.value.display(&self.scene.parameters).to_string())
             .unwrap_or_default();
         let defined = || format!("Observable `{name}` = `{written}`");
         match form {

@@ -11,10 +11,12 @@ mod derivation;
 pub mod expression;
 mod finish;
 mod frame;
+mod hamiltonian;
 mod inverse_mass;
 mod lagrangian;
 mod observable;
 mod observable_rate;
+mod observables;
 mod print;
 mod series;
 mod show;
@@ -25,9 +27,7 @@ pub use algebra::AlgebraError;
 pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use inverse_mass::Counting;
-pub use observable_rate::{
-    Canonical, FunctionOf, Observable, ObservableFrame, Observables, System,
-};
+pub use observables::{Canonical, FunctionOf, Observable, ObservableFrame, Observables, System};
 pub use print::{latex, text};
 
 use crate::scene::Scene;

@@ -1,4 +1,4 @@
-//! Rates of change of observables, by two routes.
+//! Rates of change of observables, by two routes (docs/physics.md §7).
 //!
 //! From coordinates and velocities, by the chain rule along the motion:
 //!
@@ -22,83 +22,12 @@
 use super::algebra::Formula;
 use super::coordinates::Coordinate;
 use super::derivation::Derivation;
-use super::expression::{Expr, Role, SymbolId};
+use super::expression::{Role, SymbolId};
 use super::frame::Frame;
 use super::observable::Setting;
+use super::observables::{Canonical, FunctionOf, Observable, ObservableFrame, Observables, System};
 use super::print::latex_name;
-use crate::scene::Function;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Quantities of the user's own and what their formulas refer to.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Observables {
-    /// In the order of the description.
-    pub list: Vec<Observable>,
-    /// Functions of whole expressions; arguments hold earlier ones only.
-    pub functions: BTreeMap<SymbolId, FunctionOf>,
-    /// What the observables in absolute angles use.
-    pub absolute: ObservableFrame,
-    /// What the observables in symmetric coordinates use.
-    pub symmetric: ObservableFrame,
-}
-
-/// A function of an expression.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FunctionOf {
-    /// The function.
-    pub function: Function,
-    /// Its argument.
-    pub argument: Expr,
-}
-
-/// An observable with its rates of change.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Observable {
-    /// Its name.
-    pub name: String,
-    /// Whether its variables are the symmetric ones.
-    pub symmetric: bool,
-    /// F in coordinates, velocities and momenta.
-    pub value: Expr,
-    /// dF/dt in the same and in accelerations and forces; with friction.
-    pub rate: Expr,
-    /// The part of it that is friction and drag.
-    pub friction: Expr,
-    /// dF/dt by the Poisson bracket, if momenta are asked for.
-    pub canonical: Option<Canonical>,
-}
-
-/// A rate from coordinates and momenta.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Canonical {
-    /// {F, H} and the part of friction, with the unknowns y of `adjoint`.
-    pub rate: Expr,
-    /// M y = ∂F/∂v, if velocities occur in F.
-    pub adjoint: Option<System>,
-}
-
-/// A linear system with the mass matrix.
-#[derive(Clone, Debug, PartialEq)]
-pub struct System {
-    /// What is solved for.
-    pub unknowns: Vec<SymbolId>,
-    /// The right side.
-    pub right: Vec<Expr>,
-}
-
-/// What the rates of one frame refer to, as far as they do.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ObservableFrame {
-    /// Generalized accelerations; none where no rate holds them.
-    pub accelerations: Vec<SymbolId>,
-    /// Accelerations by friction and drag alone: M a = Q.
-    pub friction: Option<System>,
-    /// Forces, slopes of H and changes of M in coordinates and velocities.
-    pub definitions: BTreeMap<SymbolId, Expr>,
-    /// The momenta in coordinates and velocities; none where no observable
-    /// holds any.
-    pub momentum: Vec<Expr>,
-}
 
 /// The gradients of an observable, in the order of the coordinates.
 struct Gradients {
@@ -247,8 +176,8 @@ impl Derivation<'_> {
         }
         let rate = [
             dot(&gradients.coordinates, &frame.velocities),
-            -dot(&momenta, &symbols.slopes),
-            -dot(&unknowns, &symbols.changes),
+            dot(&opposite(&momenta), &symbols.slopes),
+            dot(&opposite(&unknowns), &symbols.changes),
             symbols.torque(&momenta),
         ];
         Canonical {
@@ -416,59 +345,8 @@ impl RateSymbols {
     }
 }
 
-impl Frame {
-    /// ∂L/∂q_i at fixed velocities.
-    fn forces(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
-        self.kinetic_gradient(derivation)
-            .iter()
-            .zip(&self.potential_gradient(derivation))
-            .map(|(kinetic, potential)| kinetic - potential)
-            .collect()
-    }
-
-    /// ∂H/∂q_i at fixed momenta: from ∂M⁻¹ = −M⁻¹ (∂M) M⁻¹,
-    /// −½ Σ v_j (∂_i M_jk) v_k + ∂U/∂q_i.
-    fn hamiltonian_slopes(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
-        let mut slopes: Vec<Vec<Formula>> = self
-            .potential_gradient(derivation)
-            .into_iter()
-            .map(|slope| vec![slope])
-            .collect();
-        let half = Formula::integer(2).pow(-1);
-        for (j, k, entry) in self.mass.iter() {
-            let pair = &Formula::symbol(self.velocities[j]) * &Formula::symbol(self.velocities[k]);
-            let pair = if j == k { &half * &pair } else { pair };
-            for coordinate in derivation.coordinates_of(entry) {
-                let slope = derivation.partial(entry, coordinate);
-                slopes[self.index(coordinate)].push(-(&slope * &pair));
-            }
-        }
-        summed(slopes)
-    }
-
-    /// (Ṁ v)_i = Σ (∂_k M_ij) v_k v_j.
-    fn mass_changes(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
-        let mut changes = vec![Vec::new(); self.coordinates.len()];
-        for (i, j, entry) in self.mass.iter() {
-            let velocity = |index: usize| Formula::symbol(self.velocities[index]);
-            let change: Formula = derivation
-                .coordinates_of(entry)
-                .into_iter()
-                .map(|c| &derivation.partial(entry, c) * &velocity(self.index(c)))
-                .sum();
-            changes[i].push(&change * &velocity(j));
-            if i != j {
-                changes[j].push(&change * &velocity(i));
-            }
-        }
-        summed(changes)
-    }
-}
-
-fn summed(rows: Vec<Vec<Formula>>) -> Vec<Formula> {
-    rows.into_iter()
-        .map(|terms| terms.into_iter().sum::<Formula>().expand())
-        .collect()
+fn opposite(formulas: &[Formula]) -> Vec<Formula> {
+    formulas.iter().map(|formula| -formula.clone()).collect()
 }
 
 /// Σ slope_i symbol_i.

@@ -66,10 +66,10 @@ impl Program {
 
     fn unrepresentable_in(&self, id: super::ConstantId) -> Option<&str> {
         let definition = self.setup.get(id);
-        if let Some(exact) = &definition.exact {
-            if is_unrepresentable(exact) {
-                return Some(&definition.name);
-            }
+        if let Some(exact) = &definition.exact
+            && is_unrepresentable(exact)
+        {
+            return Some(&definition.name);
         }
         // The model stores the named constants behind a product too.
         let operands = definition.op.operands();

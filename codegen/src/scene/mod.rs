@@ -15,6 +15,7 @@
 mod bodies;
 mod expand;
 mod names;
+mod observable_text;
 mod observables;
 mod probe;
 mod properties;

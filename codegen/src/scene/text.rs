@@ -3,8 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    CratePath, Group, Link, Observable, Observed, Offset, Orbit, Parameter, Requests, Requirement,
-    Scene, Sign, TransferRequest,
+    CratePath, Group, Link, Observable, Offset, Orbit, Parameter, Requests, Requirement, Scene,
+    Sign, TransferRequest,
 };
 
 impl Display for Scene {
@@ -115,48 +115,6 @@ impl Scene {
             .map(|link| self.links.get(link).map_or("?", |link| link.name.as_str()))
             .collect();
         names.join(", ")
-    }
-}
-
-impl Observed {
-    /// The value in the attribute's own notation, so that it could be written
-    /// there again. `parameters` are those of the scene.
-    pub fn display(&self, parameters: &[Parameter]) -> String {
-        let operand = |value: &Self| match value {
-            Self::Sum(_)
-            | Self::Product(_)
-            | Self::Quotient(..)
-            | Self::Negative(_)
-            | Self::Power(..) => format!("({})", value.display(parameters)),
-            // A quantity may be a sum of its own.
-            Self::Known(quantity)
-                if quantity.exact().is_none_or(|number| {
-                    number.is_negative() || number.to_string().contains('/')
-                }) =>
-            {
-                format!("({})", value.display(parameters))
-            }
-            _ => value.display(parameters),
-        };
-        let joined = |values: &[Self], operator: &str| {
-            let operands: Vec<String> = values.iter().map(operand).collect();
-            operands.join(operator)
-        };
-        match self {
-            Self::Known(quantity) => quantity.display(parameters).to_string(),
-            Self::Variable(variable) => variable.name.clone(),
-            Self::Constant(name) => name.clone(),
-            Self::KineticEnergy => "kinetic_energy".to_owned(),
-            Self::PotentialEnergy => "potential_energy".to_owned(),
-            Self::Sum(members) => joined(members, " + "),
-            Self::Product(factors) => joined(factors, " * "),
-            Self::Quotient(above, below) => format!("{} / {}", operand(above), operand(below)),
-            Self::Power(base, exponent) => format!("{}^{exponent}", operand(base)),
-            Self::Negative(value) => format!("-{}", operand(value)),
-            Self::Call(function, argument) => {
-                format!("{}({})", function.name(), argument.display(parameters))
-            }
-        }
     }
 }
 

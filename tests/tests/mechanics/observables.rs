@@ -380,3 +380,37 @@ fn the_bracket_gives_the_same_rates() {
     }
     worst.assert_below(1e-11, "bracket");
 }
+
+/// The paper's W, which `transfer(exact)` derives by itself, is the rate of
+/// what the paper defines as H_d.
+#[test]
+fn the_transfer_is_the_rate_of_the_sub_hamiltonian() {
+    let compiled = compile(
+        "gravity = 9.80665,
+        parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27, friction = 4e-4) [
+            child(mass = 0.10531, com = 0.043, inertia = 0.516e-3, friction = 7e-5) * 2
+        ],
+        emit(transfer(exact)),
+        observe(hd = p_d^2 / (4 * inertia_child) + gravity_child * sin(theta_d)^2)",
+    );
+    let (mut rates, mut momenta) = (Worst::default(), Worst::default());
+    let mut random = Random::new(11);
+    for number in 0..1000 {
+        let place = || format!("state {number}");
+        let q = random.around_zero(3, 3.0);
+        let v = random.around_zero(3, 10.0);
+        let p = compiled.evaluate("symmetric_momenta", &[&q, &v]);
+        let friction = compiled.evaluate("antiphase_friction_power", &[&q, &v])[0];
+        let transfer = compiled.evaluate("transfer_exact_from_rates", &[&q, &v]);
+        let size = transfer[0].abs() + transfer[1].abs() + friction.abs();
+        let found = compiled.evaluate("hd_friction_rate", &[&q, &v])[0];
+        rates.note(found - friction, friction, place);
+        let found = compiled.evaluate("hd_rate", &[&q, &v])[0];
+        rates.note(found - friction - transfer[0] - transfer[1], size, place);
+        let transfer = compiled.evaluate("transfer_exact", &[&q, &p]);
+        let found = compiled.evaluate("hd_rate_from_momenta", &[&q, &p])[0];
+        momenta.note(found - friction - transfer[0] - transfer[1], size, place);
+    }
+    rates.assert_below(1e-13, "rate");
+    momenta.assert_below(1e-12, "rate from momenta");
+}
