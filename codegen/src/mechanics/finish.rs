@@ -1,6 +1,6 @@
 //! Runs a derivation as far as the scene asks, and hands out plain data.
 
-use super::algebra::Formula;
+use super::algebra::{AlgebraError, Formula};
 use super::coordinates::{self, Coordinate};
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, Symbols};
@@ -16,7 +16,7 @@ use crate::scene::{OrbitId, TransferRequest};
 use std::collections::BTreeMap;
 
 impl Derivation<'_> {
-    pub(super) fn finish(mut self) -> Mechanics {
+    pub(super) fn finish(mut self) -> Result<Mechanics, AlgebraError> {
         let absolute = self.absolute_frame();
         let mut mechanics = Mechanics {
             symbols: Symbols::default(),
@@ -51,7 +51,7 @@ impl Derivation<'_> {
         let symmetric = derived
             .as_ref()
             .map(|frame| (frame, &*mechanics.coordinates));
-        mechanics.observables = self.observables(&absolute, symmetric);
+        mechanics.observables = self.observables(&absolute, symmetric)?;
         mechanics.constants = self
             .constants
             .iter()
@@ -65,7 +65,7 @@ impl Derivation<'_> {
         mechanics.trigonometry = self.trigonometry;
         mechanics.combinations = self.combinations;
         mechanics.symbols = self.symbols;
-        mechanics
+        Ok(mechanics)
     }
 
     pub(super) fn expr(&self, formula: &Formula) -> Expr {

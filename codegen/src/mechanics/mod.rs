@@ -216,7 +216,8 @@ impl Mechanics {
 /// Derives what the scene asks for, and nothing else.
 ///
 /// # Errors
-/// [`AlgebraError`] if the algebra cannot be used.
+/// [`AlgebraError`] if the algebra cannot be used, or if an observable divides
+/// by zero.
 pub fn derive(scene: &Scene) -> Result<Mechanics, AlgebraError> {
-    algebra::run(|| Derivation::new(scene).finish())
+    algebra::run(|| Derivation::new(scene).finish())?
 }

@@ -1,6 +1,6 @@
 //! Observables as formulas: a user's expression in the symbols of one frame.
 
-use super::algebra::Formula;
+use super::algebra::{AlgebraError, Formula};
 use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
@@ -27,6 +27,15 @@ pub(super) struct Setting<'a> {
 }
 
 impl Setting<'_> {
+    /// The formula, unless it is zero.
+    fn divisor(&self, formula: Formula) -> Result<Formula, AlgebraError> {
+        if formula.expand().is_zero() {
+            let observable = self.name.to_owned();
+            return Err(AlgebraError::DivisionByZero { observable });
+        }
+        Ok(formula)
+    }
+
     /// A variable in those of the frame. With θ = J q also ω = J q̇, and
     /// momenta transform as p_θ = J (JᵀJ)⁻¹ p, where JᵀJ is diagonal.
     fn variable(&self, variable: &Variable) -> Formula {
@@ -63,8 +72,15 @@ impl Setting<'_> {
 impl Derivation<'_> {
     /// The formula of an observable, as it was written: multiplied out, it
     /// would be longer and could lose digits.
-    pub(super) fn observed(&mut self, setting: &Setting<'_>, observed: &Observed) -> Formula {
-        match observed {
+    ///
+    /// # Errors
+    /// [`AlgebraError::DivisionByZero`].
+    pub(super) fn observed(
+        &mut self,
+        setting: &Setting<'_>,
+        observed: &Observed,
+    ) -> Result<Formula, AlgebraError> {
+        Ok(match observed {
             Observed::Known(quantity) => self.quantity(quantity),
             Observed::Variable(variable) => setting.variable(variable),
             Observed::Constant(name) => self.constant_called(name),
@@ -74,30 +90,37 @@ impl Derivation<'_> {
             }
             Observed::PotentialEnergy => setting.frame.potential.clone(),
             Observed::Sum(members) => {
-                let members: Vec<Formula> = self.all_observed(setting, members);
+                let members = self.all_observed(setting, members)?;
                 members.into_iter().sum()
             }
             Observed::Product(factors) => {
-                let factors = self.all_observed(setting, factors);
+                let factors = self.all_observed(setting, factors)?;
                 factors
                     .into_iter()
                     .fold(Formula::integer(1), |product, factor| product * factor)
             }
             Observed::Quotient(above, below) => {
-                let above = self.observed(setting, above);
-                let below = self.observed(setting, below);
-                above / below
+                let above = self.observed(setting, above)?;
+                above / setting.divisor(self.observed(setting, below)?)?
             }
-            Observed::Power(base, exponent) => self.observed(setting, base).pow(*exponent),
-            Observed::Negative(value) => -self.observed(setting, value),
+            Observed::Power(base, exponent) if *exponent < 0 => {
+                let base = self.observed(setting, base)?;
+                setting.divisor(base)?.pow(*exponent)
+            }
+            Observed::Power(base, exponent) => self.observed(setting, base)?.pow(*exponent),
+            Observed::Negative(value) => -self.observed(setting, value)?,
             Observed::Call(function, argument) => {
-                let argument = self.observed(setting, argument);
+                let argument = self.observed(setting, argument)?;
                 self.call(setting, *function, argument)
             }
-        }
+        })
     }
 
-    fn all_observed(&mut self, setting: &Setting<'_>, parts: &[Observed]) -> Vec<Formula> {
+    fn all_observed(
+        &mut self,
+        setting: &Setting<'_>,
+        parts: &[Observed],
+    ) -> Result<Vec<Formula>, AlgebraError> {
         parts
             .iter()
             .map(|part| self.observed(setting, part))

@@ -19,7 +19,7 @@
 //! and friction adds Σ (∂F/∂p_i + y_i) Q_i: one solve with the velocities'
 //! matrix, and no acceleration. M is never inverted in writing.
 
-use super::algebra::Formula;
+use super::algebra::{AlgebraError, Formula};
 use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
@@ -54,11 +54,14 @@ struct RateSymbols {
 
 impl Derivation<'_> {
     /// All observables of the scene.
+    ///
+    /// # Errors
+    /// [`AlgebraError::DivisionByZero`].
     pub(super) fn observables(
         &mut self,
         absolute: &Frame,
         symmetric: Option<(&Frame, &[Coordinate])>,
-    ) -> Observables {
+    ) -> Result<Observables, AlgebraError> {
         let scene = self.scene;
         let mut observables = Observables::default();
         for wants_symmetric in [false, true] {
@@ -83,7 +86,7 @@ impl Derivation<'_> {
                     coordinates,
                     name: &observable.name,
                 };
-                let value = self.observed(&setting, &observable.value);
+                let value = self.observed(&setting, &observable.value)?;
                 list.push(self.observable(&setting, &symbols, &value));
             }
             let used = self.observable_frame(frame, &symbols, &list);
@@ -106,7 +109,7 @@ impl Derivation<'_> {
                 (symbol, FunctionOf { function, argument })
             })
             .collect();
-        observables
+        Ok(observables)
     }
 
     fn observable(

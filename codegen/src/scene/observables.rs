@@ -169,24 +169,21 @@ pub(super) fn resolve_observables(
     let mut functions = BTreeSet::new();
     for observable in observables {
         let name = &observable.name;
-        let named = check_observable(name, report).is_some()
-            && {
-                let taken = owners.contains_key(&name.to_string())
-                    || scene.parameters.iter().any(|p| *name == p.name)
-                    || symbols.is_variable(&name.to_string())
-                    || !names.insert(name.to_string());
-                if taken {
-                    let name = name.to_string();
-                    report.error(observable.name.span(), Message::DuplicateName { name });
-                }
-                !taken
-            }
-            && check_functions(name, &symbols, &mut functions, report);
+        let text = name.to_string();
+        let taken = owners.contains_key(&text)
+            || scene.parameters.iter().any(|known| known.name == text)
+            || symbols.is_variable(&text)
+            || !names.insert(text.clone());
+        let named = check_observable(name, report).is_some();
+        if taken {
+            let name = text.clone();
+            report.error(observable.name.span(), Message::DuplicateName { name });
+        }
+        let named = named && !taken && check_functions(name, &symbols, &mut functions, report);
         let value = evaluate(&observable.value, &symbols, report);
         if let (true, Some(value)) = (named, value) {
             scene.requests.symmetric |= value.is_symmetric();
-            let name = name.to_string();
-            scene.observables.push(Observable { name, value });
+            scene.observables.push(Observable { name: text, value });
         }
     }
 }

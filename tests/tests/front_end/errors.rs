@@ -387,6 +387,20 @@ fn deepest_nesting_is_read() {
     assert_eq!(scene.map(|scene| scene.links.len()), Some(64));
 }
 
+/// What only the derivation knows to be zero is refused at its place too.
+#[test]
+fn divisors_that_vanish_in_the_model() {
+    let source = "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1),
+        observe(fine = 1 / inertia_a, bad = theta_a + omega_a / lateral_gravity_a))]
+        struct Pendulum;";
+    let (attribute, item) = crate::support::split(source);
+    let report = match branched_pendulum_codegen::stages(attribute, item) {
+        Err((report, _)) => report,
+        Ok(_) => panic!("accepted a division by zero"),
+    };
+    insta::assert_snapshot!("vanishing_divisor", report.render(source));
+}
+
 /// Values that a product of literals takes out of range are refused, and do
 /// not end the compiler.
 #[test]
@@ -395,6 +409,11 @@ fn constants_out_of_range() {
         (
             "constant_overflow",
             "gravity = 1e200, a: rod(mass = 1e200, length = 1)",
+        ),
+        (
+            "observable_underflow",
+            "gravity = 1, a: rod(mass = 1, length = 1),
+             observe(tiny = 1e-200 * theta_a * 1e-200 * omega_a)",
         ),
         (
             "constant_underflow",
