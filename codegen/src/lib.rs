@@ -20,11 +20,11 @@ pub mod report;
 pub mod scene;
 
 use description::Description;
-use mechanics::Mechanics;
+use mechanics::{AlgebraError, Mechanics};
 use proc_macro2::{Span, TokenStream};
 use program::Program;
 use quote::quote;
-use report::{Message, Report};
+use report::{Diagnostic, Message, Report};
 use scene::Scene;
 
 /// Everything that the stages produce for one attribute.
@@ -59,7 +59,7 @@ pub fn stages(attribute: TokenStream, item: TokenStream) -> Result<Stages, (Repo
     let mechanics = match mechanics::derive(&scene) {
         Ok(mechanics) => mechanics,
         Err(error) => {
-            report.error(Span::call_site(), Message::Algebra(error.to_string()));
+            report.push(underivable(&description, &error));
             return Err(refuse(&description, report));
         }
     };
@@ -88,6 +88,20 @@ pub fn expand(attribute: TokenStream, item: TokenStream) -> TokenStream {
         Ok(stages) => stages.tokens,
         Err((_, tokens)) => tokens,
     }
+}
+
+/// The message about a failed derivation, at the observable that is at fault if
+/// one is.
+fn underivable(description: &Description, error: &AlgebraError) -> Diagnostic {
+    if let AlgebraError::DivisionByZero { observable } = error
+        && let Some(found) = description
+            .observables
+            .iter()
+            .find(|written| written.name == observable)
+    {
+        return Diagnostic::new(found.value.span, Message::DivisionByZero);
+    }
+    Diagnostic::new(Span::call_site(), Message::Algebra(error.to_string()))
 }
 
 fn refuse(description: &Description, report: Report) -> (Report, TokenStream) {

@@ -5,6 +5,8 @@
 pub mod chain;
 #[path = "../fixtures/scenes/driven.rs"]
 pub mod driven;
+#[path = "../fixtures/scenes/observed.rs"]
+pub mod observed;
 #[path = "../fixtures/scenes/offset.rs"]
 pub mod offset;
 #[path = "../fixtures/scenes/paper.rs"]

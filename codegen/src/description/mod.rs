@@ -6,6 +6,7 @@
 //!             | "gravity" "=" expression
 //!             | "emit" "(" [ request { "," request } [ "," ] ] ")"
 //!             | "drive" "(" [ property { "," property } [ "," ] ] ")"
+//!             | "observe" "(" [ observable { "," observable } [ "," ] ] ")"
 //!             | link
 //! link        = name [ ":" shape ] "(" [ property { "," property } [ "," ] ] ")"
 //!               [ "[" [ link { "," link } [ "," ] ] "]" ] [ "*" integer ]
@@ -13,6 +14,7 @@
 //! value       = expression | "(" expression "," expression ")"
 //! request     = name [ "(" [ form { "," form } [ "," ] ] ")" ]
 //! form        = name [ "=" integer ]
+//! observable  = name "=" expression
 //!
 //! expression  = term { ( "+" | "-" ) term }
 //! term        = factor { ( "*" | "/" ) factor }
@@ -24,10 +26,12 @@
 //!
 //! Unlike in Rust, `^` is a power and binds tightest: `-a^2` is `-(a^2)`. A
 //! `decimal` is read exactly; a `name` is a parameter of the model, the same
-//! name being the same parameter everywhere. Properties have no functions. A pair is a point of a link,
-//! `(along, lateral)`; a single value there means `(along, 0)`. Which properties
-//! and requests there are, and what they mean, is the business of
-//! [`scene`](crate::scene); this module knows their shape only.
+//! name being the same parameter everywhere. In observables a `name` is a symbol
+//! of the scene (an angle, a velocity, a momentum, a parameter, a constant of the
+//! model), and only they and drives have functions. A pair is a point of a link,
+//! `(along, lateral)`; a single value there means `(along, 0)`. Which properties,
+//! requests, symbols and functions there are, and what they mean, is the
+//! business of [`scene`](crate::scene); this module knows their shape only.
 
 mod expression;
 mod list;
@@ -57,6 +61,8 @@ pub struct Description {
     pub roots: Vec<Node>,
     /// What `emit(...)` asks for.
     pub requests: Vec<Request>,
+    /// What `observe(...)` defines.
+    pub observables: Vec<Observable>,
     /// Whether part of it was unreadable, which is reported already: what is
     /// missing may have stood there.
     pub damaged: bool,
@@ -188,6 +194,15 @@ impl Value {
             }
         }
     }
+}
+
+/// A quantity of the user's own.
+#[derive(Debug, Clone)]
+pub struct Observable {
+    /// Its name.
+    pub name: Ident,
+    /// What it is.
+    pub value: Expression,
 }
 
 /// Something to emit.

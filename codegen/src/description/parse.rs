@@ -10,7 +10,8 @@ use syn::{Token, token};
 use super::expression::literal;
 use super::list::{Fault, List, expected, group, identifier, list, parse_all, take};
 use super::{
-    Description, Drive, Expression, Form, Multiplicity, Node, Property, Request, StructItem, Value,
+    Description, Drive, Expression, Form, Multiplicity, Node, Observable, Property, Request,
+    StructItem, Value,
 };
 use crate::report::{Diagnostic, Message, Report};
 
@@ -48,9 +49,10 @@ pub fn parse(
         drive: None,
         roots: Vec::new(),
         requests: Vec::new(),
+        observables: Vec::new(),
         damaged: entries.damaged,
     };
-    let mut emits = 0;
+    let (mut emits, mut observes) = (0, 0);
     for entry in entries.members {
         match entry {
             Entry::Crate(name, path) => {
@@ -83,6 +85,13 @@ pub fn parse(
                     report.error(name.span(), Message::duplicate_property(&name));
                 }
                 description.requests.extend(requests);
+            }
+            Entry::Observe(name, observables) => {
+                observes += 1;
+                if observes > 1 {
+                    report.error(name.span(), Message::duplicate_property(&name));
+                }
+                description.observables.extend(observables);
             }
             Entry::Link(node) => description.roots.push(node),
         }
@@ -152,11 +161,12 @@ enum Entry {
     Gravity(Property),
     Drive(Drive),
     Emit(Ident, Vec<Request>),
+    Observe(Ident, Vec<Observable>),
     Link(Node),
 }
 
 fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
-    let name = identifier(input, "a link, `gravity`, `drive`, `emit` or `crate`")?;
+    let name = identifier(input, "a link, `gravity`, `drive`, `emit`, `observe` or `crate`")?;
     if input.peek(Token![=]) {
         return assignment(name, input);
     }
@@ -176,6 +186,11 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
             parts: parts.members,
             damaged: parts.damaged,
         }));
+    }
+    if name == "observe" {
+        let observables = group(input, Delimiter::Parenthesis, "`(` and what to observe")?;
+        let observables = list(observables, report, observable);
+        return Ok(Entry::Observe(name, observables.members));
     }
     if name == "gravity" || name == "crate" {
         return Err(expected(input, "`=` and a value"));
@@ -283,6 +298,13 @@ fn request(input: ParseStream<'_>, report: &mut Report) -> Result<Request, Fault
         damaged: forms.as_ref().is_some_and(|forms| forms.damaged),
         forms: forms.map(|forms| forms.members),
     })
+}
+
+fn observable(input: ParseStream<'_>, _: &mut Report) -> Result<Observable, Fault> {
+    let name = identifier(input, "an observable, as in `height = cos(theta_bob)`")?;
+    take::<Token![=]>(input, "`=` and an expression")?;
+    let value = Expression::parse(input)?;
+    Ok(Observable { name, value })
 }
 
 fn form(input: ParseStream<'_>, _: &mut Report) -> Result<Form, Fault> {

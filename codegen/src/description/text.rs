@@ -4,7 +4,9 @@ use std::fmt::{self, Display, Formatter};
 
 use quote::ToTokens as _;
 
-use super::{Description, Expression, ExpressionKind, Form, Node, Property, Request, Value};
+use super::{
+    Description, Expression, ExpressionKind, Form, Node, Observable, Property, Request, Value,
+};
 
 impl Display for Description {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -26,6 +28,11 @@ impl Display for Description {
         if !self.requests.is_empty() {
             write!(f, "emit(")?;
             separated(&self.requests, f)?;
+            writeln!(f, ")")?;
+        }
+        if !self.observables.is_empty() {
+            write!(f, "observe(")?;
+            separated(&self.observables, f)?;
             writeln!(f, ")")?;
         }
         Ok(())
@@ -66,6 +73,12 @@ impl Display for Property {
             Value::Single(value) => write!(f, "{} = {value}", self.name),
             Value::Pair(along, lateral) => write!(f, "{} = ({along}, {lateral})", self.name),
         }
+    }
+}
+
+impl Display for Observable {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {}", self.name, self.value)
     }
 }
 

@@ -171,6 +171,7 @@ impl Emission<'_> {
             Purpose::ExactTransferFromRates(n) => vec![
                 format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; {}.", difference(n), self.on_top()),
             ],
+            Purpose::Observable(n, form) => self.observable_meaning(n, form),
             Purpose::FrictionPower(n) => vec![
                 format!("Power (in W) of friction and drag on H_d of `{}`.", difference(n)),
             ],

@@ -79,6 +79,7 @@ impl Emission<'_> {
                 }
             }
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
+            Purpose::Observable(n, form) => self.observable_formulas(n, form),
             Purpose::AbsoluteVelocities
             | Purpose::MassMatrix
             | Purpose::Budget(_)

@@ -260,6 +260,10 @@ impl Emission<'_> {
                 let a = at(a, Binding::Atom);
                 (quote!(-#a), Binding::Prefix)
             }
+            Op::Sqrt(a) => {
+                let a = at(a, Binding::Atom);
+                (quote!(#a.sqrt()), Binding::Atom)
+            }
             Op::Add(a, b) => {
                 let (a, b) = (at(a, Binding::Sum), at(b, Binding::Product));
                 (quote!(#a + #b), Binding::Sum)

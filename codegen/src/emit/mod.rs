@@ -9,6 +9,7 @@ mod function;
 mod model;
 mod names;
 mod parts;
+mod observables;
 mod stub;
 mod traits;
 

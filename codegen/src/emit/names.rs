@@ -129,6 +129,7 @@ impl Emission<'_> {
             Op::Mul(a, b) if a == b => format!("{}_squared", name(*a)?),
             Op::Mul(a, b) => format!("{}_times_{}", name(*a)?, name(*b)?),
             Op::Div(a, b) => format!("{}_over_{}", name(*a)?, name(*b)?),
+            Op::Sqrt(a) => format!("sqrt_{}", name(*a)?),
             Op::Sin(a) => format!("sin_{}", name(*a)?),
             Op::Cos(a) => format!("cos_{}", name(*a)?),
             Op::Input(..) | Op::Constant(_) => return None,

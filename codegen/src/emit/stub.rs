@@ -3,8 +3,10 @@
 //! errors and no others.
 
 use crate::description::Description;
+use crate::scene::OBSERVABLE_SUFFIXES;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
+use std::collections::BTreeSet;
 
 /// Methods from two arrays to one.
 const MAPS: [&str; 5] = [
@@ -47,7 +49,8 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     let (maps, transforms, matrices) = (idents(&MAPS), idents(&TRANSFORMS), idents(&MATRICES));
     let (motions, powers) = (idents(&MOTIONS), idents(&POWERS));
     let time = description.drive.as_ref().map(|_| quote!(time: T,));
-    let (numbers, mut transfers) = (idents(&NUMBERS), idents(&TRANSFERS));
+    let (mut numbers, mut transfers) = (idents(&NUMBERS), idents(&TRANSFERS));
+    numbers.extend(observables(description));
     for order in 1..=8 {
         transfers.push(format_ident!("transfer_angle_{order}"));
         transfers.push(format_ident!("transfer_amplitude_{order}"));
@@ -111,6 +114,30 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             fn potential_energy_of(&self, _: &[T]) -> T { ::core::unimplemented!() }
         }
     }
+}
+
+/// The functions of observables, as far as they can stand beside the others.
+fn observables(description: &Description) -> Vec<Ident> {
+    let known = MAPS.iter().chain(&TRANSFORMS).chain(&MATRICES);
+    let known = known.chain(&NUMBERS).chain(&TRANSFERS);
+    let mut taken: BTreeSet<String> = known.map(|name| (*name).to_owned()).collect();
+    taken.extend(["potential_energy", "new", "from_parameters"].map(str::to_owned));
+    let mut functions = Vec::new();
+    for observable in &description.observables {
+        let name = observable.name.to_string();
+        for suffix in OBSERVABLE_SUFFIXES {
+            let function = format!("{name}{suffix}");
+            let plain = syn::parse_str::<Ident>(&function);
+            // Transfers have numbers in their names.
+            if let Ok(plain) = plain
+                && !function.starts_with("transfer_")
+                && taken.insert(function)
+            {
+                functions.push(plain);
+            }
+        }
+    }
+    functions
 }
 
 /// As the model would have them: with the parameters that the description

@@ -27,6 +27,12 @@ pub enum AlgebraError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// An observable divides by a constant of the model that is zero in this
+    /// scene, which only the derivation knows.
+    DivisionByZero {
+        /// The observable's name.
+        observable: String,
+    },
     /// The derivation panicked: a broken invariant of ours.
     Broken {
         /// The panic's message.
@@ -41,6 +47,10 @@ impl fmt::Display for AlgebraError {
                 f,
                 "cannot lock `{}`, which keeps derivations of one user apart: {source}",
                 path.display()
+            ),
+            Self::DivisionByZero { observable } => write!(
+                f,
+                "the observable `{observable}` divides by a constant that is zero in this scene"
             ),
             Self::Broken { message } => write!(
                 f,

@@ -4,6 +4,7 @@
 use super::algebra::Formula;
 use super::drive::DerivedDrive;
 use super::expression::{Role, SymbolId, Symbols};
+use super::observable::Composite;
 use super::print::latex_name;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
@@ -48,11 +49,13 @@ pub(super) struct Derivation<'s> {
     pub(super) trigonometry: BTreeMap<SymbolId, Trigonometric>,
     names: BTreeMap<SymbolId, String>,
     of_one: BTreeMap<SymbolId, (SymbolId, SymbolId)>,
-    of_two: BTreeMap<(SymbolId, SymbolId), (SymbolId, SymbolId)>,
+    pub(super) of_two: BTreeMap<(SymbolId, SymbolId), (SymbolId, SymbolId)>,
     pub(super) combinations: Vec<Combination>,
     pub(super) drive: DerivedDrive,
     pub(super) groups_of: BTreeMap<SymbolId, usize>,
     of_combination: Vec<(SymbolId, SymbolId)>,
+    /// Functions of whole expressions, which observables alone have.
+    pub(super) composites: BTreeMap<SymbolId, Composite>,
 }
 
 impl<'s> Derivation<'s> {
@@ -79,6 +82,7 @@ impl<'s> Derivation<'s> {
             drive: DerivedDrive::default(),
             groups_of: BTreeMap::new(),
             of_combination: Vec::new(),
+            composites: BTreeMap::new(),
         }
     }
 
@@ -231,6 +235,9 @@ impl<'s> Derivation<'s> {
 
     /// ∂/∂(coordinate) of a trigonometric symbol, if it depends on it.
     fn slope(&self, symbol: SymbolId, coordinate: SymbolId) -> Option<Formula> {
+        if let Some(composite) = self.composites.get(&symbol) {
+            return Some(self.composite_slope(symbol, composite, coordinate));
+        }
         let signed = |value: Formula, positive: bool| if positive { value } else { -value };
         match *self.trigonometry.get(&symbol)? {
             Trigonometric::Cos(a) => (a == coordinate).then(|| -Formula::symbol(self.sin(a))),
@@ -266,7 +273,7 @@ impl<'s> Derivation<'s> {
 
     /// cos of a coordinate as it is written in this derivation: 1 − vers where
     /// that is in use.
-    fn cosine(&self, coordinate: SymbolId) -> Formula {
+    pub(super) fn cosine(&self, coordinate: SymbolId) -> Formula {
         let alone = vec![(coordinate, 1)];
         match self.combinations.iter().position(|c| *c == alone) {
             Some(known) => {

@@ -11,7 +11,7 @@ use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
 use super::frame::Frame;
 use super::print::{latex, latex_name, text};
-use crate::scene::{Function, Signal};
+use crate::scene::{TimeFunction, Signal};
 use std::collections::BTreeMap;
 
 /// What a symbol means that depends on time alone.
@@ -201,12 +201,12 @@ impl Derivation<'_> {
             Signal::Function(function, argument) => {
                 let argument = self.signal(argument).expand();
                 if argument.is_zero() {
-                    return Formula::integer(i64::from(*function == Function::Cos));
+                    return Formula::integer(i64::from(*function == TimeFunction::Cos));
                 }
                 let (sin, cos) = self.rotation_in_time(&argument);
                 Formula::symbol(match function {
-                    Function::Sin => sin,
-                    Function::Cos => cos,
+                    TimeFunction::Sin => sin,
+                    TimeFunction::Cos => cos,
                 })
             }
         }

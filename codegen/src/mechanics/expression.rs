@@ -29,7 +29,7 @@ pub enum Role {
     Coordinate,
     /// A generalized velocity.
     Velocity,
-    /// A generalized acceleration; appears only inside the derivation.
+    /// A generalized acceleration; appears in the rates of observables only.
     Acceleration,
     /// A generalized momentum.
     Momentum,

@@ -1,6 +1,6 @@
 //! Runs a derivation as far as the scene asks, and hands out plain data.
 
-use super::algebra::Formula;
+use super::algebra::{AlgebraError, Formula};
 use super::coordinates::{self, Coordinate};
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, Symbols};
@@ -9,14 +9,14 @@ use super::inverse_mass::{Counting, Expansion as DerivedExpansion};
 use super::series::Series;
 use super::transfer::{self, SubHamiltonian};
 use super::{
-    Constant, Correction, Energies, Entry, Expansion, Frame, Mechanics, Parts, Transfer, Truncated,
-    WrittenOut,
+    Constant, Correction, Energies, Entry, Expansion, Frame, Mechanics, Observables, Parts,
+    Transfer, Truncated, WrittenOut,
 };
 use crate::scene::{OrbitId, TransferRequest};
 use std::collections::BTreeMap;
 
 impl Derivation<'_> {
-    pub(super) fn finish(mut self) -> Mechanics {
+    pub(super) fn finish(mut self) -> Result<Mechanics, AlgebraError> {
         let absolute = self.absolute_frame();
         let mut mechanics = Mechanics {
             symbols: Symbols::default(),
@@ -31,17 +31,22 @@ impl Derivation<'_> {
             sectors: None,
             expansion: None,
             transfers: Vec::new(),
+            observables: Observables::default(),
         };
         let requests = &self.scene.requests;
-        let nested = requests.symmetric && self.is_nested();
+        // Observables are derived in the frame's own symbols.
+        let observables = &self.scene.observables;
+        let observed = observables.iter().any(|o| o.value.is_symmetric());
+        let nested = requests.symmetric && !observed && self.is_nested();
         if requests.budget.is_some() || nested {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
             mechanics.sectors = Some(self.sectors(&absolute, &coordinates));
             mechanics.coordinates = coordinates;
         }
+        let mut derived = None;
         if nested {
             mechanics.symmetric = Some(self.symbols_of(&mechanics.coordinates));
-        } else if requests.symmetric {
+        } else if self.scene.requests.symmetric {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
             let symmetric = self.symmetric_frame(&absolute, &coordinates);
             mechanics.symmetric = Some(self.frame(&symmetric));
@@ -55,7 +60,12 @@ impl Derivation<'_> {
                 mechanics.expansion = Some(plain);
             }
             mechanics.coordinates = coordinates;
+            derived = Some(symmetric);
         }
+        let symmetric = derived
+            .as_ref()
+            .map(|frame| (frame, &*mechanics.coordinates));
+        mechanics.observables = self.observables(&absolute, symmetric)?;
         mechanics.constants = self
             .constants
             .iter()
@@ -69,7 +79,7 @@ impl Derivation<'_> {
         mechanics.trigonometry = self.trigonometry;
         mechanics.combinations = self.combinations;
         mechanics.symbols = self.symbols;
-        mechanics
+        Ok(mechanics)
     }
 
     /// Whether copies branch into copies, or have other links below them.
@@ -98,11 +108,11 @@ impl Derivation<'_> {
         }
     }
 
-    fn expr(&self, formula: &Formula) -> Expr {
+    pub(super) fn expr(&self, formula: &Formula) -> Expr {
         formula.to_expr(&self.symbols)
     }
 
-    fn exprs(&self, formulas: &[Formula]) -> Vec<Expr> {
+    pub(super) fn exprs(&self, formulas: &[Formula]) -> Vec<Expr> {
         formulas.iter().map(|f| self.expr(f)).collect()
     }
 

@@ -12,8 +12,12 @@ mod drive;
 pub mod expression;
 mod finish;
 mod frame;
+mod hamiltonian;
 mod inverse_mass;
 mod lagrangian;
+mod observable;
+mod observable_rate;
+mod observables;
 mod print;
 pub mod sectors;
 mod series;
@@ -26,6 +30,7 @@ pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{Drive, PivotMotion, Temporal};
 pub use inverse_mass::Counting;
+pub use observables::{Canonical, FunctionOf, Observable, ObservableFrame, Observables, System};
 pub use print::{latex, text};
 pub use sectors::{Coupling, OrbitConstants, Sector, Sectors};
 
@@ -216,6 +221,8 @@ pub struct Mechanics {
     pub expansion: Option<Expansion>,
     /// Energy transfers, one for each difference, if asked for.
     pub transfers: Vec<Transfer>,
+    /// Quantities of the user's own with their rates.
+    pub observables: Observables,
 }
 
 impl Mechanics {
@@ -228,7 +235,8 @@ impl Mechanics {
 /// Derives what the scene asks for, and nothing else.
 ///
 /// # Errors
-/// [`AlgebraError`] if the algebra cannot be used.
+/// [`AlgebraError`] if the algebra cannot be used, or if an observable divides
+/// by zero.
 pub fn derive(scene: &Scene) -> Result<Mechanics, AlgebraError> {
-    algebra::run(|| Derivation::new(scene).finish())
+    algebra::run(|| Derivation::new(scene).finish())?
 }

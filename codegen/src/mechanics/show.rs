@@ -83,7 +83,7 @@ impl fmt::Display for Mechanics {
                 self.line(f, "power of the drive", &transfer.drive)?;
             }
         }
-        Ok(())
+        self.observables(f)
     }
 }
 
@@ -184,6 +184,39 @@ impl Mechanics {
                 weights.join(" "),
                 coordinate.norm()
             )?;
+        }
+        Ok(())
+    }
+
+    fn observables(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let observables = &self.observables;
+        for (place, used) in [
+            ("absolute angles", &observables.absolute),
+            ("symmetric coordinates", &observables.symmetric),
+        ] {
+            if used.definitions.is_empty() {
+                continue;
+            }
+            writeln!(f, "for rates in {place}")?;
+            for (&symbol, value) in &used.definitions {
+                self.line(f, &self.name(symbol), value)?;
+            }
+        }
+        for observable in &observables.list {
+            writeln!(f, "observable {}", observable.name)?;
+            self.line(f, "F", &observable.value)?;
+            self.line(f, "dF/dt", &observable.rate)?;
+            if !observable.friction.is_zero() {
+                self.line(f, "friction's part of dF/dt", &observable.friction)?;
+            }
+            if let Some(canonical) = &observable.canonical {
+                self.line(f, "{F, H} and friction", &canonical.rate)?;
+                if let Some(system) = &canonical.adjoint {
+                    for (&symbol, right) in system.unknowns.iter().zip(&system.right) {
+                        writeln!(f, "  (M {}) = {}", self.name(symbol), self.text(right))?;
+                    }
+                }
+            }
         }
         Ok(())
     }

@@ -84,6 +84,10 @@ impl Builder {
         self.record(Op::Cos(angle))
     }
 
+    pub(super) fn sqrt(&mut self, a: ValueId) -> ValueId {
+        self.record(Op::Sqrt(a))
+    }
+
     pub(super) fn is(&self, id: ValueId, value: i64) -> bool {
         *self.op(id) == Op::Number(Rational::from(value))
     }

@@ -15,6 +15,8 @@ pub struct Operations {
     pub multiplications: usize,
     /// Divisions.
     pub divisions: usize,
+    /// Square roots.
+    pub roots: usize,
     /// Changes of sign.
     pub negations: usize,
 }
@@ -30,6 +32,7 @@ impl Program {
                 Op::Sin(angle) | Op::Cos(angle) => {
                     angles.insert(angle);
                 }
+                Op::Sqrt(_) => count.roots += 1,
                 Op::Neg(_) => count.negations += 1,
                 Op::Add(..) | Op::Sub(..) => count.additions += 1,
                 Op::Mul(..) => count.multiplications += 1,
@@ -48,6 +51,7 @@ impl fmt::Display for Operations {
             (self.multiplications, "×"),
             (self.additions, "±"),
             (self.divisions, "÷"),
+            (self.roots, "√"),
             (self.negations, "negations"),
         ];
         let mut first = true;

@@ -30,12 +30,13 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Vec<Entry> 
     if let (Some(sectors), Some(request)) = (&mechanics.sectors, &scene.requests.budget) {
         list.budgets(scene, sectors, request);
     }
+    list.observables(mechanics);
     list.entries
 }
 
 pub(super) struct EntryList<'l, 'm> {
     pub(super) lowering: &'l mut Lowering<'m>,
-    entries: Vec<Entry>,
+    pub(super) entries: Vec<Entry>,
 }
 
 impl EntryList<'_, '_> {

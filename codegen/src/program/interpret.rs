@@ -65,6 +65,7 @@ impl Program {
                 Op::Number(ref number) => number.to_f64(),
                 Op::Sin(a) => at(a).sin_cos().0,
                 Op::Cos(a) => at(a).sin_cos().1,
+                Op::Sqrt(a) => at(a).sqrt(),
                 Op::Neg(a) => -at(a),
                 Op::Add(a, b) => at(a) + at(b),
                 Op::Sub(a, b) => at(a) - at(b),

@@ -11,7 +11,8 @@ use super::{Argument, ValueId};
 use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{
-    CombinationId, Entry as MatrixEntry, Expansion, Frame, Mechanics, Trigonometric,
+    CombinationId, Entry as MatrixEntry, Expansion, Frame, Mechanics, ObservableFrame,
+    Trigonometric,
 };
 use std::collections::BTreeMap;
 
@@ -32,6 +33,8 @@ pub(super) struct Door<'a> {
     pub(super) velocities: Option<Argument>,
     /// Argument that holds the momenta; formed from the velocities if none.
     pub(super) momenta: Option<Argument>,
+    /// What observables refer to beside the frame.
+    pub(super) observed: Option<&'a ObservableFrame>,
     values: BTreeMap<SymbolId, ValueId>,
 }
 
@@ -47,8 +50,14 @@ impl<'a> Door<'a> {
             coordinates,
             velocities,
             momenta,
+            observed: None,
             values: BTreeMap::new(),
         }
+    }
+
+    /// Hands over the value of a symbol.
+    pub(super) fn supply(&mut self, symbol: SymbolId, value: ValueId) {
+        self.values.insert(symbol, value);
     }
 }
 
@@ -100,7 +109,8 @@ impl<'a> Lowering<'a> {
                 match door.momenta {
                     Some(argument) => self.builder.input(argument, index),
                     None => {
-                        let Some(momentum) = &door.frame.momentum else {
+                        let observed = door.observed.map(|observed| &observed.momentum);
+                        let Some(momentum) = door.frame.momentum.as_ref().or(observed) else {
                             unreachable!("{} is formed where momenta are asked for", entry.code)
                         };
                         let value = self.expr(door, &momentum[index]);
@@ -108,7 +118,10 @@ impl<'a> Lowering<'a> {
                     }
                 }
             }
-            Role::Derived => self.derived(door, symbol),
+            Role::Derived => match self.observed(door, symbol) {
+                Some(value) => self.builder.name(value, &entry.code),
+                None => self.derived(door, symbol),
+            },
             Role::Acceleration | Role::Bookkeeping => {
                 unreachable!("{} never leaves the derivation", entry.code)
             }

@@ -14,6 +14,7 @@ mod entries;
 mod interpret;
 mod lower;
 mod named;
+mod observables;
 mod rebuild;
 mod sectors;
 mod solve;
@@ -80,6 +81,8 @@ pub enum Op {
     Sin(ValueId),
     /// Cosine.
     Cos(ValueId),
+    /// Square root.
+    Sqrt(ValueId),
     /// Opposite.
     Neg(ValueId),
     /// Sum.
@@ -97,7 +100,7 @@ impl Op {
     pub fn operands(&self) -> impl Iterator<Item = ValueId> {
         let (first, second) = match *self {
             Self::Input(..) | Self::Constant(_) | Self::Number(_) => (None, None),
-            Self::Sin(a) | Self::Cos(a) | Self::Neg(a) => (Some(a), None),
+            Self::Sin(a) | Self::Cos(a) | Self::Sqrt(a) | Self::Neg(a) => (Some(a), None),
             Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) => {
                 (Some(a), Some(b))
             }
@@ -203,6 +206,23 @@ pub enum Purpose {
     DrivePower,
     /// Power of friction and drag on the whole tree.
     TotalFrictionPower,
+    /// The observable with that number.
+    Observable(usize, ObservableForm),
+}
+
+/// What a function says about an observable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObservableForm {
+    /// F from coordinates and velocities.
+    Value,
+    /// dF/dt from coordinates and velocities.
+    Rate,
+    /// The part of dF/dt that is friction and drag.
+    FrictionRate,
+    /// F from coordinates and momenta.
+    FromMomenta,
+    /// dF/dt from coordinates and momenta.
+    RateFromMomenta,
 }
 
 /// An entry point: the program pruned to its outputs becomes a function.

@@ -27,6 +27,8 @@ impl<'a> Rebuilt<'a> {
             Op::Number(number) => Expr::Number(number.clone()),
             Op::Sin(a) => self.trigonometric(*a, Trigonometric::Sin)?,
             Op::Cos(a) => self.trigonometric(*a, Trigonometric::Cos)?,
+            // Square roots are no rational expressions.
+            Op::Sqrt(_) => return None,
             Op::Neg(a) => minus(self.value(*a)?),
             Op::Add(a, b) => Expr::Sum(vec![self.value(*a)?, self.value(*b)?]),
             Op::Sub(a, b) => Expr::Sum(vec![self.value(*a)?, minus(self.value(*b)?)]),

@@ -92,6 +92,7 @@ impl Program {
             Op::Number(number) => write!(line, "{number}"),
             Op::Sin(a) => write!(line, "sin {}", value(*a)),
             Op::Cos(a) => write!(line, "cos {}", value(*a)),
+            Op::Sqrt(a) => write!(line, "sqrt {}", value(*a)),
             Op::Neg(a) => write!(line, "-{}", value(*a)),
             Op::Add(a, b) => write!(line, "{} + {}", value(*a), value(*b)),
             Op::Sub(a, b) => write!(line, "{} - {}", value(*a), value(*b)),

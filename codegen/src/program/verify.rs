@@ -1,6 +1,7 @@
 //! Checks the shape of a program. Later stages rely on it; a fault is a bug.
 
 use super::{Program, Shape};
+use crate::exact::Rational;
 use std::fmt;
 
 /// A broken invariant of a program.
@@ -42,26 +43,33 @@ impl fmt::Display for Fault {
 
 impl std::error::Error for Fault {}
 
+fn is_unrepresentable(number: &Rational) -> bool {
+    let value = number.to_f64();
+    !value.is_finite() || (value == 0.0 && !number.is_zero())
+}
+
 impl Program {
-    /// The name of a constant that some entry point needs and that no `f64` can
-    /// hold: rounded, it would be infinite, or zero without being zero.
+    /// The name of a constant, or the number, that some entry point needs and
+    /// that no `f64` can hold: rounded, it would be infinite, or zero without being zero.
     pub fn unrepresentable_constant(&self) -> Option<&str> {
         self.entries
             .iter()
             .flat_map(|entry| self.needed(&entry.outputs))
             .find_map(|value| match self.definition(value).op {
                 super::Op::Constant(id) => self.unrepresentable_in(id),
+                super::Op::Number(ref number) => {
+                    is_unrepresentable(number).then_some("a number of an observable")
+                }
                 _ => None,
             })
     }
 
     fn unrepresentable_in(&self, id: super::ConstantId) -> Option<&str> {
         let definition = self.setup.get(id);
-        if let Some(exact) = &definition.exact {
-            let value = exact.to_f64();
-            if !value.is_finite() || (value == 0.0 && !exact.is_zero()) {
-                return Some(&definition.name);
-            }
+        if let Some(exact) = &definition.exact
+            && is_unrepresentable(exact)
+        {
+            return Some(&definition.name);
         }
         // The model stores the named constants behind a product too.
         let operands = definition.op.operands();

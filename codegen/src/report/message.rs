@@ -261,6 +261,34 @@ pub enum Message {
         /// Highest power allowed.
         limit: u32,
     },
+    /// A name in an observable that means nothing.
+    UnknownSymbol {
+        /// As written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<String>,
+        /// One link's angle, as an example.
+        example: String,
+    },
+    /// A name in an observable that means two things.
+    AmbiguousSymbol {
+        /// The name.
+        name: String,
+    },
+    /// A function in an observable that does not exist.
+    UnknownFunction {
+        /// As written.
+        name: String,
+        /// All functions.
+        known: Vec<&'static str>,
+    },
+    /// An observable that would emit a function which exists already.
+    FunctionTaken {
+        /// The observable.
+        name: String,
+        /// The function.
+        function: String,
+    },
     /// A product of masses and lengths that no `f64` can hold.
     ConstantRange {
         /// The constant.
@@ -280,7 +308,7 @@ impl Message {
 
     /// An unknown setting of the scene.
     pub fn unknown_entry(name: String) -> Self {
-        let nearest = nearest(&name, &["gravity", "crate", "drive", "emit"]);
+        let nearest = nearest(&name, &["gravity", "crate", "drive", "emit", "observe"]);
         Self::UnknownEntry { name, nearest }
     }
 }

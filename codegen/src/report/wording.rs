@@ -50,7 +50,8 @@ impl Message {
                 "not a setting of the scene",
                 suggest(
                     nearest,
-                    "settings are `gravity = ...`, `crate = ...`, `drive(...)`, `emit(...)`",
+                    "settings are `gravity = ...`, `crate = ...`, `drive(...)`, `emit(...)`, \
+                     `observe(...)`",
                 ),
             ),
             M::MissingGravity => problem(
@@ -81,8 +82,8 @@ impl Message {
             M::DuplicateName { name } => problem(
                 format!("the name `{name}` is taken"),
                 "second use of the name",
-                "links, copies `name_1`, `name_2`, ..., groups and parameters need names of \
-                   their own",
+                "links, copies `name_1`, `name_2`, ..., groups, parameters and observables need \
+                   names of their own",
             ),
             M::ReservedName { name } => problem(
                 format!("the name `{name}` is reserved"),
@@ -328,6 +329,37 @@ impl Message {
                 "a lateral centre of mass among the copies",
                 "measure the copies' angles from the line through pivot and centre of mass: \
                    `com = 0.05` instead of `com = (0.04, 0.03)`",
+            ),
+            M::UnknownSymbol {
+                name,
+                nearest,
+                example,
+            } => problem(
+                format!("unknown symbol `{name}`"),
+                "means nothing in this scene",
+                match nearest {
+                    Some(nearest) => format!("did you mean `{nearest}`?"),
+                    None => format!(
+                        "observables are made of angles as `theta_{example}`, velocities as \
+                         `omega_{example}`, momenta as `p_{example}`, `kinetic_energy`, \
+                         `potential_energy`, `gravity`, parameters and the model's constants"
+                    ),
+                },
+            ),
+            M::AmbiguousSymbol { name } => problem(
+                format!("`{name}` means two things"),
+                "a parameter, and a symbol of the mechanics",
+                "give the parameter another name",
+            ),
+            M::UnknownFunction { name, known } => problem(
+                format!("unknown function `{name}`"),
+                "not a function of observables",
+                format!("functions are {}", listed(known)),
+            ),
+            M::FunctionTaken { name, function } => problem(
+                format!("there is a function `{function}` already"),
+                format!("`{name}` would emit it again"),
+                format!("choose another name, as in `my_{name}`"),
             ),
             M::ConstantRange { name } => problem(
                 format!("the constant `{name}` of the model is too large or too small"),

@@ -34,12 +34,12 @@ pub enum Signal {
     /// A power, not negative.
     Power(Box<Signal>, u32),
     /// A function of an angle in rad.
-    Function(Function, Box<Signal>),
+    Function(TimeFunction, Box<Signal>),
 }
 
 /// The functions that a drive may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Function {
+pub enum TimeFunction {
     /// Sine.
     Sin,
     /// Cosine.
@@ -178,8 +178,8 @@ fn part(
             let argument = inner(argument);
             let name = function.to_string();
             let function = match name.as_str() {
-                "sin" => Function::Sin,
-                "cos" => Function::Cos,
+                "sin" => TimeFunction::Sin,
+                "cos" => TimeFunction::Cos,
                 _ => {
                     let nearest = nearest(&name, FUNCTIONS);
                     let span = function.span();
@@ -284,8 +284,8 @@ impl Display for Shown<'_> {
             }
             Signal::Function(function, argument) => {
                 let name = match function {
-                    Function::Sin => "sin",
-                    Function::Cos => "cos",
+                    TimeFunction::Sin => "sin",
+                    TimeFunction::Cos => "cos",
                 };
                 write!(f, "{name}({})", argument.display(self.parameters))
             }

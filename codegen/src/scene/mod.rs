@@ -16,17 +16,24 @@ mod bodies;
 mod drive;
 mod expand;
 mod names;
+mod observable_text;
+mod observables;
+mod probe;
 mod properties;
 mod quantity;
 mod requests;
 mod resolve;
 mod rule;
 mod singular;
+mod symbols;
 mod template;
 mod text;
 mod values;
 
-pub use drive::{Drive, Function, Signal};
+pub use drive::{Drive, Signal, TimeFunction};
+pub use observables::{
+    Function, OBSERVABLE_SUFFIXES, Observable, Observed, Place, Variable, VariableKind,
+};
 pub use quantity::Quantity;
 pub use resolve::resolve;
 
@@ -69,6 +76,9 @@ pub struct Scene {
     pub requirements: Vec<Requirement>,
     /// What is asked for beside the accelerations.
     pub requests: Requests,
+    /// Quantities of the user's own. One that is written in symmetric
+    /// coordinates comes with `requests.symmetric`.
+    pub observables: Vec<Observable>,
 }
 
 /// Path of the runtime crate in the user's crate: `::branched_pendulum`, or

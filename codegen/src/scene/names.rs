@@ -18,8 +18,8 @@ const KEYWORDS: &[&str] = &[
 /// Names that the emitted code gives to things of its own.
 #[rustfmt::skip]
 const EMITTED: &[&str] = &[
-    "accelerations", "angles", "drive", "emit", "model", "momenta", "out", "scalar", "state", "time",
-    "velocities", TIME,
+    "accelerations", "angles", "drive", "emit", "model", "momenta", "observe", "out", "scalar",
+    "state", "time", "velocities", TIME,
 ];
 
 /// Constants that look like parameters, with digits to write instead.
@@ -35,21 +35,33 @@ pub(super) fn check_link(name: &Ident, report: &mut Report) {
     }
 }
 
+/// Checks the name of an observable; a fault goes to `report`.
+pub(super) fn check_observable(name: &Ident, report: &mut Report) -> Option<()> {
+    match fault(&name.to_string()) {
+        Some(message) => {
+            report.error(name.span(), message);
+            None
+        }
+        None => Some(()),
+    }
+}
+
+/// The message about a constant without exact value, if `name` is one.
+pub(super) fn irrational(name: &str) -> Option<Message> {
+    let &(name, digits) = CONSTANTS.iter().find(|(constant, _)| *constant == name)?;
+    Some(Message::NotExact {
+        name: name.to_owned(),
+        digits,
+    })
+}
+
 /// Checks the name of a parameter; a fault goes to `report`.
 pub(super) fn check_parameter(name: &str, span: Span, report: &mut Report) -> Option<()> {
     if name == TIME {
         report.error(span, Message::TimeOutsideDrive);
         return None;
     }
-    let constant = CONSTANTS.iter().find(|(constant, _)| *constant == name);
-    let message = match constant {
-        Some(&(name, digits)) => Some(Message::NotExact {
-            name: name.to_owned(),
-            digits,
-        }),
-        None => fault(name),
-    };
-    match message {
+    match irrational(name).or_else(|| fault(name)) {
         Some(message) => {
             report.error(span, message);
             None

@@ -2,6 +2,7 @@
 
 use super::drive::resolve_drive;
 use super::expand::{check_names, check_size, expand};
+use super::observables::resolve_observables;
 use super::requests::{check_symmetry, resolve_requests};
 use super::singular::check_regular;
 use super::template::Builder;
@@ -36,20 +37,15 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         }
     }
     // Copies may have stood where the tree was unreadable.
-    if !description.damaged && !description.roots.iter().any(Node::is_damaged) {
+    let readable = !description.damaged && !description.roots.iter().any(Node::is_damaged);
+    if readable {
         check_symmetry(&resolved, &expansion, report);
     }
-    // A link whose own values are wrong would look singular.
-    if report.is_empty() {
-        check_regular(&templates, report);
-    }
-    if !report.is_empty() {
-        return None;
-    }
-    Some(Scene {
+    let mut scene = Scene {
         name: description.item.ident.to_string(),
         crate_path: crate_path(description),
-        gravity: gravity?,
+        // Where there is none, that is reported.
+        gravity: gravity.unwrap_or_else(Quantity::zero),
         links: expansion.links,
         orbits: expansion.orbits,
         groups: expansion.groups,
@@ -57,7 +53,16 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         parameters: values.parameters,
         requirements: values.requirements,
         requests: resolved.requests,
-    })
+        observables: Vec::new(),
+    };
+    if readable {
+        resolve_observables(&description.observables, &mut scene, &owners, report);
+    }
+    // A link whose own values are wrong would look singular.
+    if report.is_empty() {
+        check_regular(&templates, report);
+    }
+    report.is_empty().then_some(scene)
 }
 
 /// The gravitational acceleration.

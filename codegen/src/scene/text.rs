@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, CratePath, Drive, Group, Link, Offset, Orbit, Parameter, Requests, Requirement,
+    BudgetRequest, CratePath, Drive, Group, Link, Observable, Offset, Orbit, Parameter, Requests, Requirement,
     Scene, Sign, TransferRequest,
 };
 
@@ -20,6 +20,7 @@ impl Display for Scene {
             parameters,
             requirements,
             requests,
+            observables,
         } = self;
         writeln!(f, "scene {name}")?;
         writeln!(f, "crate {crate_path}")?;
@@ -57,7 +58,11 @@ impl Display for Scene {
         for (name, signal, unit) in drive.iter().flat_map(Drive::parts) {
             writeln!(f, "drive {name} {} {unit}", signal.display(parameters))?;
         }
-        writeln!(f, "requests {requests}")
+        writeln!(f, "requests {requests}")?;
+        for Observable { name, value } in observables {
+            writeln!(f, "observable {name} = {}", value.display(parameters))?;
+        }
+        Ok(())
     }
 }
 

@@ -203,7 +203,7 @@ fn violation(number: &Rational, what: &str, sign: Sign) -> Option<Message> {
 
 /// What is wrong with a value whose numbers are too long to go on with or do not
 /// fit an `f64`: silently they would become zero or infinite.
-fn unrepresentable(value: &Quantity) -> Option<Message> {
+pub(super) fn unrepresentable(value: &Quantity) -> Option<Message> {
     let mut message = None;
     value.for_each_leaf(&mut |leaf| {
         let Quantity::Exact(number) = leaf else {

@@ -12,6 +12,7 @@ pub mod closed_form;
 pub mod constrained;
 pub mod drive;
 pub mod generator;
+pub mod observable;
 
 /// A vector in the plane of motion: x to the side, y upwards, m.
 pub type Vector = [f64; 2];

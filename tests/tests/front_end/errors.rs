@@ -319,6 +319,39 @@ const CASES: &[(&str, &str)] = &[
     a: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1),
     emit(transfer(exact)))] struct Pendulum;",
     ),
+    // Observables.
+    (
+        "observables",
+        "#[branched_pendulum(gravity = g, a: rod(mass = theta_b, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+    observe(
+        first = theta_b_3 + omega_a * p_c,
+        second = whatever * pi,
+        third = tan(theta_a) + sine(theta_a) + sin(cosine),
+        fourth = theta_d / (theta_a - theta_a) + (omega_a - omega_a)^-1,
+        fifth = 1 / 0 + sqrt(-2) + 1e400 * theta_a,
+        sixth = theta_a * 1e300 * omega_a * 1e300,
+    ))] struct Pendulum;",
+    ),
+    (
+        "observable_names",
+        "#[branched_pendulum(gravity = g, a: rod(mass = theta_b_1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+    observe(
+        a = theta_a,
+        theta_a = 2,
+        g = theta_a,
+        twist = theta_a,
+        twist = omega_a,
+        twist_rate = omega_a,
+        hamiltonian = p_a,
+        transfer_exact_d = p_a,
+        inertia_b = p_a,
+        loop = p_a,
+        Twist = theta_b_1,
+        no_equals theta_a,
+        no_value =,
+        no_argument = sin(),
+    ), observe())] struct Pendulum;",
+    ),
     (
         "lateral_transfer",
         "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [
@@ -410,6 +443,20 @@ fn deepest_nesting_is_read() {
     assert_eq!(scene.map(|scene| scene.links.len()), Some(64));
 }
 
+/// What only the derivation knows to be zero is refused at its place too.
+#[test]
+fn divisors_that_vanish_in_the_model() {
+    let source = "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1),
+        observe(fine = 1 / inertia_a, bad = theta_a + omega_a / lateral_gravity_a))]
+        struct Pendulum;";
+    let (attribute, item) = crate::support::split(source);
+    let report = match branched_pendulum_codegen::stages(attribute, item) {
+        Err((report, _)) => report,
+        Ok(_) => panic!("accepted a division by zero"),
+    };
+    insta::assert_snapshot!("vanishing_divisor", report.render(source));
+}
+
 /// Values that a product of literals takes out of range are refused, and do
 /// not end the compiler.
 #[test]
@@ -418,6 +465,11 @@ fn constants_out_of_range() {
         (
             "constant_overflow",
             "gravity = 1e200, a: rod(mass = 1e200, length = 1)",
+        ),
+        (
+            "observable_underflow",
+            "gravity = 1, a: rod(mass = 1, length = 1),
+             observe(tiny = 1e-200 * theta_a * 1e-200 * omega_a)",
         ),
         (
             "constant_underflow",

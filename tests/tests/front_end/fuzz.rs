@@ -42,6 +42,13 @@ const SEEDS: &[&str] = &[
         drive(torque = a * cos(w * t + p) + 0.1, x = b * t^2 / 2, y = -sin(2 * w * t) / w),
     )]
     struct Driven;",
+    "#[branched_pendulum(
+        gravity = g,
+        a: rod(mass = m, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+        emit(momenta),
+        observe(twist = sin(theta_b_1 - theta_b_2)^2 / (1 + m^2), power = p_d * sqrt(omega_a) / gravity),
+    )]
+    struct Watched;",
 ];
 
 /// Tokens to put in, beside those of the seeds.
@@ -49,7 +56,8 @@ const TOKENS: &str = "0 1 2 -1 0.5 1e300 1e-300 1e999 1e99999999999 4294967296 0
      = == , ; : :: * ** / ^ + - ( ) [ ] { } (1, 2) (,) () [] {} (((1))) \
      mass com inertia joint at friction length radius width margin bob_mass count branching shape \
      mass_ratio length_ratio gravity drive torque x y t sin cos emit crate energies momenta transfer angle amplitude exact \
-     point rod disc generations parent child m g l pi self type Self _ é Ω true struct enum fn pub where <T> #";
+     observe budget canonical parseval matrix \
+     sin cos sqrt theta_a theta_d omega_b_1 p_m twist kinetic_energy point rod disc generations parent child m g l pi self type Self _ é Ω true struct enum fn pub where <T> #";
 
 /// Applies one random change somewhere in the tokens.
 fn mutated(tokens: &[TokenTree], supply: &[TokenTree], random: &mut Random) -> Vec<TokenTree> {

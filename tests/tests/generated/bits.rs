@@ -7,6 +7,7 @@ use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
     chain::Chain,
     driven::{Driven, DrivenParameters},
+    observed::{Observed, ObservedParameters},
     offset::Offset,
     paper::Paper,
     paper_expanded,
@@ -135,6 +136,23 @@ fn triplet() {
 fn offset() {
     agree!("offset", Offset::new(), [], 3,
         two: [accelerations, kinetic_energy], one: [potential_energy]);
+}
+
+#[test]
+fn observed() {
+    let model = Observed::new(ObservedParameters { m: 0.10531 }).expect("possible parameters");
+    agree!("observed", model, [0.10531], 3,
+        two: [accelerations, momenta, velocities, symmetric_accelerations, symmetric_momenta,
+              symmetric_velocities,
+              twist, twist_rate, twist_friction_rate, twist_from_momenta, twist_rate_from_momenta,
+              height, height_rate, height_from_momenta, height_rate_from_momenta,
+              energy, energy_rate, energy_friction_rate, energy_from_momenta,
+              energy_rate_from_momenta,
+              antiphase, antiphase_rate, antiphase_friction_rate, antiphase_from_momenta,
+              antiphase_rate_from_momenta,
+              mixed, mixed_rate, mixed_friction_rate, mixed_from_momenta,
+              mixed_rate_from_momenta],
+        one: [to_symmetric, from_symmetric]);
 }
 
 #[test]

@@ -37,6 +37,21 @@ mod hostile {
         emit(energies, transfer(exact)),
     )]
     pub(super) struct Shadowed;
+
+    #[::branched_pendulum::branched_pendulum(
+        gravity = sqrt,
+        a(mass = 1, com = 0.1, joint = 0.2, inertia = 0.01) [
+            b(mass = 0.5, com = 0.1, inertia = 1e-3, friction = 1e-4) * 2
+        ],
+        emit(momenta),
+        observe(
+            sin = sin(theta_a + 2 * theta_b_1) * sqrt,
+            rates = omega_d * cos(theta_d),
+            coordinates = sqrt(1 + sqrt * p_b_2^2),
+            f = 0,
+        ),
+    )]
+    pub(super) struct Observing;
 }
 
 #[test]
@@ -60,6 +75,19 @@ fn parameters_named_like_locals() {
     })
     .expect("possible parameters");
     assert!(model.kinetic_energy(&[0.1; 4], &[1.0; 4]) > 0.0);
+}
+
+#[test]
+fn observables_named_like_functions_and_arguments() {
+    let model = hostile::Observing::new(hostile::ObservingParameters { sqrt: 4.0 })
+        .expect("possible parameters");
+    let (theta, omega) = ([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]);
+    assert_eq!(model.sin(&theta, &omega), f64::sin(0.1 + 2.0 * 0.2) * 4.0);
+    assert_eq!(model.rates(&[0.1, 0.2, 0.0], &omega), 0.6);
+    let p = model.momenta(&theta, &omega)[2];
+    let expected = f64::sqrt(1.0 + 4.0 * p * p);
+    assert!((model.coordinates(&theta, &omega) - expected).abs() < 1e-15);
+    assert_eq!(model.f_rate(&theta, &omega), 0.0);
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod exactness;
 mod fixtures;
 mod formulas;
 mod letters;
+mod observables;
 mod orders;
 mod paper;
 mod parameters;

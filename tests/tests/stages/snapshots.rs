@@ -88,6 +88,22 @@ fn offset() {
 }
 
 #[test]
+fn observed() {
+    stages_of("observed");
+    operations("observed");
+    functions(
+        "observed",
+        &[
+            "twist_rate",
+            "antiphase",
+            "antiphase_rate",
+            "mixed_rate",
+            "twist_rate_from_momenta",
+        ],
+    );
+}
+
+#[test]
 fn sweep() {
     stages_of("sweep");
     operations("sweep");

@@ -1,0 +1,62 @@
+//! How momenta change: the forces of the Lagrangian, the slopes of the
+//! Hamiltonian, and what the mass matrix does meanwhile. None of them inverts
+//! the mass matrix: the velocities stand for M⁻¹ p.
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::frame::Frame;
+
+impl Frame {
+    /// ∂L/∂q_i at fixed velocities.
+    pub(super) fn forces(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        self.kinetic_gradient(derivation)
+            .iter()
+            .zip(&self.potential_gradient(derivation))
+            .map(|(kinetic, potential)| kinetic - potential)
+            .collect()
+    }
+
+    /// ∂H/∂q_i at fixed momenta: from ∂M⁻¹ = −M⁻¹ (∂M) M⁻¹,
+    /// −½ Σ v_j (∂_i M_jk) v_k + ∂U/∂q_i.
+    pub(super) fn hamiltonian_slopes(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let mut slopes: Vec<Vec<Formula>> = self
+            .potential_gradient(derivation)
+            .into_iter()
+            .map(|slope| vec![slope])
+            .collect();
+        let half = Formula::integer(2).pow(-1);
+        for (j, k, entry) in self.mass.iter() {
+            let pair = &Formula::symbol(self.velocities[j]) * &Formula::symbol(self.velocities[k]);
+            let pair = if j == k { &half * &pair } else { pair };
+            for coordinate in derivation.coordinates_of(entry) {
+                let slope = derivation.partial(entry, coordinate);
+                slopes[self.index(coordinate)].push(-(&slope * &pair));
+            }
+        }
+        summed(slopes)
+    }
+
+    /// (Ṁ v)_i = Σ (∂_k M_ij) v_k v_j.
+    pub(super) fn mass_changes(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let mut changes = vec![Vec::new(); self.coordinates.len()];
+        for (i, j, entry) in self.mass.iter() {
+            let velocity = |index: usize| Formula::symbol(self.velocities[index]);
+            let change: Formula = derivation
+                .coordinates_of(entry)
+                .into_iter()
+                .map(|c| &derivation.partial(entry, c) * &velocity(self.index(c)))
+                .sum();
+            changes[i].push(&change * &velocity(j));
+            if i != j {
+                changes[j].push(&change * &velocity(i));
+            }
+        }
+        summed(changes)
+    }
+}
+
+fn summed(rows: Vec<Vec<Formula>>) -> Vec<Formula> {
+    rows.into_iter()
+        .map(|terms| terms.into_iter().sum::<Formula>().expand())
+        .collect()
+}

@@ -1,0 +1,261 @@
+//! Observables as formulas: a user's expression in the symbols of one frame.
+
+use super::algebra::{AlgebraError, Formula};
+use super::coordinates::Coordinate;
+use super::derivation::Derivation;
+use super::expression::{Role, SymbolId};
+use super::frame::Frame;
+use super::print;
+use crate::scene::{Function, LinkId, Observed, Place, Variable, VariableKind};
+
+/// What the symbol of a function of an expression means.
+pub(super) struct Composite {
+    pub(super) function: Function,
+    pub(super) argument: Formula,
+    /// The cosine that belongs to a sine, and the other way round; the symbol
+    /// itself for a root.
+    partner: SymbolId,
+}
+
+/// Where an observable is written: the variables are those of one frame.
+pub(super) struct Setting<'a> {
+    pub(super) frame: &'a Frame,
+    /// The symmetric coordinates, if the frame's variables are those.
+    pub(super) coordinates: Option<&'a [Coordinate]>,
+    /// Name of the observable.
+    pub(super) name: &'a str,
+}
+
+impl Setting<'_> {
+    /// The formula, unless it is zero.
+    fn divisor(&self, formula: Formula) -> Result<Formula, AlgebraError> {
+        if formula.expand().is_zero() {
+            let observable = self.name.to_owned();
+            return Err(AlgebraError::DivisionByZero { observable });
+        }
+        Ok(formula)
+    }
+
+    /// A variable in those of the frame. With θ = J q also ω = J q̇, and
+    /// momenta transform as p_θ = J (JᵀJ)⁻¹ p, where JᵀJ is diagonal.
+    fn variable(&self, variable: &Variable) -> Formula {
+        let symbols = match variable.kind {
+            VariableKind::Angle => &self.frame.coordinates,
+            VariableKind::Velocity => &self.frame.velocities,
+            VariableKind::Momentum => &self.frame.momenta,
+        };
+        let (link, coordinates) = match (variable.place, self.coordinates) {
+            (Place::Absolute(link), Some(coordinates)) => (link, coordinates),
+            (Place::Absolute(index) | Place::Symmetric(index), _) => {
+                return Formula::symbol(symbols[index]);
+            }
+        };
+        coordinates
+            .iter()
+            .zip(symbols)
+            .filter_map(|(coordinate, &symbol)| {
+                let &(_, weight) = coordinate
+                    .weights
+                    .iter()
+                    .find(|(l, _)| *l == LinkId(link))?;
+                let norm = match variable.kind {
+                    VariableKind::Momentum => coordinate.norm(),
+                    VariableKind::Angle | VariableKind::Velocity => 1,
+                };
+                let weight = &Formula::integer(weight) / &Formula::integer(norm);
+                Some(&weight * &Formula::symbol(symbol))
+            })
+            .sum()
+    }
+}
+
+impl Derivation<'_> {
+    /// The formula of an observable, as it was written: multiplied out, it
+    /// would be longer and could lose digits.
+    ///
+    /// # Errors
+    /// [`AlgebraError::DivisionByZero`].
+    pub(super) fn observed(
+        &mut self,
+        setting: &Setting<'_>,
+        observed: &Observed,
+    ) -> Result<Formula, AlgebraError> {
+        Ok(match observed {
+            Observed::Known(quantity) => self.quantity(quantity),
+            Observed::Variable(variable) => setting.variable(variable),
+            Observed::Constant(name) => self.constant_called(name),
+            Observed::KineticEnergy => {
+                let terms = setting.frame.kinetic_terms().map(|(_, _, term)| term);
+                terms.sum::<Formula>().expand()
+            }
+            Observed::PotentialEnergy => setting.frame.potential.clone(),
+            Observed::Sum(members) => {
+                let members = self.all_observed(setting, members)?;
+                members.into_iter().sum()
+            }
+            Observed::Product(factors) => {
+                let factors = self.all_observed(setting, factors)?;
+                factors
+                    .into_iter()
+                    .fold(Formula::integer(1), |product, factor| product * factor)
+            }
+            Observed::Quotient(above, below) => {
+                let above = self.observed(setting, above)?;
+                above / setting.divisor(self.observed(setting, below)?)?
+            }
+            Observed::Power(base, exponent) if *exponent < 0 => {
+                let base = self.observed(setting, base)?;
+                setting.divisor(base)?.pow(*exponent)
+            }
+            Observed::Power(base, exponent) => self.observed(setting, base)?.pow(*exponent),
+            Observed::Negative(value) => -self.observed(setting, value)?,
+            Observed::Call(function, argument) => {
+                let argument = self.observed(setting, argument)?;
+                self.call(setting, *function, argument)
+            }
+        })
+    }
+
+    fn all_observed(
+        &mut self,
+        setting: &Setting<'_>,
+        parts: &[Observed],
+    ) -> Result<Vec<Formula>, AlgebraError> {
+        parts
+            .iter()
+            .map(|part| self.observed(setting, part))
+            .collect()
+    }
+
+    /// The model's constant of that name; zero if it has none.
+    fn constant_called(&self, name: &str) -> Formula {
+        let found = self
+            .symbols
+            .iter()
+            .find(|(_, symbol)| symbol.role == Role::Constant && symbol.code == name);
+        found.map_or_else(Formula::zero, |(id, _)| Formula::symbol(id))
+    }
+
+    /// A function of a formula. Sines and cosines that the mechanics has
+    /// anyway are those.
+    fn call(&mut self, setting: &Setting<'_>, function: Function, argument: Formula) -> Formula {
+        if argument.is_zero() {
+            return match function {
+                Function::Sin | Function::Sqrt => argument,
+                Function::Cos => Formula::integer(1),
+            };
+        }
+        if let Some(known) = self.known_call(setting, function, &argument) {
+            return known;
+        }
+        let known = self
+            .composites
+            .iter()
+            .find(|(_, known)| known.function == function && known.argument == argument);
+        if let Some((&symbol, _)) = known {
+            return Formula::symbol(symbol);
+        }
+        match function {
+            Function::Sqrt => {
+                let root = self.composite_symbol(setting, function, &argument);
+                self.record_composite(root, function, argument, root);
+                Formula::symbol(root)
+            }
+            Function::Sin | Function::Cos => {
+                let sin = self.composite_symbol(setting, Function::Sin, &argument);
+                let cos = self.composite_symbol(setting, Function::Cos, &argument);
+                self.record_composite(sin, Function::Sin, argument.clone(), cos);
+                self.record_composite(cos, Function::Cos, argument, sin);
+                Formula::symbol(if function == Function::Sin { sin } else { cos })
+            }
+        }
+    }
+
+    /// Sine or cosine of a coordinate, or of a difference of two that the mass
+    /// matrix holds.
+    fn known_call(
+        &self,
+        setting: &Setting<'_>,
+        function: Function,
+        argument: &Formula,
+    ) -> Option<Formula> {
+        let choose = |cos: Formula, sin: Formula| match function {
+            Function::Sin => Some(sin),
+            Function::Cos => Some(cos),
+            Function::Sqrt => None,
+        };
+        for &coordinate in &setting.frame.coordinates {
+            if *argument == Formula::symbol(coordinate) {
+                return choose(
+                    self.cosine(coordinate),
+                    Formula::symbol(self.sin(coordinate)),
+                );
+            }
+        }
+        for (&(a, b), &(cos, sin)) in &self.of_two {
+            let difference = &Formula::symbol(a) - &Formula::symbol(b);
+            if *argument == difference {
+                return choose(Formula::symbol(cos), Formula::symbol(sin));
+            }
+            if *argument == -difference {
+                return choose(Formula::symbol(cos), -Formula::symbol(sin));
+            }
+        }
+        None
+    }
+
+    fn composite_symbol(
+        &mut self,
+        setting: &Setting<'_>,
+        function: Function,
+        argument: &Formula,
+    ) -> SymbolId {
+        let argument = argument.to_expr(&self.symbols);
+        let inside = print::text(&argument, &self.symbols);
+        let inside_latex = print::latex(&argument, &self.symbols);
+        let (mut text, latex) = match function {
+            Function::Sqrt => (format!("√({inside})"), format!("\\sqrt{{{inside_latex}}}")),
+            Function::Sin | Function::Cos => (
+                format!("{}({inside})", function.name()),
+                format!("\\{}\\left({inside_latex}\\right)", function.name()),
+            ),
+        };
+        // Parameters may be spelled like other symbols.
+        while self.symbols.find(&text).is_some() {
+            text.push('′');
+        }
+        let code = format!("{}_{}", function.name(), setting.name);
+        self.symbols.intern(Role::Derived, &code, &text, &latex)
+    }
+
+    fn record_composite(
+        &mut self,
+        symbol: SymbolId,
+        function: Function,
+        argument: Formula,
+        partner: SymbolId,
+    ) {
+        let composite = Composite {
+            function,
+            argument,
+            partner,
+        };
+        self.composites.insert(symbol, composite);
+    }
+
+    /// ∂/∂x of a function of an expression, by the chain rule.
+    pub(super) fn composite_slope(
+        &self,
+        symbol: SymbolId,
+        composite: &Composite,
+        variable: SymbolId,
+    ) -> Formula {
+        let inner = self.partial(&composite.argument, variable);
+        let outer = match composite.function {
+            Function::Sin => Formula::symbol(composite.partner),
+            Function::Cos => -Formula::symbol(composite.partner),
+            Function::Sqrt => (&Formula::integer(2) * &Formula::symbol(symbol)).pow(-1),
+        };
+        &outer * &inner
+    }
+}

@@ -1,0 +1,372 @@
+//! Rates of change of observables, by two routes (docs/physics.md §7).
+//!
+//! From coordinates and velocities, by the chain rule along the motion:
+//!
+//! ```text
+//! dF/dt = Σ ∂F/∂q_i v_i + Σ ∂F/∂p_i (∂L/∂q_i + Q_i) + Σ ∂F/∂v_i a_i
+//! ```
+//!
+//! with the accelerations a that the equations of motion are solved for, and
+//! friction and drag Q. From coordinates and momenta, by the Poisson bracket of
+//! F(q, p, v(q, p)) with H. Because M v = p, a velocity in F counts as
+//! ∂v/∂p = M⁻¹ and ∂v/∂q_i = −M⁻¹ (∂_i M) v, so that with M y = ∂F/∂v
+//!
+//! ```text
+//! {F, H} = Σ ∂F/∂q_i v_i − Σ (∂F/∂p_i + y_i) ∂H/∂q_i − Σ y_i (Ṁ v)_i
+//! ∂H/∂q_i = −½ vᵀ (∂_i M) v + ∂U/∂q_i
+//! ```
+//!
+//! and friction adds Σ (∂F/∂p_i + y_i) Q_i: one solve with the velocities'
+//! matrix, and no acceleration. M is never inverted in writing. A drive's forces
+//! count with ∂L/∂q and, the other way round, with ∂H/∂q.
+
+use super::algebra::{AlgebraError, Formula};
+use super::coordinates::Coordinate;
+use super::derivation::Derivation;
+use super::expression::{Role, SymbolId};
+use super::frame::Frame;
+use super::observable::Setting;
+use super::observables::{Canonical, FunctionOf, Observable, ObservableFrame, Observables, System};
+use super::print::latex_name;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The gradients of an observable, in the order of the coordinates.
+struct Gradients {
+    coordinates: Vec<Formula>,
+    velocities: Vec<Formula>,
+    momenta: Vec<Formula>,
+}
+
+/// Symbols that the rates of one frame are written in.
+struct RateSymbols {
+    accelerations: Vec<SymbolId>,
+    friction_accelerations: Vec<SymbolId>,
+    /// ∂L/∂q_i at fixed velocities.
+    forces: Vec<SymbolId>,
+    /// Q_i.
+    torques: Vec<SymbolId>,
+    /// ∂H/∂q_i at fixed momenta.
+    slopes: Vec<SymbolId>,
+    /// (Ṁ v)_i.
+    changes: Vec<SymbolId>,
+    /// Whether there is friction on coordinate i.
+    has_torque: Vec<bool>,
+}
+
+impl Derivation<'_> {
+    /// All observables of the scene.
+    ///
+    /// # Errors
+    /// [`AlgebraError::DivisionByZero`].
+    pub(super) fn observables(
+        &mut self,
+        absolute: &Frame,
+        symmetric: Option<(&Frame, &[Coordinate])>,
+    ) -> Result<Observables, AlgebraError> {
+        let scene = self.scene;
+        let mut observables = Observables::default();
+        for wants_symmetric in [false, true] {
+            let (frame, coordinates) = match (wants_symmetric, symmetric) {
+                (false, _) => (absolute, None),
+                (true, Some((frame, coordinates))) => (frame, Some(coordinates)),
+                (true, None) => continue,
+            };
+            let chosen: Vec<_> = scene
+                .observables
+                .iter()
+                .filter(|observable| observable.value.is_symmetric() == wants_symmetric)
+                .collect();
+            if chosen.is_empty() {
+                continue;
+            }
+            let symbols = self.rate_symbols(frame);
+            let mut list = Vec::new();
+            for observable in chosen {
+                let setting = Setting {
+                    frame,
+                    coordinates,
+                    name: &observable.name,
+                };
+                let value = self.observed(&setting, &observable.value)?;
+                list.push(self.observable(&setting, &symbols, &value));
+            }
+            let used = self.observable_frame(frame, &symbols, &list);
+            match wants_symmetric {
+                false => observables.absolute = used,
+                true => observables.symmetric = used,
+            }
+            observables.list.extend(list);
+        }
+        let place = |name: &String| scene.observables.iter().position(|o| o.name == *name);
+        observables
+            .list
+            .sort_by_key(|observable| place(&observable.name));
+        observables.functions = self
+            .composites
+            .iter()
+            .map(|(&symbol, composite)| {
+                let argument = self.expr(&composite.argument);
+                let function = composite.function;
+                (symbol, FunctionOf { function, argument })
+            })
+            .collect();
+        Ok(observables)
+    }
+
+    fn observable(
+        &mut self,
+        setting: &Setting<'_>,
+        symbols: &RateSymbols,
+        value: &Formula,
+    ) -> Observable {
+        let frame = setting.frame;
+        let along = |derivation: &Self, symbols: &[SymbolId]| -> Vec<Formula> {
+            symbols
+                .iter()
+                .map(|&symbol| derivation.partial(value, symbol))
+                .collect()
+        };
+        let gradients = Gradients {
+            coordinates: along(self, &frame.coordinates),
+            velocities: along(self, &frame.velocities),
+            momenta: along(self, &frame.momenta),
+        };
+        let drift = dot(&gradients.coordinates, &frame.velocities);
+        let torque = symbols.torque(&gradients.momenta);
+        let force = dot(&gradients.momenta, &symbols.forces);
+        let acceleration = dot(&gradients.velocities, &symbols.accelerations);
+        let rate = [drift, force, torque.clone(), acceleration];
+        let friction = match symbols.has_torque.contains(&true) {
+            true => &torque + &dot(&gradients.velocities, &symbols.friction_accelerations),
+            false => torque,
+        };
+        Observable {
+            name: setting.name.to_owned(),
+            symmetric: setting.coordinates.is_some(),
+            value: self.expr(value),
+            rate: self.expr(&rate.into_iter().sum()),
+            friction: self.expr(&friction),
+            canonical: self
+                .scene
+                .requests
+                .momenta
+                .then(|| self.canonical(setting, symbols, &gradients)),
+        }
+    }
+
+    /// {F, H} + Σ (∂F/∂p_i + y_i) Q_i.
+    fn canonical(
+        &mut self,
+        setting: &Setting<'_>,
+        symbols: &RateSymbols,
+        gradients: &Gradients,
+    ) -> Canonical {
+        let frame = setting.frame;
+        let moving = gradients.velocities.iter().any(|slope| !slope.is_zero());
+        let adjoint: Vec<SymbolId> = match moving {
+            true => self.indexed_symbols(
+                frame,
+                Role::Derived,
+                &format!("adjoint_{}", setting.name),
+                |name| format!("y_{},{name}", setting.name),
+                |name| format!("y_{{\\mathrm{{{},{name}}}}}", latex_name(setting.name)),
+            ),
+            false => Vec::new(),
+        };
+        let unknowns: Vec<Formula> = adjoint.iter().map(|&y| Formula::symbol(y)).collect();
+        let mut momenta = gradients.momenta.clone();
+        for (slope, y) in momenta.iter_mut().zip(&unknowns) {
+            *slope = &*slope + y;
+        }
+        let rate = [
+            dot(&gradients.coordinates, &frame.velocities),
+            dot(&opposite(&momenta), &symbols.slopes),
+            dot(&opposite(&unknowns), &symbols.changes),
+            symbols.torque(&momenta),
+        ];
+        Canonical {
+            rate: self.expr(&rate.into_iter().sum()),
+            adjoint: moving.then(|| System {
+                unknowns: adjoint,
+                right: self.exprs(&gradients.velocities),
+            }),
+        }
+    }
+
+    fn rate_symbols(&mut self, frame: &Frame) -> RateSymbols {
+        let indexed = |derivation: &mut Self, role, code: &str, text: &str, latex: &str| {
+            let (before, after) = text.split_once('#').unwrap_or((text, ""));
+            let (latex_before, latex_after) = latex.split_once('#').unwrap_or((latex, ""));
+            derivation.indexed_symbols(
+                frame,
+                role,
+                code,
+                |name| format!("{before}{name}{after}"),
+                |name| format!("{latex_before}\\mathrm{{{name}}}{latex_after}"),
+            )
+        };
+        use Role::{Acceleration, Derived};
+        RateSymbols {
+            accelerations: indexed(self, Acceleration, "alpha", "α_#", "\\alpha_{#}"),
+            friction_accelerations: indexed(
+                self,
+                Derived,
+                "friction_alpha",
+                "α_#^Q",
+                "\\alpha_{#}^{Q}",
+            ),
+            forces: indexed(
+                self,
+                Derived,
+                "force",
+                "(∂L/∂θ_#)",
+                "\\frac{\\partial L}{\\partial\\theta_{#}}",
+            ),
+            torques: indexed(self, Derived, "friction_torque", "Q_#", "Q_{#}"),
+            slopes: indexed(
+                self,
+                Derived,
+                "hamiltonian_slope",
+                "(∂H/∂θ_#)",
+                "\\frac{\\partial H}{\\partial\\theta_{#}}",
+            ),
+            changes: indexed(
+                self,
+                Derived,
+                "mass_change",
+                "(Ṁ ω)_#",
+                "(\\dot M\\omega)_{#}",
+            ),
+            has_torque: frame
+                .velocities
+                .iter()
+                .map(|&velocity| !frame.dissipation.derivative(velocity).expand().is_zero())
+                .collect(),
+        }
+    }
+
+    /// One symbol for each coordinate of a frame.
+    fn indexed_symbols(
+        &mut self,
+        frame: &Frame,
+        role: Role,
+        code: &str,
+        text: impl Fn(&str) -> String,
+        latex: impl Fn(&str) -> String,
+    ) -> Vec<SymbolId> {
+        let names: Vec<String> = frame
+            .coordinates
+            .iter()
+            .map(|&id| {
+                let code = &self.symbols.get(id).code;
+                code.strip_prefix("theta_").unwrap_or(code).to_owned()
+            })
+            .collect();
+        names
+            .iter()
+            .map(|name| {
+                let (text, latex) = (text(name), latex(&latex_name(name)));
+                self.symbols
+                    .intern(role, &format!("{code}_{name}"), &text, &latex)
+            })
+            .collect()
+    }
+
+    /// What the observables of a frame refer to.
+    fn observable_frame(
+        &self,
+        frame: &Frame,
+        symbols: &RateSymbols,
+        list: &[Observable],
+    ) -> ObservableFrame {
+        let mut used = BTreeSet::new();
+        let mut note = |symbol| {
+            used.insert(symbol);
+        };
+        for observable in list {
+            for expr in [&observable.value, &observable.rate, &observable.friction] {
+                expr.for_each_symbol(&mut note);
+            }
+            if let Some(canonical) = &observable.canonical {
+                canonical.rate.for_each_symbol(&mut note);
+                for right in canonical.adjoint.iter().flat_map(|system| &system.right) {
+                    right.for_each_symbol(&mut note);
+                }
+            }
+        }
+        for composite in self.composites.values() {
+            composite.argument.symbols().into_iter().for_each(&mut note);
+        }
+        let uses = |symbols: &[SymbolId]| symbols.iter().any(|symbol| used.contains(symbol));
+        let mut definitions = BTreeMap::new();
+        let mut define = |symbols: &[SymbolId], values: &dyn Fn() -> Vec<Formula>| {
+            if !uses(symbols) {
+                return;
+            }
+            for (&symbol, value) in symbols.iter().zip(values()) {
+                if used.contains(&symbol) {
+                    definitions.insert(symbol, self.expr(&value));
+                }
+            }
+        };
+        let torques = || -> Vec<Formula> {
+            let torque = |&velocity| -frame.dissipation.derivative(velocity);
+            let torques = frame.velocities.iter().map(torque);
+            torques.map(|torque| torque.expand()).collect()
+        };
+        // The drive acts like a force of the Lagrangian at fixed time.
+        let with_drive = |forces: Vec<Formula>, sign: i64| -> Vec<Formula> {
+            let drive = frame.drive_forces(self);
+            let both = forces.iter().zip(&drive);
+            both.map(|(force, drive)| force + &(&Formula::integer(sign) * drive))
+                .collect()
+        };
+        define(&symbols.forces, &|| with_drive(frame.forces(self), 1));
+        define(&symbols.torques, &torques);
+        define(&symbols.slopes, &|| {
+            with_drive(frame.hamiltonian_slopes(self), -1)
+        });
+        define(&symbols.changes, &|| frame.mass_changes(self));
+        ObservableFrame {
+            accelerations: match uses(&symbols.accelerations) {
+                true => symbols.accelerations.clone(),
+                false => Vec::new(),
+            },
+            friction: uses(&symbols.friction_accelerations).then(|| System {
+                unknowns: symbols.friction_accelerations.clone(),
+                right: self.exprs(&torques()),
+            }),
+            definitions,
+            momentum: match uses(&frame.momenta) {
+                true => self.exprs(&frame.momentum()),
+                false => Vec::new(),
+            },
+        }
+    }
+}
+
+impl RateSymbols {
+    /// Σ slope_i Q_i over the coordinates that friction acts on.
+    fn torque(&self, slopes: &[Formula]) -> Formula {
+        slopes
+            .iter()
+            .zip(&self.torques)
+            .zip(&self.has_torque)
+            .filter(|(_, has_torque)| **has_torque)
+            .map(|((slope, &torque), _)| slope * &Formula::symbol(torque))
+            .sum()
+    }
+}
+
+fn opposite(formulas: &[Formula]) -> Vec<Formula> {
+    formulas.iter().map(|formula| -formula.clone()).collect()
+}
+
+/// Σ slope_i symbol_i.
+fn dot(slopes: &[Formula], symbols: &[SymbolId]) -> Formula {
+    slopes
+        .iter()
+        .zip(symbols)
+        .map(|(slope, &symbol)| slope * &Formula::symbol(symbol))
+        .sum()
+}

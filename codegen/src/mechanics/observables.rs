@@ -1,0 +1,76 @@
+//! Observables as they leave the derivation: plain data.
+
+use super::expression::{Expr, SymbolId};
+use crate::scene::Function;
+use std::collections::BTreeMap;
+
+/// Quantities of the user's own and what their formulas refer to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Observables {
+    /// In the order of the description.
+    pub list: Vec<Observable>,
+    /// Functions of whole expressions; arguments hold earlier ones only.
+    pub functions: BTreeMap<SymbolId, FunctionOf>,
+    /// What the observables in absolute angles use.
+    pub absolute: ObservableFrame,
+    /// What the observables in symmetric coordinates use.
+    pub symmetric: ObservableFrame,
+}
+
+/// A function of an expression.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FunctionOf {
+    /// The function.
+    pub function: Function,
+    /// Its argument.
+    pub argument: Expr,
+}
+
+/// An observable with its rates of change.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observable {
+    /// Its name.
+    pub name: String,
+    /// Whether its variables are the symmetric ones.
+    pub symmetric: bool,
+    /// F in coordinates, velocities and momenta.
+    pub value: Expr,
+    /// dF/dt in the same and in accelerations and forces; with friction.
+    pub rate: Expr,
+    /// The part of it that is friction and drag.
+    pub friction: Expr,
+    /// dF/dt by the Poisson bracket, if momenta are asked for.
+    pub canonical: Option<Canonical>,
+}
+
+/// A rate from coordinates and momenta.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Canonical {
+    /// {F, H} and the part of friction, with the unknowns y of `adjoint`.
+    pub rate: Expr,
+    /// M y = ∂F/∂v, if velocities occur in F.
+    pub adjoint: Option<System>,
+}
+
+/// A linear system with the mass matrix.
+#[derive(Clone, Debug, PartialEq)]
+pub struct System {
+    /// What is solved for.
+    pub unknowns: Vec<SymbolId>,
+    /// The right side.
+    pub right: Vec<Expr>,
+}
+
+/// What the rates of one frame refer to, as far as they do.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ObservableFrame {
+    /// Generalized accelerations; none where no rate holds them.
+    pub accelerations: Vec<SymbolId>,
+    /// Accelerations by friction and drag alone: M a = Q.
+    pub friction: Option<System>,
+    /// Forces, slopes of H and changes of M in coordinates and velocities.
+    pub definitions: BTreeMap<SymbolId, Expr>,
+    /// The momenta in coordinates and velocities; none where no observable
+    /// holds any.
+    pub momentum: Vec<Expr>,
+}

@@ -1,0 +1,163 @@
+//! Entry points of observables: values and rates.
+
+use super::entries::EntryList;
+use super::lower::{Door, Lowering};
+use super::{Argument, ObservableForm, Purpose, Shape, ValueId};
+use crate::mechanics::expression::{Expr, SymbolId};
+use crate::mechanics::{Frame, Mechanics, ObservableFrame, System};
+use crate::scene::Function;
+
+impl Lowering<'_> {
+    /// The value of a symbol that only observables have.
+    pub(super) fn observed(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> Option<ValueId> {
+        let mechanics = self.mechanics;
+        if let Some(call) = mechanics.observables.functions.get(&symbol) {
+            let argument = self.expr(door, &call.argument);
+            return Some(match call.function {
+                Function::Sin => self.builder.sin(argument),
+                Function::Cos => self.builder.cos(argument),
+                Function::Sqrt => self.builder.sqrt(argument),
+            });
+        }
+        let definition = door.observed?.definitions.get(&symbol)?;
+        Some(self.expr(door, definition))
+    }
+
+    /// Solves a system with the mass matrix and hands its unknowns over.
+    fn solve_system(&mut self, door: &mut Door<'_>, system: &System) {
+        let matrix = self.mass_matrix(door);
+        let right = system
+            .right
+            .iter()
+            .map(|right| self.expr(door, right))
+            .collect();
+        let names = self.coordinate_names(door.frame);
+        let solution = self.builder.solve(matrix, right, &names);
+        for (&symbol, &value) in system.unknowns.iter().zip(&solution) {
+            let code = &self.mechanics.symbols.get(symbol).code;
+            self.builder.name(value, code);
+            door.supply(symbol, value);
+        }
+    }
+}
+
+/// The arguments and doors of one frame.
+struct Ways<'a> {
+    /// From coordinates and velocities.
+    motion: Door<'a>,
+    /// From coordinates and momenta.
+    phase: Door<'a>,
+    velocities: [Argument; 2],
+    momenta: [Argument; 2],
+    /// What the accelerations are computed from.
+    rates: Vec<Argument>,
+}
+
+impl EntryList<'_, '_> {
+    /// Value and rate of every observable.
+    pub(super) fn observables(&mut self, mechanics: &Mechanics) {
+        use Argument::{AbsoluteMomenta, Coordinates, Momenta, Omega, Rates, Theta};
+        let observables = &mechanics.observables;
+        if observables.list.is_empty() {
+            return;
+        }
+        let mut absolute = self.ways(
+            &mechanics.absolute,
+            &observables.absolute,
+            Purpose::Accelerations,
+            ([Theta, Omega], [Theta, AbsoluteMomenta]),
+        );
+        let mut symmetric = mechanics.symmetric.as_ref().map(|frame| {
+            self.ways(
+                frame,
+                &observables.symmetric,
+                Purpose::SymmetricAccelerations,
+                ([Coordinates, Rates], [Coordinates, Momenta]),
+            )
+        });
+        for (number, observable) in observables.list.iter().enumerate() {
+            let ways = match (&mut symmetric, observable.symmetric) {
+                (Some(symmetric), true) => symmetric,
+                _ => &mut absolute,
+            };
+            self.observable(mechanics, number, ways);
+        }
+    }
+
+    fn ways<'a>(
+        &mut self,
+        frame: &'a Frame,
+        used: &'a ObservableFrame,
+        solved: Purpose,
+        (velocities, momenta): ([Argument; 2], [Argument; 2]),
+    ) -> Ways<'a> {
+        let mut motion = Door::new(frame, velocities[0], Some(velocities[1]), None);
+        let mut phase = Door::new(frame, momenta[0], None, Some(momenta[1]));
+        motion.observed = Some(used);
+        phase.observed = Some(used);
+        let mut rates = velocities.to_vec();
+        // The accelerations are solved for anyway.
+        if let Some(entry) = self.entries.iter().find(|entry| entry.purpose == solved) {
+            rates.clone_from(&entry.arguments);
+            for (&symbol, &value) in used.accelerations.iter().zip(&entry.outputs) {
+                motion.supply(symbol, value);
+            }
+        }
+        if let Some(system) = &used.friction {
+            self.lowering.solve_system(&mut motion, system);
+        }
+        Ways {
+            motion,
+            phase,
+            velocities,
+            momenta,
+            rates,
+        }
+    }
+
+    fn observable(&mut self, mechanics: &Mechanics, number: usize, ways: &mut Ways<'_>) {
+        let observable = &mechanics.observables.list[number];
+        let (velocities, momenta, rates) = (ways.velocities, ways.momenta, ways.rates.clone());
+        use ObservableForm::{FrictionRate, FromMomenta, Rate, RateFromMomenta, Value};
+        let motion = &mut ways.motion;
+        self.form(number, Value, "", &velocities, motion, &observable.value);
+        self.form(number, Rate, "_rate", &rates, motion, &observable.rate);
+        if !observable.friction.is_zero() {
+            let friction = &observable.friction;
+            let suffix = "_friction_rate";
+            self.form(number, FrictionRate, suffix, &velocities, motion, friction);
+        }
+        if let Some(canonical) = &observable.canonical {
+            let phase = &mut ways.phase;
+            let (value, rate) = (&observable.value, &canonical.rate);
+            self.form(number, FromMomenta, "_from_momenta", &momenta, phase, value);
+            if let Some(system) = &canonical.adjoint {
+                self.lowering.solve_system(phase, system);
+            }
+            let suffix = "_rate_from_momenta";
+            let momenta = self.timed(&momenta);
+            self.form(number, RateFromMomenta, suffix, &momenta, phase, rate);
+        }
+    }
+
+    fn form(
+        &mut self,
+        number: usize,
+        form: ObservableForm,
+        suffix: &str,
+        arguments: &[Argument],
+        door: &mut Door<'_>,
+        expr: &Expr,
+    ) {
+        let name = &self.lowering.mechanics.observables.list[number].name;
+        let name = format!("{name}{suffix}");
+        let value = self.lowering.expr(door, expr);
+        self.push(
+            &name,
+            Purpose::Observable(number, form),
+            arguments,
+            vec![value],
+            Shape::Scalar,
+        );
+    }
+}

@@ -1,0 +1,362 @@
+//! Observables: quantities of the user's own in the symbols of the scene.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proc_macro2::Ident;
+
+use super::names::{check_observable, irrational};
+use super::symbols::{Meaning, Symbols};
+use super::values::{message_for, unrepresentable};
+use super::{Quantity, Scene};
+use crate::description::{self, Expression, ExpressionKind};
+use crate::report::{Message, Report, nearest};
+
+/// A quantity that the description defines by an expression.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observable {
+    /// Snake-case name; its functions are called after it.
+    pub name: String,
+    /// What it is.
+    pub value: Observed,
+}
+
+/// An expression in the symbols of the scene. No divisor is identically zero.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Observed {
+    /// Numbers, parameters, gravity, and what is formed of them.
+    Known(Quantity),
+    /// What moves.
+    Variable(Variable),
+    /// A constant of the model, by its name there; one that the model does not
+    /// have is zero.
+    Constant(String),
+    /// Kinetic energy, J.
+    KineticEnergy,
+    /// Potential energy, J.
+    PotentialEnergy,
+    /// A sum.
+    Sum(Vec<Observed>),
+    /// A product.
+    Product(Vec<Observed>),
+    /// Dividend and divisor.
+    Quotient(Box<Observed>, Box<Observed>),
+    /// An integer power.
+    Power(Box<Observed>, i32),
+    /// The opposite.
+    Negative(Box<Observed>),
+    /// A function of a value.
+    Call(Function, Box<Observed>),
+}
+
+/// A coordinate, or its velocity or momentum.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Variable {
+    /// As the user writes it: `theta_child_1`, `p_d`.
+    pub name: String,
+    /// What of the coordinate.
+    pub kind: VariableKind,
+    /// The coordinate.
+    pub place: Place,
+}
+
+/// What of a coordinate a [`Variable`] is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VariableKind {
+    /// The coordinate itself, rad.
+    Angle,
+    /// Its velocity, rad/s.
+    Velocity,
+    /// The momentum that belongs to it, kg m²/s.
+    Momentum,
+}
+
+/// A generalized coordinate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// The absolute angle of the link with that index.
+    Absolute(usize),
+    /// The symmetric coordinate with that index.
+    Symmetric(usize),
+}
+
+/// Functions of observables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Function {
+    /// Sine.
+    Sin,
+    /// Cosine.
+    Cos,
+    /// Square root.
+    Sqrt,
+}
+
+impl Function {
+    /// All functions by their names in descriptions.
+    const ALL: [(&'static str, Self); 3] =
+        [("sin", Self::Sin), ("cos", Self::Cos), ("sqrt", Self::Sqrt)];
+
+    /// Name in descriptions.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Sqrt => "sqrt",
+        }
+    }
+}
+
+impl Observed {
+    /// Whether a variable that only the symmetric coordinates have occurs.
+    pub fn is_symmetric(&self) -> bool {
+        match self {
+            Self::Variable(variable) => matches!(variable.place, Place::Symmetric(_)),
+            Self::Known(_) | Self::Constant(_) | Self::KineticEnergy | Self::PotentialEnergy => {
+                false
+            }
+            Self::Sum(parts) | Self::Product(parts) => parts.iter().any(Self::is_symmetric),
+            Self::Quotient(a, b) => a.is_symmetric() || b.is_symmetric(),
+            Self::Power(inner, _) | Self::Negative(inner) | Self::Call(_, inner) => {
+                inner.is_symmetric()
+            }
+        }
+    }
+}
+
+/// What the functions of an observable are called after its name.
+pub const OBSERVABLE_SUFFIXES: [&str; 5] = [
+    "",
+    "_rate",
+    "_friction_rate",
+    "_from_momenta",
+    "_rate_from_momenta",
+];
+
+/// Methods that emitted models may have, asked for or not. A test holds the
+/// list against the fixtures.
+#[rustfmt::skip]
+const METHODS: &[&str] = &[
+    "accelerations", "accelerations_into", "clone", "default", "eq", "fmt", "from",
+    "from_parameters", "from_symmetric", "hamiltonian", "into", "kinetic_energy",
+    "kinetic_energy_of", "mass_matrix", "momenta", "new", "potential_energy",
+    "potential_energy_of", "stiffness_matrix", "symmetric_accelerations",
+    "symmetric_accelerations_into", "symmetric_momenta", "symmetric_velocities", "to_symmetric",
+    "velocities",
+];
+
+/// Beginnings of names of methods that are many.
+const METHOD_FAMILIES: &[&str] = &[
+    "antiphase_energy",
+    "antiphase_friction_power",
+    "transfer_amplitude_",
+    "transfer_angle_",
+    "transfer_exact",
+    "transfer_quadratic_form",
+];
+
+/// Adds the observables to the scene, whose tree is complete; what is wrong
+/// goes to `report`. `owners` holds the names of links, orbits and groups.
+pub(super) fn resolve_observables(
+    observables: &[description::Observable],
+    scene: &mut Scene,
+    owners: &BTreeMap<String, usize>,
+    report: &mut Report,
+) {
+    if observables.is_empty() {
+        return;
+    }
+    let symbols = Symbols::of(scene);
+    let mut names = BTreeSet::new();
+    let mut functions = BTreeSet::new();
+    for observable in observables {
+        let name = &observable.name;
+        let text = name.to_string();
+        let taken = owners.contains_key(&text)
+            || scene.parameters.iter().any(|known| known.name == text)
+            || symbols.is_variable(&text)
+            || !names.insert(text.clone());
+        let named = check_observable(name, report).is_some();
+        if taken {
+            let name = text.clone();
+            report.error(observable.name.span(), Message::DuplicateName { name });
+        }
+        let named = named && !taken && check_functions(name, &symbols, &mut functions, report);
+        let value = evaluate(&observable.value, &symbols, report);
+        if let (true, Some(value)) = (named, value) {
+            scene.requests.symmetric |= value.is_symmetric();
+            scene.observables.push(Observable { name: text, value });
+        }
+    }
+}
+
+/// Checks that none of the observable's functions exists already.
+fn check_functions(
+    name: &Ident,
+    symbols: &Symbols,
+    functions: &mut BTreeSet<String>,
+    report: &mut Report,
+) -> bool {
+    for suffix in OBSERVABLE_SUFFIXES {
+        let function = format!("{name}{suffix}");
+        let taken = METHODS.contains(&function.as_str())
+            || METHOD_FAMILIES.iter().any(|f| function.starts_with(f))
+            || symbols.is_constant(&function)
+            || !functions.insert(function.clone());
+        if taken {
+            let message = Message::FunctionTaken {
+                name: name.to_string(),
+                function,
+            };
+            report.error(name.span(), message);
+            return false;
+        }
+    }
+    true
+}
+
+/// The value of an expression; `None` after reporting what is wrong.
+fn evaluate(expression: &Expression, symbols: &Symbols, report: &mut Report) -> Option<Observed> {
+    let value = match &expression.kind {
+        ExpressionKind::Number(number) => Observed::Known(Quantity::Exact(number.clone())),
+        ExpressionKind::Name(name) => symbol(name, symbols, report)?,
+        ExpressionKind::Sum(members) => {
+            let members = all(members, symbols, report)?;
+            match known(&members) {
+                Some(members) => Observed::Known(Quantity::sum(members)),
+                None => Observed::Sum(members),
+            }
+        }
+        ExpressionKind::Product { factors, divisors } => {
+            let above = all(factors, symbols, report);
+            let below = all(divisors, symbols, report);
+            quotient(expression, divisors, above?, below?, report)?
+        }
+        ExpressionKind::Power(base, exponent) => {
+            let value = evaluate(base, symbols, report)?;
+            if *exponent < 0 && value.is_zero() {
+                report.error(base.span, Message::DivisionByZero);
+                return None;
+            }
+            match value {
+                Observed::Known(value) => match value.power(*exponent) {
+                    Ok(value) => Observed::Known(value),
+                    Err(error) => {
+                        report.error(expression.span, message_for(error));
+                        return None;
+                    }
+                },
+                value => Observed::Power(Box::new(value), *exponent),
+            }
+        }
+        ExpressionKind::Negative(value) => match evaluate(value, symbols, report)? {
+            Observed::Known(value) => Observed::Known(value.negative()),
+            value => Observed::Negative(Box::new(value)),
+        },
+        ExpressionKind::Call { function, argument } => {
+            let name = function.to_string();
+            let known = Function::ALL.iter().find(|(known, _)| *known == name);
+            let value = evaluate(argument, symbols, report);
+            let Some(&(_, known)) = known else {
+                let known = Function::ALL.map(|(name, _)| name).to_vec();
+                report.error(function.span(), Message::UnknownFunction { name, known });
+                return None;
+            };
+            let value = value?;
+            if let (Function::Sqrt, Observed::Known(Quantity::Exact(number))) = (known, &value)
+                && number.is_negative()
+            {
+                let message = Message::Negative {
+                    what: "argument of `sqrt`".to_owned(),
+                    value: number.to_string(),
+                };
+                report.error(argument.span, message);
+                return None;
+            }
+            Observed::Call(known, Box::new(value))
+        }
+    };
+    if let Observed::Known(quantity) = &value
+        && let Some(message) = unrepresentable(quantity)
+    {
+        report.error(expression.span, message);
+        return None;
+    }
+    if value.is_out_of_range() {
+        report.error(expression.span, Message::NumberRange);
+        return None;
+    }
+    Some(value)
+}
+
+/// The product of `above` divided by that of `below`.
+fn quotient(
+    expression: &Expression,
+    divisors: &[Expression],
+    above: Vec<Observed>,
+    below: Vec<Observed>,
+    report: &mut Report,
+) -> Option<Observed> {
+    if let Some(at) = below.iter().position(Observed::is_zero) {
+        let span = divisors.get(at).map_or(expression.span, |zero| zero.span);
+        report.error(span, Message::DivisionByZero);
+        return None;
+    }
+    if let (Some(above), Some(below)) = (known(&above), known(&below)) {
+        return match Quantity::product(above).divided_by(Quantity::product(below)) {
+            Ok(value) => Some(Observed::Known(value)),
+            Err(error) => {
+                report.error(expression.span, message_for(error));
+                None
+            }
+        };
+    }
+    let product = |mut factors: Vec<Observed>| match (factors.pop(), factors.is_empty()) {
+        (Some(only), true) => only,
+        (last, _) => {
+            factors.extend(last);
+            Observed::Product(factors)
+        }
+    };
+    let empty = below.is_empty();
+    let (above, below) = (product(above), product(below));
+    Some(match empty {
+        true => above,
+        false => Observed::Quotient(Box::new(above), Box::new(below)),
+    })
+}
+
+/// Values of several expressions, all of them looked at even if one is wrong.
+fn all(
+    expressions: &[Expression],
+    symbols: &Symbols,
+    report: &mut Report,
+) -> Option<Vec<Observed>> {
+    let values: Vec<Option<Observed>> = expressions
+        .iter()
+        .map(|expression| evaluate(expression, symbols, report))
+        .collect();
+    values.into_iter().collect()
+}
+
+/// The values as quantities, if none of them moves.
+fn known(values: &[Observed]) -> Option<Vec<Quantity>> {
+    let quantity = |value: &Observed| match value {
+        Observed::Known(quantity) => Some(quantity.clone()),
+        _ => None,
+    };
+    values.iter().map(quantity).collect()
+}
+
+fn symbol(name: &Ident, symbols: &Symbols, report: &mut Report) -> Option<Observed> {
+    let text = name.to_string();
+    let message = match symbols.get(&text) {
+        Some(Meaning::One(value)) => return Some(value.clone()),
+        Some(Meaning::Several) => Message::AmbiguousSymbol { name: text },
+        None => irrational(&text).unwrap_or_else(|| Message::UnknownSymbol {
+            nearest: nearest(&text, &symbols.names()).map(str::to_owned),
+            name: text,
+            example: symbols.example().to_owned(),
+        }),
+    };
+    report.error(name.span(), message);
+    None
+}

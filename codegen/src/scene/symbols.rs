@@ -1,0 +1,156 @@
+//! The symbols that observables are written in.
+
+use std::collections::BTreeMap;
+
+use super::observables::{Observed, Place, Variable, VariableKind};
+use super::{LinkId, ParameterId, Quantity, Scene};
+use crate::mechanics::coordinates::symmetric_coordinates;
+
+/// The meaning of a name.
+pub(super) enum Meaning {
+    /// This.
+    One(Observed),
+    /// A parameter of the user's and a symbol of ours.
+    Several,
+}
+
+/// All names and what they mean.
+pub(super) struct Symbols {
+    meanings: BTreeMap<String, Meaning>,
+    /// Name of the last link, for examples.
+    example: String,
+}
+
+impl Symbols {
+    /// The symbols of a scene whose tree is complete.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let mut symbols = Self {
+            meanings: BTreeMap::new(),
+            example: scene
+                .links
+                .last()
+                .map(|l| l.name.clone())
+                .unwrap_or_default(),
+        };
+        for (index, link) in scene.links.iter().enumerate() {
+            symbols.coordinate(&link.name, Place::Absolute(index));
+        }
+        // The mean of a single link is its own angle.
+        let shared = |(_, coordinate): &(usize, _)| {
+            let coordinate: &crate::mechanics::Coordinate = coordinate;
+            coordinate.weights.len() > 1
+        };
+        if !scene.groups.is_empty() {
+            let coordinates = symmetric_coordinates(scene);
+            for (index, coordinate) in coordinates.into_iter().enumerate().filter(shared) {
+                symbols.coordinate(&coordinate.name, Place::Symmetric(index));
+            }
+        }
+        for name in constants(scene) {
+            symbols.add(name.clone(), Observed::Constant(name));
+        }
+        symbols.add("kinetic_energy".into(), Observed::KineticEnergy);
+        symbols.add("potential_energy".into(), Observed::PotentialEnergy);
+        let gravity = Observed::Known(scene.gravity.clone());
+        symbols.add("gravity".into(), gravity);
+        for (index, parameter) in scene.parameters.iter().enumerate() {
+            let quantity = Quantity::Parameter(ParameterId(index));
+            // `gravity = gravity` is no contradiction.
+            if parameter.name != "gravity" || quantity != scene.gravity {
+                symbols.add(parameter.name.clone(), Observed::Known(quantity));
+            }
+        }
+        symbols
+    }
+
+    fn coordinate(&mut self, name: &str, place: Place) {
+        for (prefix, kind) in [
+            ("theta", VariableKind::Angle),
+            ("omega", VariableKind::Velocity),
+            ("p", VariableKind::Momentum),
+        ] {
+            let name = format!("{prefix}_{name}");
+            let variable = Variable {
+                name: name.clone(),
+                kind,
+                place,
+            };
+            self.add(name, Observed::Variable(variable));
+        }
+    }
+
+    fn add(&mut self, name: String, value: Observed) {
+        let meaning = match self.meanings.contains_key(&name) {
+            true => Meaning::Several,
+            false => Meaning::One(value),
+        };
+        self.meanings.insert(name, meaning);
+    }
+
+    pub(super) fn get(&self, name: &str) -> Option<&Meaning> {
+        self.meanings.get(name)
+    }
+
+    pub(super) fn names(&self) -> Vec<&str> {
+        self.meanings.keys().map(String::as_str).collect()
+    }
+
+    pub(super) fn example(&self) -> &str {
+        &self.example
+    }
+
+    /// Whether a name is that of something that moves.
+    pub(super) fn is_variable(&self, name: &str) -> bool {
+        let meaning = self.get(name);
+        matches!(meaning, Some(Meaning::One(Observed::Variable(_))))
+    }
+
+    /// Whether a name is that of a constant of the model, which has a function
+    /// to read it.
+    pub(super) fn is_constant(&self, name: &str) -> bool {
+        let meaning = self.get(name);
+        matches!(meaning, Some(Meaning::One(Observed::Constant(_))))
+    }
+}
+
+/// The names of the model's constants, those included that turn out to be zero.
+fn constants(scene: &Scene) -> Vec<String> {
+    let mut names = Vec::new();
+    let orbit_name = |LinkId(link): LinkId| {
+        let orbit = scene.links.get(link).map(|link| link.orbit);
+        orbit
+            .and_then(|orbit| scene.orbits.get(orbit.0))
+            .map(|orbit| &orbit.name)
+    };
+    for orbit in &scene.orbits {
+        let Some(link) = orbit
+            .links
+            .first()
+            .and_then(|first| scene.links.get(first.0))
+        else {
+            continue;
+        };
+        let name = &orbit.name;
+        for word in ["inertia", "gravity", "lateral_gravity"] {
+            names.push(format!("{word}_{name}"));
+        }
+        for (word, value) in [
+            ("friction", &link.friction),
+            ("drag", &link.drag),
+            ("spring", &link.spring),
+        ] {
+            if value.is_some() {
+                names.push(format!("{word}_{name}"));
+            }
+        }
+        let mut above = link.parent;
+        while let Some(ancestor) = above {
+            if let Some(other) = orbit_name(ancestor) {
+                names.push(format!("coupling_{name}_{other}"));
+                names.push(format!("lateral_coupling_{name}_{other}"));
+            }
+            above = scene.links.get(ancestor.0).and_then(|link| link.parent);
+        }
+    }
+    names
+}
