@@ -166,7 +166,10 @@ enum Entry {
 }
 
 fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
-    let name = identifier(input, "a link, `gravity`, `drive`, `emit`, `observe` or `crate`")?;
+    let name = identifier(
+        input,
+        "a link, `gravity`, `drive`, `emit`, `observe` or `crate`",
+    )?;
     if input.peek(Token![=]) {
         return assignment(name, input);
     }

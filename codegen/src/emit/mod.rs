@@ -8,8 +8,8 @@ mod formulas;
 mod function;
 mod model;
 mod names;
-mod parts;
 mod observables;
+mod parts;
 mod stub;
 mod traits;
 

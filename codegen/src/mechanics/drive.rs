@@ -11,7 +11,7 @@ use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
 use super::frame::Frame;
 use super::print::{latex, latex_name, text};
-use crate::scene::{TimeFunction, Signal};
+use crate::scene::{Signal, TimeFunction};
 use std::collections::BTreeMap;
 
 /// What a symbol means that depends on time alone.

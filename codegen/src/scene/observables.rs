@@ -145,11 +145,18 @@ const METHODS: &[&str] = &[
 
 /// Beginnings of names of methods that are many.
 const METHOD_FAMILIES: &[&str] = &[
+    "antiphase_drive_power",
     "antiphase_energy",
     "antiphase_friction_power",
+    "budget_",
+    "drive_power",
+    "friction_power",
+    "sector_transfers",
+    "symmetric_",
     "transfer_amplitude_",
     "transfer_angle_",
     "transfer_exact",
+    "transfer_matrix",
     "transfer_quadratic_form",
 ];
 

@@ -3,8 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, CratePath, Drive, Group, Link, Observable, Offset, Orbit, Parameter, Requests, Requirement,
-    Scene, Sign, TransferRequest,
+    BudgetRequest, CratePath, Drive, Group, Link, Observable, Offset, Orbit, Parameter, Requests,
+    Requirement, Scene, Sign, TransferRequest,
 };
 
 impl Display for Scene {

@@ -399,3 +399,43 @@ fn a_fast_pivot_holds_the_pendulum_upright() {
         );
     }
 }
+
+/// Observables know the drive: their rates are those along the driven motion,
+/// and the bracket's route agrees.
+#[test]
+fn observables_of_a_driven_tree_have_its_rates() {
+    let compiled = compile(
+        "gravity = 9.8, a: rod(mass = 1, length = 0.5, friction = 0.1) \
+         [b: rod(mass = 0.5, length = 0.3) * 2], \
+         drive(torque = 0.7 * cos(3 * t), x = 0.1 * sin(5 * t), y = 0.05 * cos(4 * t)), \
+         emit(energies, momenta), \
+         observe(energy = kinetic_energy + potential_energy, spin = omega_a * omega_b_1, push = p_b_2)",
+    );
+    let mut random = Random::new(31);
+    for _ in 0..20 {
+        let time = random.between(0.0, 3.0);
+        let theta = random.around_zero(3, 3.0);
+        let omega = random.around_zero(3, 4.0);
+        let at = |entry: &str| compiled.evaluate(entry, &[&[time], &theta, &omega]);
+        let power = at("drive_power")[0] + compiled.evaluate("friction_power", &[&omega])[0];
+        let energy = at("energy_rate")[0];
+        assert!(
+            (energy - power).abs() <= 1e-12 * (1.0 + power.abs()),
+            "{energy} {power}"
+        );
+        let alpha = at("accelerations");
+        let spin = alpha[0] * omega[1] + omega[0] * alpha[1];
+        assert!((at("spin_rate")[0] - spin).abs() <= 1e-12 * (1.0 + spin.abs()));
+        let momenta = compiled.evaluate("momenta", &[&theta, &omega]);
+        for name in ["energy", "spin", "push"] {
+            let rate = at(&format!("{name}_rate"))[0];
+            let entry = format!("{name}_rate_from_momenta");
+            let bracket = compiled.evaluate(&entry, &[&[time], &theta, &momenta])[0];
+            let scale = 1.0 + alpha.iter().fold(rate.abs(), |most, a| most.max(a.abs()));
+            assert!(
+                (bracket - rate).abs() <= 1e-11 * scale,
+                "{name}: {bracket} {rate}"
+            );
+        }
+    }
+}

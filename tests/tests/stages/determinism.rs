@@ -5,9 +5,7 @@ use branched_pendulum_tests::source::{attributed_struct, fixture};
 
 #[test]
 fn a_hundred_expansions_are_equal() {
-    for name in [
-        "paper", "triplet", "offset", "sweep", "driven", "observed",
-    ] {
+    for name in ["paper", "triplet", "offset", "sweep", "driven", "observed"] {
         let source = std::fs::read_to_string(fixture(&format!("scenes/{name}.rs")))
             .expect("the fixture exists");
         let (attribute, item) = attributed_struct(&source);
@@ -29,7 +27,9 @@ fn other_scenes_leave_no_trace() {
         expand(attribute, item).to_string()
     };
     let before = expansion("paper");
-    for name in ["simple", "offset", "observed", "triplet", "chain", "sweep", "driven"] {
+    for name in [
+        "simple", "offset", "observed", "triplet", "chain", "sweep", "driven",
+    ] {
         expansion(name);
     }
     assert_eq!(expansion("paper"), before);
