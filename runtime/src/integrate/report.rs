@@ -17,6 +17,8 @@ pub enum StopReason {
     StepLimit,
     /// A step below the shortest allowed was called for.
     StepTooSmall,
+    /// The equations of an implicit step could not be solved.
+    NotSolved,
     /// The state or its rates became infinite or NaN.
     NonFinite,
 }
@@ -28,6 +30,7 @@ impl fmt::Display for StopReason {
             Self::StoppedByObserver => "stopped by the observer",
             Self::StepLimit => "step limit reached",
             Self::StepTooSmall => "step too small",
+            Self::NotSolved => "equations of a step not solved",
             Self::NonFinite => "state or rates not finite",
         })
     }
@@ -38,7 +41,8 @@ impl fmt::Display for StopReason {
 pub struct Report<T> {
     /// Steps accepted.
     pub accepted: u64,
-    /// Steps rejected because their error was too large.
+    /// Steps rejected because their error was too large, or because their
+    /// equations could not be solved.
     pub rejected: u64,
     /// Evaluations of the right-hand side, those for the first step and for
     /// the dense output included.

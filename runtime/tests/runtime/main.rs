@@ -7,6 +7,7 @@ mod accuracy;
 mod continuation;
 mod csv;
 mod failures;
+mod gauss;
 mod modes;
 mod order;
 mod problems;
