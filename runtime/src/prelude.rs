@@ -3,8 +3,8 @@
 #[cfg(feature = "macros")]
 pub use crate::branched_pendulum;
 pub use crate::integrate::{
-    DenseStep, Dop853, Dopri5, Gauss, GaussOrder, IntegrationError, Integrator, Options, Report,
-    Rk4, Solution, Solver, StopReason, Tolerance, Verner98,
+    Crossing, DenseStep, Dop853, Dopri5, Event, Gauss, GaussOrder, IntegrationError, Integrator,
+    Options, Report, Rk4, Solution, Solver, StopReason, Tolerance, Verner98,
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};

@@ -220,6 +220,17 @@ pub enum IntegrationError<T> {
         /// Account of the run so far.
         report: Report<T>,
     },
+    /// The function of an event is NaN.
+    Event {
+        /// Index of the event among those asked for.
+        event: usize,
+        /// Time of the evaluation.
+        time: T,
+        /// The last accepted state.
+        last: State<T>,
+        /// Account of the run so far.
+        report: Report<T>,
+    },
     /// The limit on the number of steps was reached.
     StepLimit {
         /// The limit.
@@ -240,6 +251,7 @@ impl<T> IntegrationError<T> {
             Self::NonFinite { last, .. }
             | Self::StepTooSmall { last, .. }
             | Self::NotSolved { last, .. }
+            | Self::Event { last, .. }
             | Self::StepLimit { last, .. } => Some(last),
         }
     }
@@ -252,6 +264,7 @@ impl<T> IntegrationError<T> {
             Self::NonFinite { report, .. }
             | Self::StepTooSmall { report, .. }
             | Self::NotSolved { report, .. }
+            | Self::Event { report, .. }
             | Self::StepLimit { report, .. } => Some(report),
         }
     }
@@ -300,6 +313,12 @@ impl<T: Real> fmt::Display for IntegrationError<T> {
                  the last changed it by {change} of its size",
                 last.time
             ),
+            Self::Event {
+                event,
+                time,
+                last: _,
+                report: _,
+            } => write!(f, "the function of event {event} is NaN at t = {time}"),
             Self::StepLimit {
                 limit,
                 last,

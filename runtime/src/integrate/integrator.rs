@@ -4,6 +4,7 @@ use core::ops::ControlFlow;
 
 use super::dense::{DenseError, DenseStep};
 use super::error::IntegrationError;
+use super::events::{Event, Found, Occurrence, Search, SearchError};
 use super::report::{Report, Solution, StopReason};
 use super::request::{check_start, check_times};
 use crate::scalar::Real;
@@ -130,6 +131,116 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
             None => Ok(solution),
         }
     }
+
+    /// Integrates from `start` to the time `end` and calls `visit` with every
+    /// zero crossing of the functions `events`, in their order along the run.
+    ///
+    /// [`ControlFlow::Break`] ends the run there: the last state is then that of
+    /// the crossing, and a run that starts from it does not report the crossing
+    /// again. Nor is one reported where a run starts with a function exactly
+    /// zero. A function that only touches zero is reported if one of the places
+    /// looked at is a zero exactly.
+    ///
+    /// # Errors
+    ///
+    /// As [`integrate`](Self::integrate), and [`IntegrationError::Event`] where
+    /// a function is NaN.
+    ///
+    /// # Examples
+    ///
+    /// A Poincaré section: the angle of a pendulum whenever its velocity
+    /// changes from positive to negative.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use branched_pendulum::prelude::*;
+    ///
+    /// let pendulum = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+    ///     rates[0] = y[1];
+    ///     rates[1] = -y[0].sin();
+    /// });
+    /// let velocity = |_time: f64, y: &[f64]| y[1];
+    /// let turns = [Event::new(Crossing::Falling, &velocity)];
+    /// let mut angles = Vec::new();
+    /// Dop853::new(Options::with_tolerance(1e-12)).integrate_with_events(
+    ///     &pendulum,
+    ///     &State::at_rest(0.0, &[1.0]),
+    ///     20.0,
+    ///     &turns,
+    ///     |turn| {
+    ///         angles.push(turn.state[0]);
+    ///         ControlFlow::Continue(())
+    ///     },
+    /// )?;
+    /// assert_eq!(angles.len(), 2);
+    /// assert!(angles.iter().all(|angle| (angle - 1.0).abs() < 1e-11));
+    /// # Ok::<(), IntegrationError<f64>>(())
+    /// ```
+    fn integrate_with_events(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        end: T,
+        events: &[Event<'_, T>],
+        mut visit: impl FnMut(Occurrence<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Solution<T>, IntegrationError<T>> {
+        let mut search = Search::new(events, &start.values);
+        let mut outcome = Ok(None);
+        let mut solution = self.integrate(ode, start, end, |step| {
+            outcome = search_step(&mut search, step, &mut visit);
+            match outcome {
+                Ok(None) => ControlFlow::Continue(()),
+                _ => ControlFlow::Break(()),
+            }
+        })?;
+        match outcome {
+            Ok(None) => Ok(solution),
+            Ok(Some(time)) => {
+                solution.state.time = time;
+                solution.state.values.copy_from_slice(&search.state);
+                solution.report.stop = StopReason::StoppedByEvent;
+                Ok(solution)
+            }
+            Err(SearchError::Dense(error)) => Err(dense_failure(error, solution)),
+            Err(SearchError::Undefined { event, time }) => Err(IntegrationError::Event {
+                event,
+                time,
+                last: solution.state,
+                report: Report {
+                    stop: StopReason::NonFinite,
+                    ..solution.report
+                },
+            }),
+        }
+    }
+}
+
+/// Visits the crossings within `step`; gives the time of the one at which the
+/// run is to end, the state there being that of the search.
+fn search_step<T: Real>(
+    search: &mut Search<'_, T>,
+    step: &mut DenseStep<'_, T>,
+    visit: &mut impl FnMut(Occurrence<'_, T>) -> ControlFlow<()>,
+) -> Result<Option<T>, SearchError<T>> {
+    search.step(step)?;
+    for index in 0..search.found.len() {
+        let Found {
+            event,
+            time,
+            rising,
+        } = search.found[index];
+        step.eval(time, &mut search.state)?;
+        let flow = visit(Occurrence {
+            event,
+            time,
+            state: &search.state,
+            rising,
+        });
+        if flow.is_break() {
+            return Ok(Some(time));
+        }
+    }
+    Ok(None)
 }
 
 /// The end of a run that `solution` describes, whose last step had no value to

@@ -19,6 +19,7 @@
 mod control;
 mod dense;
 mod error;
+mod events;
 mod explicit;
 mod fixed;
 mod integrator;
@@ -29,6 +30,7 @@ mod sum;
 
 pub use dense::{DenseError, DenseStep};
 pub use error::{InputError, IntegrationError};
+pub use events::{Crossing, Event, Occurrence};
 pub use explicit::{
     Dop853, Dopri5, DormandPrince5, DormandPrince8, ExplicitRungeKutta, Verner9, Verner98,
 };

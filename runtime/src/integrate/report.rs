@@ -13,6 +13,8 @@ pub enum StopReason {
     EndReached,
     /// The observer asked to stop.
     StoppedByObserver,
+    /// An event was found at which the run was to end.
+    StoppedByEvent,
     /// The limit on the number of steps was reached.
     StepLimit,
     /// A step below the shortest allowed was called for.
@@ -28,6 +30,7 @@ impl fmt::Display for StopReason {
         f.write_str(match self {
             Self::EndReached => "end reached",
             Self::StoppedByObserver => "stopped by the observer",
+            Self::StoppedByEvent => "stopped at an event",
             Self::StepLimit => "step limit reached",
             Self::StepTooSmall => "step too small",
             Self::NotSolved => "equations of a step not solved",
@@ -108,7 +111,8 @@ impl<T: Real> fmt::Display for Report<T> {
 /// Where a run ended, and its account.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution<T> {
-    /// The last state: at the end of the span, or where the observer stopped.
+    /// The last state: at the end of the span, where the observer stopped, or
+    /// at the event that ended the run.
     pub state: State<T>,
     /// The account of the run.
     pub report: Report<T>,

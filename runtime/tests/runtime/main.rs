@@ -6,6 +6,7 @@
 mod accuracy;
 mod continuation;
 mod csv;
+mod events;
 mod failures;
 mod gauss;
 mod modes;
