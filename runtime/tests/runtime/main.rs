@@ -6,6 +6,7 @@
 mod accuracy;
 mod continuation;
 mod csv;
+mod ensemble;
 mod events;
 mod failures;
 mod gauss;
