@@ -16,3 +16,4 @@ mod problems;
 mod reference;
 mod requests;
 mod spectrum;
+mod variational;
