@@ -4,6 +4,7 @@
 #![cfg(feature = "std")]
 
 mod accuracy;
+mod animation;
 mod continuation;
 mod csv;
 mod ensemble;
@@ -16,4 +17,5 @@ mod problems;
 mod reference;
 mod requests;
 mod spectrum;
+mod stability;
 mod variational;

@@ -23,15 +23,10 @@ pub(super) trait Stepper<T: Real, O: ?Sized> {
     /// Evaluates what the first step needs; `time` is that of the start.
     fn begin(&mut self, ode: &O, time: T, report: &mut Report<T>) -> Result<(), Failure<T>>;
 
-    /// Makes the step from `start_time` to `end_time` and counts its
-    /// evaluations.
-    fn make(
-        &mut self,
-        ode: &O,
-        start_time: T,
-        end_time: T,
-        report: &mut Report<T>,
-    ) -> Result<(), Failure<T>>;
+    /// Makes a step of length `step` (negative: backwards) from `time` and
+    /// counts its evaluations.
+    fn make(&mut self, ode: &O, time: T, step: T, report: &mut Report<T>)
+    -> Result<(), Failure<T>>;
 
     /// The step that was made, as a polynomial.
     fn interpolant(&mut self) -> &mut dyn Interpolant<T>;
@@ -96,6 +91,10 @@ impl<T: Real> Grid<T> {
         // The end of step k of the grid is start + k step: rounding does not
         // add up over the steps.
         let (mut number, mut halved, mut length) = (0.0, 0_u32, self.step);
+        // What is left to the next place of the grid. Steps get this length, not
+        // the difference of two rounded times: lengths that tremble would cost
+        // the symplectic property, in `f32` visibly.
+        let mut left = self.step;
         loop {
             let grid = start.time + direction * T::from_f64(number + 1.0) * self.step;
             let near = T::from_f64(1e-9) * self.step;
@@ -104,9 +103,15 @@ impl<T: Real> Grid<T> {
             } else {
                 grid
             };
-            let part = time + direction * length;
-            let reaches = halved == 0 || (goal - part) * direction <= near;
-            let end_time = if reaches { goal } else { part };
+            let short = (goal - grid).abs() > near;
+            let reach = if short { (goal - time).abs() } else { left };
+            let reaches = halved == 0 || reach - length <= near;
+            let made = if reaches { reach } else { length };
+            let end_time = if reaches {
+                goal
+            } else {
+                time + direction * length
+            };
 
             let state = |stepper: &mut S| State {
                 time,
@@ -119,7 +124,7 @@ impl<T: Real> Grid<T> {
                     report: ended(report, StopReason::StepLimit),
                 });
             }
-            match stepper.make(ode, time, end_time, &mut report) {
+            match stepper.make(ode, time, direction * made, &mut report) {
                 Ok(()) => {}
                 // Rates that are not finite may be those of an iterate far off.
                 Err(_) if halved < self.halvings && T::from_f64(0.5) * length > lost => {
@@ -130,11 +135,10 @@ impl<T: Real> Grid<T> {
                 }
                 Err(failure) => {
                     let last = state(&mut stepper);
-                    let step = (end_time - time).abs();
-                    return Err(self.failed(failure, last, report, step));
+                    return Err(self.failed(failure, last, report, made));
                 }
             }
-            report.accept((end_time - time).abs());
+            report.accept(made);
             let flow = observer(&mut DenseStep::new(
                 stepper.interpolant(),
                 &mut report,
@@ -145,6 +149,9 @@ impl<T: Real> Grid<T> {
             time = end_time;
             if reaches {
                 number += 1.0;
+                left = self.step;
+            } else {
+                left = left - made;
             }
             if halved > 0 {
                 halved -= 1;

@@ -121,32 +121,32 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
     fn make(
         &mut self,
         ode: &O,
-        start_time: T,
-        end_time: T,
+        time: T,
+        step: T,
         report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
-        self.step = end_time - start_time;
-        let half = T::from_f64(0.5) * self.step;
+        self.step = step;
+        let half = T::from_f64(0.5) * step;
         let two = T::from_f64(2.0);
-        let middle = start_time + half;
+        let (middle, end_time) = (time + half, time + step);
         self.sum.copy_from_slice(&self.start_rates);
         self.rates.copy_from_slice(&self.start_rates);
-        for (time, length, weight) in [
+        for (at, length, weight) in [
             (middle, half, two),
             (middle, half, two),
-            (end_time, self.step, T::ONE),
+            (end_time, step, T::ONE),
         ] {
             for (i, value) in self.stage.iter_mut().enumerate() {
                 *value = self.start[i] + length * self.rates[i];
             }
             report.evaluations += 1;
-            ode.rates(time, &self.stage, &mut self.rates);
-            finite(time, &self.stage, &self.rates)?;
+            ode.rates(at, &self.stage, &mut self.rates);
+            finite(at, &self.stage, &self.rates)?;
             for (sum, &rate) in self.sum.iter_mut().zip(&self.rates) {
                 *sum += weight * rate;
             }
         }
-        let sixth = self.step / T::from_f64(6.0);
+        let sixth = step / T::from_f64(6.0);
         for (i, end) in self.end.iter_mut().enumerate() {
             *end = self.start[i] + sixth * self.sum[i];
         }

@@ -18,6 +18,7 @@ use crate::system::Ode;
 pub(super) struct Memory<T> {
     pub(super) table: &'static Table,
     pub(super) solver: Solver,
+    pub(super) tolerance: T,
     pub(super) iteration_limit: u32,
     pub(super) start: Vec<T>,
     end: Vec<T>,
@@ -58,6 +59,7 @@ impl<T: Real> Memory<T> {
         Self {
             table,
             solver: method.solver,
+            tolerance: method.tolerance,
             iteration_limit: method.iteration_limit,
             start: start.to_vec(),
             end: vec![T::ZERO; n],
@@ -147,16 +149,15 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
     fn make(
         &mut self,
         ode: &O,
-        start_time: T,
-        end_time: T,
+        time: T,
+        step: T,
         report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
-        let step = end_time - start_time;
         self.guess(step);
-        if let Err(failure) = self.solve(ode, start_time, step, report) {
+        if let Err(failure) = self.solve(ode, time, step, report) {
             // The rates of a failed step say nothing: begin anew.
             self.step = T::ZERO;
-            Stepper::<T, O>::begin(self, ode, start_time, report)?;
+            Stepper::<T, O>::begin(self, ode, time, report)?;
             return Err(failure);
         }
         self.step = step;
@@ -165,7 +166,7 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
             return Ok(());
         }
         Err(Failure::NonFinite {
-            time: end_time,
+            time: time + step,
             values: self.end.clone(),
         })
     }

@@ -52,7 +52,7 @@ impl<T: Real> Memory<T> {
             }
             // Where the change no longer falls, rounding is all that is left.
             // It may fall in every second round only.
-            let settled = change == T::ZERO
+            let settled = change <= self.tolerance
                 || (without_progress == 1 && change <= rounding)
                 || (without_progress > 1 && change <= noise);
             if settled {
