@@ -7,7 +7,8 @@
 //!
 //! - [`scalar`]: the numbers that emitted code computes with,
 //! - [`system`]: the traits that it implements, and states,
-//! - [`integrate`]: trajectories, with error control and dense output,
+//! - [`integrate`]: trajectories, with error control, dense output and events,
+//! - [`ensemble`]: many trajectories on all cores,
 //! - [`analysis`]: linear modes and spectra,
 //! - [`data`]: CSV files.
 //!
@@ -79,6 +80,8 @@ pub mod analysis;
 pub mod chart;
 #[cfg(feature = "std")]
 pub mod data;
+#[cfg(feature = "std")]
+pub mod ensemble;
 pub mod integrate;
 pub mod model;
 pub mod prelude;

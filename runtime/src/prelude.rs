@@ -3,10 +3,12 @@
 #[cfg(feature = "macros")]
 pub use crate::branched_pendulum;
 pub use crate::integrate::{
-    DenseStep, Dop853, IntegrationError, Options, Report, Solution, StopReason, Tolerance,
+    Crossing, DenseStep, Dop853, Dopri5, Event, Gauss, GaussOrder, IntegrationError, Integrator,
+    Options, Report, Rk4, Solution, Solver, StopReason, Tolerance, Verner98,
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
 pub use crate::system::{
-    AbsoluteAngles, Energy, Ode, OdeFn, Pendulum, State, SymmetricCoordinates, SymmetricPendulum,
+    AbsoluteAngles, Canonical, CanonicalVariables, Energy, Ode, OdeFn, Pendulum, State,
+    SymmetricCoordinates, SymmetricPendulum,
 };

@@ -6,10 +6,14 @@
 //! [`Ode`], a first-order system. [`AbsoluteAngles`] and
 //! [`SymmetricCoordinates`] turn one into the other.
 
+mod canonical;
+
 use alloc::vec::Vec;
 use core::fmt;
 
 use crate::scalar::Scalar;
+
+pub use canonical::{Canonical, CanonicalVariables};
 
 /// Equations of motion in absolute angles.
 ///

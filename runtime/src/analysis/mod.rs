@@ -5,3 +5,4 @@ pub mod spectrum;
 
 pub use modes::{Modes, ModesError};
 pub use spectrum::{Peak, Spectrum, SpectrumError, SpectrumOptions, Window};
+pub mod variational;

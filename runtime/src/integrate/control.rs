@@ -8,7 +8,7 @@ use crate::scalar::Real;
 
 /// The constants of a method's step-size control.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ControlConstants {
+pub struct ControlConstants {
     /// The scaled error behaves as the step to this power.
     pub(crate) order: u32,
     /// Factor that keeps the aim below the limit.

@@ -37,7 +37,7 @@ pub enum InputError<T> {
     /// A step size in the options is negative or not finite, or zero where it
     /// must not be.
     Step {
-        /// `"initial"`, `"longest"` or `"shortest"`.
+        /// `"initial"`, `"longest"`, `"shortest"` or `"fixed"`.
         name: &'static str,
         /// The step given.
         value: T,
@@ -205,6 +205,32 @@ pub enum IntegrationError<T> {
         /// Account of the run so far.
         report: Report<T>,
     },
+    /// The equations of an implicit step were not solved, however often it was
+    /// halved.
+    NotSolved {
+        /// Length of the last step tried.
+        step: T,
+        /// Iterations made for it.
+        iterations: u32,
+        /// Largest change of a component in the last iteration, relative to its
+        /// size; NaN where the matrix of Newton's method is singular.
+        change: T,
+        /// The last accepted state.
+        last: State<T>,
+        /// Account of the run so far.
+        report: Report<T>,
+    },
+    /// The function of an event is NaN.
+    Event {
+        /// Index of the event among those asked for.
+        event: usize,
+        /// Time of the evaluation.
+        time: T,
+        /// The last accepted state.
+        last: State<T>,
+        /// Account of the run so far.
+        report: Report<T>,
+    },
     /// The limit on the number of steps was reached.
     StepLimit {
         /// The limit.
@@ -224,6 +250,8 @@ impl<T> IntegrationError<T> {
             Self::Input(_) => None,
             Self::NonFinite { last, .. }
             | Self::StepTooSmall { last, .. }
+            | Self::NotSolved { last, .. }
+            | Self::Event { last, .. }
             | Self::StepLimit { last, .. } => Some(last),
         }
     }
@@ -235,6 +263,8 @@ impl<T> IntegrationError<T> {
             Self::Input(_) => None,
             Self::NonFinite { report, .. }
             | Self::StepTooSmall { report, .. }
+            | Self::NotSolved { report, .. }
+            | Self::Event { report, .. }
             | Self::StepLimit { report, .. } => Some(report),
         }
     }
@@ -271,6 +301,24 @@ impl<T: Real> fmt::Display for IntegrationError<T> {
                 "a step of {step} at t = {} is below the shortest allowed, {shortest}",
                 last.time
             ),
+            Self::NotSolved {
+                step,
+                iterations,
+                change,
+                last,
+                report: _,
+            } => write!(
+                f,
+                "a step of {step} at t = {} is not solved after {iterations} iterations: \
+                 the last changed it by {change} of its size",
+                last.time
+            ),
+            Self::Event {
+                event,
+                time,
+                last: _,
+                report: _,
+            } => write!(f, "the function of event {event} is NaN at t = {time}"),
             Self::StepLimit {
                 limit,
                 last,

@@ -1,21 +1,40 @@
 //! Integration of the equations of motion.
 //!
-//! One method so far: [`Dop853`], an explicit Runge–Kutta method of order 8
-//! with adaptive steps and dense output of order 7. Steps are chosen by the
-//! error alone; an observer sees each accepted step as a [`DenseStep`] and may
-//! evaluate it anywhere inside, so that output never shortens a step.
+//! Methods that differ in order and cost, and share everything else: the trait
+//! [`Integrator`]. Steps are chosen by the error alone; an observer sees each
+//! accepted step as a [`DenseStep`] and may evaluate it anywhere inside, so
+//! that output never shortens a step.
+//!
+//! | method | order | dense output | steps | for |
+//! |---|---|---|---|---|
+//! | [`Dopri5`] | 5(4) | 4 | adaptive | tolerances above 1e-5 |
+//! | [`Dop853`] | 8(5,3) | 7 | adaptive | most things |
+//! | [`Verner98`] | 9(8) | 8 | adaptive | tolerances below 1e-10 |
+//! | [`Rk4`] | 4 | 3 | fixed | comparison |
+//! | [`Gauss`] | 2, 4, 6, 8 | 1 to 4 | fixed | energy over long times |
 //!
 //! Every run ends with a [`Report`]; a run that fails ends with an
 //! [`IntegrationError`] that carries the last good state.
 
 mod control;
-mod dop853;
+mod dense;
 mod error;
+mod events;
+mod explicit;
+mod fixed;
+mod integrator;
 mod options;
 mod report;
 mod request;
+mod sum;
 
-pub use dop853::{DenseError, DenseStep, Dop853};
+pub use dense::{DenseError, DenseStep};
 pub use error::{InputError, IntegrationError};
+pub use events::{Crossing, Event, Occurrence};
+pub use explicit::{
+    Dop853, Dopri5, DormandPrince5, DormandPrince8, ExplicitRungeKutta, Verner9, Verner98,
+};
+pub use fixed::{Gauss, GaussOrder, Rk4, Solver};
+pub use integrator::Integrator;
 pub use options::{Options, Tolerance};
 pub use report::{Report, Solution, StopReason};

@@ -13,10 +13,14 @@ pub enum StopReason {
     EndReached,
     /// The observer asked to stop.
     StoppedByObserver,
+    /// An event was found at which the run was to end.
+    StoppedByEvent,
     /// The limit on the number of steps was reached.
     StepLimit,
     /// A step below the shortest allowed was called for.
     StepTooSmall,
+    /// The equations of an implicit step could not be solved.
+    NotSolved,
     /// The state or its rates became infinite or NaN.
     NonFinite,
 }
@@ -26,8 +30,10 @@ impl fmt::Display for StopReason {
         f.write_str(match self {
             Self::EndReached => "end reached",
             Self::StoppedByObserver => "stopped by the observer",
+            Self::StoppedByEvent => "stopped at an event",
             Self::StepLimit => "step limit reached",
             Self::StepTooSmall => "step too small",
+            Self::NotSolved => "equations of a step not solved",
             Self::NonFinite => "state or rates not finite",
         })
     }
@@ -38,7 +44,8 @@ impl fmt::Display for StopReason {
 pub struct Report<T> {
     /// Steps accepted.
     pub accepted: u64,
-    /// Steps rejected because their error was too large.
+    /// Steps rejected because their error was too large, or because their
+    /// equations could not be solved.
     pub rejected: u64,
     /// Evaluations of the right-hand side, those for the first step and for
     /// the dense output included.
@@ -104,7 +111,8 @@ impl<T: Real> fmt::Display for Report<T> {
 /// Where a run ended, and its account.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution<T> {
-    /// The last state: at the end of the span, or where the observer stopped.
+    /// The last state: at the end of the span, where the observer stopped, or
+    /// at the event that ended the run.
     pub state: State<T>,
     /// The account of the run.
     pub report: Report<T>,

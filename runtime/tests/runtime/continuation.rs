@@ -89,16 +89,62 @@ fn a_run_ended_by_the_step_limit_continues_with_the_same_steps() {
 
 #[test]
 fn equal_runs_are_equal_bit_for_bit() {
-    let run = || {
-        Dop853::new(Options {
-            beta: 0.04,
-            compensated: true,
-            ..Options::with_tolerance(1e-10)
-        })
-        .integrate(&kepler(), &perihelion(0.4), 30.0, watch)
-        .unwrap()
+    fn twice(method: &impl Integrator<f64, dyn Ode<f64>>) {
+        let ode: &dyn Ode<f64> = &kepler();
+        let run = || {
+            method
+                .integrate(ode, &perihelion(0.4), 30.0, watch)
+                .unwrap()
+        };
+        let (first, second) = (run(), run());
+        let bits = |solution: &Solution<f64>| -> Vec<u64> {
+            solution
+                .state
+                .values
+                .iter()
+                .map(|value| value.to_bits())
+                .collect()
+        };
+        assert_eq!(bits(&first), bits(&second));
+        assert_eq!(first, second);
+    }
+    let options = || Options {
+        beta: 0.04,
+        compensated: true,
+        ..Options::with_tolerance(1e-10)
     };
-    assert_eq!(run(), run());
+    twice(&Dopri5::new(options()));
+    twice(&Dop853::new(options()));
+    twice(&Verner98::new(options()));
+    twice(&Rk4::new(0.01));
+    twice(&Gauss::new(GaussOrder::Six, 0.05));
+    twice(&Gauss {
+        solver: Solver::Newton,
+        ..Gauss::new(GaussOrder::Two, 0.05)
+    });
+}
+
+/// Stopped anywhere on its grid, a method with fixed steps goes on with the
+/// same steps; the times differ by rounding only.
+#[test]
+fn fixed_steps_continue_on_their_grid() {
+    let ode = kepler();
+    let method = Rk4::new(0.125);
+    let whole = method
+        .integrate(&ode, &perihelion(0.4), 10.0, watch)
+        .unwrap();
+    let first = method
+        .integrate(&ode, &perihelion(0.4), 10.0, |step| {
+            if step.end_time() >= 3.0 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })
+        .unwrap();
+    assert_eq!(first.state.time, 3.0);
+    let rest = method.integrate(&ode, &first.state, 10.0, watch).unwrap();
+    assert_eq!(rest.state, whole.state);
 }
 
 #[test]

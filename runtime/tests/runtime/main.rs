@@ -4,12 +4,18 @@
 #![cfg(feature = "std")]
 
 mod accuracy;
+mod animation;
 mod continuation;
 mod csv;
+mod ensemble;
+mod events;
 mod failures;
+mod gauss;
 mod modes;
 mod order;
 mod problems;
 mod reference;
 mod requests;
 mod spectrum;
+mod stability;
+mod variational;

@@ -30,6 +30,18 @@ pub(crate) fn driven_oscillator_at(time: f64) -> [f64; 2] {
     ]
 }
 
+/// y₁' = −2 t y₁², y₂' = y₁ y₂: not linear, y₁ = 1/(1 + t²), y₂ = exp(arctan t).
+pub(crate) fn bell() -> impl Ode<f64> {
+    OdeFn::new(2, |time: f64, y: &[f64], rates: &mut [f64]| {
+        rates[0] = -2.0 * time * y[0] * y[0];
+        rates[1] = y[0] * y[1];
+    })
+}
+
+pub(crate) fn bell_at(time: f64) -> [f64; 2] {
+    [1.0 / (1.0 + time * time), time.atan().exp()]
+}
+
 /// Two bodies; period 2π. State: position, velocity in the plane.
 pub(crate) fn kepler<T: Real>() -> impl Ode<T> {
     OdeFn::new(4, |_time: T, y: &[T], rates: &mut [T]| {
@@ -137,6 +149,46 @@ impl<T: Scalar> SymmetricPendulum<T> for BranchedDouble {
         alpha[0] = torque / inertia;
         alpha[1] = -((couple_m * alpha[0] + force_m) / m2);
         alpha[2] = -((couple_d * alpha[0] + force_d) / m2);
+    }
+}
+
+/// In absolute angles and their momenta p = M ω: ω by elimination, and
+/// ∂L/∂θ_1 = μ ω_1 Σ sin(θ_j − θ_1) ω_j − G_1 sin θ_1,
+/// ∂L/∂θ_j = −μ ω_1 sin(θ_j − θ_1) ω_j − G_2 sin θ_j.
+impl Canonical<f64> for BranchedDouble {
+    fn freedoms(&self) -> usize {
+        3
+    }
+
+    fn canonical_rates(&self, _time: f64, q: &[f64], p: &[f64], omega: &mut [f64], f: &mut [f64]) {
+        let coupling = [1, 2].map(|j| {
+            let (sine, cosine) = (q[j] - q[0]).sin_cos();
+            (self.mu * sine, self.mu * cosine)
+        });
+        let (mut inertia, mut momentum) = (self.m1, p[0]);
+        for (j, (_, cosine)) in [1, 2].into_iter().zip(coupling) {
+            inertia -= cosine * cosine / self.m2;
+            momentum -= cosine * p[j] / self.m2;
+        }
+        omega[0] = momentum / inertia;
+        f[0] = -self.g1 * q[0].sin();
+        for (j, (sine, cosine)) in [1, 2].into_iter().zip(coupling) {
+            omega[j] = (p[j] - cosine * omega[0]) / self.m2;
+            let exchange = sine * omega[0] * omega[j];
+            f[0] += exchange;
+            f[j] = -exchange - self.g2 * q[j].sin();
+        }
+    }
+}
+
+impl BranchedDouble {
+    /// H of a state of angles and momenta.
+    pub(crate) fn hamiltonian(&self, state: &[f64]) -> f64 {
+        let (q, p) = state.split_at(3);
+        let (mut omega, mut rates) = ([0.0; 3], [0.0; 3]);
+        self.canonical_rates(0.0, q, p, &mut omega, &mut rates);
+        let kinetic: f64 = omega.iter().zip(p).map(|(w, p)| 0.5 * w * p).sum();
+        kinetic + self.potential_energy_of(q)
     }
 }
 

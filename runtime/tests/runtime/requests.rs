@@ -147,6 +147,35 @@ fn starts_and_times_that_make_no_sense() {
 }
 
 #[test]
+fn fixed_steps_that_make_no_sense() {
+    let message = |method: &dyn Fn() -> Result<Solution<f64>, IntegrationError<f64>>| {
+        method().unwrap_err().to_string()
+    };
+    for step in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+        let expected = format!("fixed step is {step}: it must be finite and positive");
+        let rk4 = || Rk4::new(step).integrate(&harmonic(), &start(), 1.0, watch);
+        assert_eq!(message(&rk4), expected);
+        let gauss = Gauss::new(GaussOrder::Four, step);
+        assert_eq!(
+            message(&|| gauss.integrate(&harmonic(), &start(), 1.0, watch)),
+            expected
+        );
+    }
+    let far = State::at_rest(1e9, &[1.0]);
+    let lost = || Rk4::new(1e-8).integrate(&harmonic(), &far, 1e9 + 1.0, watch);
+    assert!(message(&lost).starts_with("a step of 0.00000001 at t = 1000000000 is below"));
+    let limited = Rk4 {
+        step_limit: 7,
+        ..Rk4::new(0.1)
+    };
+    let error = limited
+        .integrate(&harmonic(), &start(), 1.0, watch)
+        .unwrap_err();
+    assert_eq!(error.report().unwrap().accepted, 7);
+    assert!((error.last_state().unwrap().time - 0.7).abs() < 1e-15);
+}
+
+#[test]
 fn sample_times_that_turn_back() {
     let method = Dop853::new(options());
     let sample = |times: &[f64]| {

@@ -11,8 +11,7 @@
 // The source gives 30 digits; keeping them makes the comparison by eye exact.
 #![allow(clippy::excessive_precision)]
 
-/// One row of a table: the number of a stage and its coefficient.
-pub(super) type Row<const N: usize> = [(usize, f64); N];
+use crate::integrate::explicit::arithmetic::Row;
 
 /// Order of the solution that is continued.
 pub(super) const ORDER: u32 = 8;

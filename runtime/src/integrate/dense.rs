@@ -1,45 +1,52 @@
-//! An accepted step as an observer sees it.
+//! Values inside an accepted step.
 
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::arithmetic::Span;
-use super::memory::Memory;
-use crate::integrate::report::Report;
+use super::report::Report;
 use crate::scalar::Real;
-use crate::system::Ode;
+
+/// What a method knows of a step that it has made.
+pub(crate) trait Interpolant<T> {
+    /// State at the start of the step.
+    fn start(&self) -> &[T];
+
+    /// State at the end of the step.
+    fn end(&self) -> &[T];
+
+    /// Makes what [`value`](Self::value) needs; called once, before the first
+    /// of them. Returns the number of evaluations of the right-hand side.
+    fn prepare(&mut self) -> Result<u64, DenseError<T>>;
+
+    /// Writes the solution at the fraction `fraction` of the step, from 0 to 1.
+    fn value(&self, fraction: T, out: &mut [T]);
+}
 
 /// An accepted step: its two ends, and the solution between them.
 ///
-/// Between its ends the solution is a polynomial of order 7: its error falls
-/// with the eighth power of the length of the step. It is continuous with its
-/// derivative from step to step.
-/// Its coefficients cost three evaluations of the right-hand side, which are
-/// made when the first value is asked for and never before.
+/// Between its ends the solution is a polynomial whose order the method
+/// states; it is continuous from step to step. What its coefficients cost
+/// beyond the step itself is spent when the first value is asked for and never
+/// before.
 pub struct DenseStep<'a, T> {
-    ode: &'a dyn Ode<T>,
-    memory: &'a mut Memory<T>,
+    interpolant: &'a mut dyn Interpolant<T>,
     report: &'a mut Report<T>,
-    span: Span<T>,
+    start_time: T,
     end_time: T,
     prepared: bool,
 }
 
 impl<'a, T: Real> DenseStep<'a, T> {
-    /// The step `span`, which ends at `end_time`, with stages 1 to 13 in
-    /// `memory`.
-    pub(super) fn new(
-        ode: &'a dyn Ode<T>,
-        memory: &'a mut Memory<T>,
+    pub(crate) fn new(
+        interpolant: &'a mut dyn Interpolant<T>,
         report: &'a mut Report<T>,
-        span: Span<T>,
+        start_time: T,
         end_time: T,
     ) -> Self {
         Self {
-            ode,
-            memory,
+            interpolant,
             report,
-            span,
+            start_time,
             end_time,
             prepared: false,
         }
@@ -47,7 +54,7 @@ impl<'a, T: Real> DenseStep<'a, T> {
 
     /// Time at which the step starts.
     pub fn start_time(&self) -> T {
-        self.span.time
+        self.start_time
     }
 
     /// Time at which the step ends; before the start when running backwards.
@@ -57,22 +64,12 @@ impl<'a, T: Real> DenseStep<'a, T> {
 
     /// State at the start of the step.
     pub fn start(&self) -> &[T] {
-        &self.memory.start
+        self.interpolant.start()
     }
 
     /// State at the end of the step.
     pub fn end(&self) -> &[T] {
-        &self.memory.end
-    }
-
-    /// Rates at the start of the step.
-    pub fn start_rates(&self) -> &[T] {
-        &self.memory.rates[0]
-    }
-
-    /// Rates at the end of the step.
-    pub fn end_rates(&self) -> &[T] {
-        &self.memory.rates[12]
+        self.interpolant.end()
     }
 
     /// The run's account up to and with this step.
@@ -82,7 +79,7 @@ impl<'a, T: Real> DenseStep<'a, T> {
 
     /// Whether `time` lies within the step, its ends included.
     pub fn contains(&self, time: T) -> bool {
-        let (start, end) = (self.span.time, self.end_time);
+        let (start, end) = (self.start_time, self.end_time);
         (start <= time && time <= end) || (end <= time && time <= start)
     }
 
@@ -93,41 +90,36 @@ impl<'a, T: Real> DenseStep<'a, T> {
     ///
     /// [`DenseError`] if `time` is outside the step (NaN included), if `out`
     /// has not the length of the state, or if the right-hand side is not finite
-    /// at one of the three additional points.
+    /// at one of the additional points that the method needs.
     pub fn eval(&mut self, time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
-        if out.len() != self.memory.start.len() {
+        let dimension = self.start().len();
+        if out.len() != dimension {
             return Err(DenseError::Length {
-                expected: self.memory.start.len(),
+                expected: dimension,
                 found: out.len(),
             });
         }
         if !self.contains(time) {
             return Err(DenseError::OutsideStep {
                 time,
-                start: self.span.time,
+                start: self.start_time,
                 end: self.end_time,
             });
         }
         if time == self.end_time {
-            out.copy_from_slice(&self.memory.end);
+            out.copy_from_slice(self.end());
             return Ok(());
         }
-        if time == self.span.time {
-            out.copy_from_slice(&self.memory.start);
+        if time == self.start_time {
+            out.copy_from_slice(self.start());
             return Ok(());
         }
         if !self.prepared {
-            self.report.evaluations += 3;
-            self.memory
-                .prepare_dense(self.ode, self.span)
-                .map_err(|rates| DenseError::NonFinite {
-                    time: rates.time,
-                    values: self.memory.stage.clone(),
-                })?;
+            self.report.evaluations += self.interpolant.prepare()?;
             self.prepared = true;
         }
-        self.memory
-            .dense_output((time - self.span.time) / self.span.step, out);
+        let fraction = (time - self.start_time) / (self.end_time - self.start_time);
+        self.interpolant.value(fraction, out);
         Ok(())
     }
 }
@@ -135,19 +127,18 @@ impl<'a, T: Real> DenseStep<'a, T> {
 impl<T: Real> fmt::Debug for DenseStep<'_, T> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
-            ode: _,
-            memory,
+            interpolant,
             report,
-            span,
+            start_time,
             end_time,
             prepared,
         } = self;
         formatter
             .debug_struct("DenseStep")
-            .field("start_time", &span.time)
+            .field("start_time", start_time)
             .field("end_time", end_time)
-            .field("start", &memory.start)
-            .field("end", &memory.end)
+            .field("start", &interpolant.start())
+            .field("end", &interpolant.end())
             .field("report", report)
             .field("prepared", prepared)
             .finish_non_exhaustive()

@@ -2,11 +2,12 @@
 
 use super::arithmetic::NonFiniteRates;
 use super::memory::Memory;
+use super::pair::Pair;
 use crate::integrate::error::IntegrationError;
 use crate::integrate::options::Options;
 use crate::integrate::report::{Report, Solution, StopReason};
 use crate::scalar::Real;
-use crate::system::State;
+use crate::system::{Ode, State};
 
 /// A run under way.
 pub(super) struct Run<'a, T, O: ?Sized> {
@@ -18,13 +19,24 @@ pub(super) struct Run<'a, T, O: ?Sized> {
 
 impl<'a, T: Real, O: ?Sized> Run<'a, T, O> {
     /// A run of `ode` about to leave `start`.
-    pub(super) fn new(ode: &'a O, options: &Options<T>, start: &State<T>) -> Self {
+    pub(super) fn new<M: Pair>(ode: &'a O, options: &Options<T>, start: &State<T>) -> Self {
         Self {
             ode,
-            memory: Memory::new(options, &start.values),
+            memory: Memory::new::<M>(options, &start.values),
             time: start.time,
             report: Report::new(),
         }
+    }
+
+    /// Rates at the end of the step, at time `time`.
+    pub(super) fn evaluate_end<M: Pair>(&mut self, time: T) -> Result<(), IntegrationError<T>>
+    where
+        O: Ode<T>,
+    {
+        self.report.evaluations += 1;
+        self.memory
+            .evaluate_end(self.ode, time, M::STAGES + 1)
+            .map_err(|rates| self.non_finite(rates))
     }
 
     /// Whether a step of length `step` may be tried; `last` if it reaches the

@@ -1,0 +1,116 @@
+//! Variational equations: how small deviations from a motion grow.
+//!
+//! With y' = f(t, y) a small deviation v obeys v' = ∂f/∂y v. A [`Linearised`]
+//! system gives both; [`Variational`] is the system of the motion and any
+//! number of deviations, which every method integrates with its error control.
+//! [`flow_jacobian`] is the derivative of the end with respect to the start,
+//! [`trusted_until`] the time to which a given error stays small, and
+//! [`Lyapunov`] the mean rates of growth.
+//!
+//! The derivative comes from numbers that carry one ([`ByTangents`]: exact,
+//! and free where the equations are generic over the scalar) or from a function
+//! of the caller ([`WithDerivative`]).
+
+mod lyapunov;
+mod system;
+
+use core::ops::ControlFlow;
+
+use crate::integrate::{InputError, IntegrationError, Integrator};
+use crate::scalar::Real;
+use crate::system::{Ode, State};
+
+pub use self::lyapunov::{Lyapunov, LyapunovError, LyapunovSpectrum};
+pub use self::system::{ByTangents, Linearised, Tangent, Variational, WithDerivative};
+
+/// The start with one deviation along each component, of size one.
+fn with_unit_deviations<T: Real>(start: &State<T>) -> State<T> {
+    let n = start.values.len();
+    let mut values = start.values.clone();
+    for direction in 0..n {
+        values.extend((0..n).map(|i| if i == direction { T::ONE } else { T::ZERO }));
+    }
+    State::new(start.time, values)
+}
+
+fn check_dimension<T: Real, L: Ode<T>>(
+    system: &L,
+    start: &State<T>,
+) -> Result<(), IntegrationError<T>> {
+    let (expected, found) = (system.dimension(), start.values.len());
+    if expected == found {
+        return Ok(());
+    }
+    Err(InputError::Dimension { expected, found }.into())
+}
+
+/// Derivative of the state at `end` with respect to the state at the start:
+/// column j, the n numbers from n j on, is what the end moves by for a small
+/// unit of component j. With the columns comes the end itself.
+///
+/// Cost: n deviations beside the motion. For a conservative system in canonical
+/// variables the matrix is symplectic.
+///
+/// # Errors
+///
+/// As [`Integrator::integrate`].
+pub fn flow_jacobian<T, L, M>(
+    method: &M,
+    system: &L,
+    start: &State<T>,
+    end: T,
+) -> Result<(State<T>, Vec<T>), IntegrationError<T>>
+where
+    T: Real,
+    L: Linearised<T>,
+    M: for<'a> Integrator<T, Variational<'a, L>>,
+{
+    check_dimension(system, start)?;
+    let n = start.values.len();
+    let all = Variational::new(system, n);
+    let start = with_unit_deviations(start);
+    let mut solution = method.integrate(&all, &start, end, |_| ControlFlow::Continue(()))?;
+    let columns = solution.state.values.split_off(n);
+    Ok((solution.state, columns))
+}
+
+/// The time to which an error of size `error` at the start stays below
+/// `allowed`, both in the Euclidean norm of the state and in the linear
+/// approximation; none if that is so up to `end`.
+///
+/// The horizon of a chaotic motion: with the error of one rounding, the time
+/// beyond which no digits are left, whatever the method and its tolerance. The
+/// growth is the Frobenius norm of the flow's derivative, which is that of the
+/// worst direction up to a factor √n; the time is the end of a step.
+///
+/// # Errors
+///
+/// As [`Integrator::integrate`].
+pub fn trusted_until<T, L, M>(
+    method: &M,
+    system: &L,
+    start: &State<T>,
+    end: T,
+    error: T,
+    allowed: T,
+) -> Result<Option<T>, IntegrationError<T>>
+where
+    T: Real,
+    L: Linearised<T>,
+    M: for<'a> Integrator<T, Variational<'a, L>>,
+{
+    check_dimension(system, start)?;
+    let n = start.values.len();
+    let all = Variational::new(system, n);
+    let mut horizon = None;
+    method.integrate(&all, &with_unit_deviations(start), end, |step| {
+        let deviations = &step.end()[n..];
+        let squares = deviations.iter().fold(T::ZERO, |sum, &v| sum + v * v);
+        if error * squares.sqrt() < allowed {
+            return ControlFlow::Continue(());
+        }
+        horizon = Some(step.start_time());
+        ControlFlow::Break(())
+    })?;
+    Ok(horizon)
+}

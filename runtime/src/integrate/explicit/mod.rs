@@ -1,0 +1,180 @@
+//! Explicit Runge–Kutta pairs: one driver, one file of coefficients each.
+
+mod arithmetic;
+mod dop853;
+mod dopri5;
+mod driver;
+mod memory;
+#[cfg(test)]
+mod order_conditions;
+mod pair;
+mod run;
+mod verner98;
+
+use core::marker::PhantomData;
+
+use self::arithmetic::{NonFiniteRates, Span};
+use self::pair::Pair;
+use self::run::Run;
+use super::error::{InputError, IntegrationError};
+use super::options::Options;
+use super::request::{all_finite, check_start};
+use crate::scalar::Real;
+use crate::system::{Ode, State};
+
+pub use self::dop853::DormandPrince8;
+pub use self::dopri5::DormandPrince5;
+pub use self::verner98::Verner9;
+
+/// The explicit Runge–Kutta method of J. R. Dormand and P. J. Prince of order
+/// 8, with error estimates of order 5 and 3 and dense output of order 7.
+///
+/// Twelve evaluations of the right-hand side for an accepted step, eleven for
+/// a rejected one, three more where values inside a step are asked for.
+/// Memory: 16 + 14 vectors of the state's length.
+///
+/// Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations
+/// I*, 2nd edition, Springer 1993, section II.10.
+///
+/// # Examples
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use branched_pendulum::prelude::*;
+///
+/// let oscillator = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+///     rates[0] = y[1];
+///     rates[1] = -y[0];
+/// });
+/// let start = State::at_rest(0.0, &[1.0]);
+/// let method = Dop853::new(Options::with_tolerance(1e-12));
+///
+/// // Stop at the first step that passes through zero.
+/// let solution = method.integrate(&oscillator, &start, 10.0, |step| {
+///     if step.end()[0] < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+/// })?;
+/// assert_eq!(solution.report.stop, StopReason::StoppedByObserver);
+/// assert!((solution.state.values[0] - solution.state.time.cos()).abs() < 1e-11);
+/// # Ok::<(), IntegrationError<f64>>(())
+/// ```
+pub type Dop853<T> = ExplicitRungeKutta<DormandPrince8, T>;
+
+/// The explicit Runge–Kutta method of J. R. Dormand and P. J. Prince of order
+/// 5, with an error estimate of order 4 and dense output of order 4: for loose
+/// tolerances.
+///
+/// Six evaluations of the right-hand side for an accepted or a rejected step,
+/// none for values inside. Memory: 7 + 12 vectors of the state's length.
+///
+/// Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations
+/// I*, 2nd edition, Springer 1993, table II.5.2 and section II.6.
+pub type Dopri5<T> = ExplicitRungeKutta<DormandPrince5, T>;
+
+/// J. H. Verner's "most efficient" explicit Runge–Kutta method of order 9, with
+/// an error estimate of order 8 and dense output of order 8: for tight
+/// tolerances.
+///
+/// Sixteen evaluations of the right-hand side for an accepted step, fifteen for
+/// a rejected one, four more where values inside a step are asked for. Memory:
+/// 21 + 15 vectors of the state's length.
+///
+/// Source: J. H. Verner, *Numerically optimal Runge–Kutta pairs with
+/// interpolants*, Numerical Algorithms 53 (2010) 383–396; coefficients in the
+/// author's later, better version of 7 April 2024.
+pub type Verner98<T> = ExplicitRungeKutta<Verner9, T>;
+
+/// An adaptive explicit Runge–Kutta method: an embedded pair and options.
+///
+/// Used by the names of its pairs: [`Dopri5`], [`Dop853`], [`Verner98`]. All
+/// memory is allocated when a run starts; steps allocate nothing.
+///
+/// Same input, same target, same bits: nothing in a run depends on anything
+/// but its arguments. A run that an observer or the step limit has stopped
+/// continues with exactly the steps that it would have made, when started
+/// again from its last state with [`Report::next_step`] as initial step,
+/// provided that [`Options::beta`] is zero and [`Options::compensated`] is
+/// off: the memory of the two is not part of a [`State`].
+///
+/// [`Report::next_step`]: super::Report::next_step
+pub struct ExplicitRungeKutta<M, T> {
+    options: Options<T>,
+    pair: PhantomData<M>,
+}
+
+impl<M, T: Clone> Clone for ExplicitRungeKutta<M, T> {
+    fn clone(&self) -> Self {
+        Self {
+            options: self.options.clone(),
+            pair: PhantomData,
+        }
+    }
+}
+
+impl<M, T: core::fmt::Debug> core::fmt::Debug for ExplicitRungeKutta<M, T> {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { options, pair } = self;
+        formatter
+            .debug_struct("ExplicitRungeKutta")
+            .field("options", options)
+            .field("pair", pair)
+            .finish()
+    }
+}
+
+impl<M: Pair, T: Real> ExplicitRungeKutta<M, T> {
+    /// The method with these options, which are checked when a run starts.
+    pub fn new(options: Options<T>) -> Self {
+        Self {
+            options,
+            pair: PhantomData,
+        }
+    }
+
+    /// The options of the method.
+    pub fn options(&self) -> &Options<T> {
+        &self.options
+    }
+
+    /// One step of length `step` (negative: backwards), whatever its error.
+    ///
+    /// For tests of the method and for loops with a step of their own; it
+    /// evaluates the stages once and allocates. Tolerances and
+    /// step limits have no say, and sums are plain.
+    ///
+    /// # Errors
+    ///
+    /// [`IntegrationError`] if the request makes no sense, or if the state or
+    /// its rates are not finite.
+    pub fn step<O: Ode<T> + ?Sized>(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        step: T,
+    ) -> Result<State<T>, IntegrationError<T>> {
+        check_start(ode, start)?;
+        self.options.validate(start.values.len())?;
+        if !step.is_finite() {
+            return Err(InputError::FixedStep { value: step }.into());
+        }
+        let mut run = Run::new::<M>(ode, &self.options, start);
+        let span = Span {
+            time: start.time,
+            step,
+        };
+        let end_time = start.time + step;
+        run.report.evaluations = M::STAGES as u64;
+        run.memory
+            .evaluate_start(ode, start.time)
+            .and_then(|()| M::stages(&mut run.memory, ode, span))
+            .map_err(|rates| run.non_finite(rates))?;
+        M::finish(&mut run.memory, span, false);
+        if !all_finite(&run.memory.end) {
+            run.memory.stage.copy_from_slice(&run.memory.end);
+            return Err(run.non_finite(NonFiniteRates { time: end_time }));
+        }
+        Ok(State {
+            time: end_time,
+            values: run.memory.end,
+        })
+    }
+}

@@ -1,0 +1,208 @@
+//! The vectors that a run works on, and its steps.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::tables::Table;
+use super::{Gauss, Solver};
+use crate::integrate::dense::{DenseError, Interpolant};
+use crate::integrate::fixed::driver::{Failure, Stepper};
+use crate::integrate::fixed::linear::Factored;
+use crate::integrate::report::Report;
+use crate::integrate::request::all_finite;
+use crate::integrate::sum::two_sum;
+use crate::scalar::Real;
+use crate::system::Ode;
+
+/// Workspace of a run.
+pub(super) struct Memory<T> {
+    pub(super) table: &'static Table,
+    pub(super) solver: Solver,
+    pub(super) tolerance: T,
+    pub(super) iteration_limit: u32,
+    pub(super) start: Vec<T>,
+    end: Vec<T>,
+    /// Rounding error of `start`, to be added to it.
+    pub(super) residue: Vec<T>,
+    end_residue: Vec<T>,
+    /// Largest size of each component so far: what its changes are measured
+    /// by, since one that passes through zero has no size of its own.
+    pub(super) sizes: Vec<T>,
+    /// Rates of the stages, one after the other.
+    pub(super) rates: Vec<T>,
+    /// Increments of the stages over the start, one after the other.
+    pub(super) increments: Vec<T>,
+    /// Change of the rates in an iteration.
+    pub(super) change: Vec<T>,
+    /// State at which rates are evaluated.
+    pub(super) stage: Vec<T>,
+    /// Rates at the start of the run, or at a point of a difference.
+    pub(super) other: Vec<T>,
+    /// Step that `rates` belong to: zero before the first, and after a failed
+    /// one, when there is nothing to extrapolate.
+    pub(super) step: T,
+    /// Matrix of Newton's method and the step that it was made for.
+    pub(super) newton: Factored<T>,
+    pub(super) newton_step: T,
+    /// Derivatives of the rates, row after row.
+    pub(super) derivatives: Vec<T>,
+}
+
+impl<T: Real> Memory<T> {
+    pub(super) fn new(method: &Gauss<T>, start: &[T]) -> Self {
+        let table = method.order.table();
+        let (n, s) = (start.len(), table.nodes.len());
+        let matrix = match method.solver {
+            Solver::FixedPoint => 0,
+            Solver::Newton => n,
+        };
+        Self {
+            table,
+            solver: method.solver,
+            tolerance: method.tolerance,
+            iteration_limit: method.iteration_limit,
+            start: start.to_vec(),
+            end: vec![T::ZERO; n],
+            residue: vec![T::ZERO; n],
+            end_residue: vec![T::ZERO; n],
+            sizes: start.iter().map(|value| value.abs()).collect(),
+            rates: vec![T::ZERO; n * s],
+            increments: vec![T::ZERO; n * s],
+            change: vec![T::ZERO; n * s],
+            stage: vec![T::ZERO; n],
+            other: vec![T::ZERO; n],
+            step: T::ZERO,
+            newton: Factored::new(matrix * s),
+            newton_step: T::ZERO,
+            derivatives: vec![T::ZERO; matrix * matrix],
+        }
+    }
+
+    /// Increments of the stages from the polynomial of the step before, or
+    /// along the rates at the start where there is none.
+    fn guess(&mut self, step: T) {
+        let (n, s) = (self.start.len(), self.table.nodes.len());
+        let ratio = if self.step == T::ZERO {
+            T::ZERO
+        } else {
+            step / self.step
+        };
+        for (i, &node) in self.table.nodes.iter().enumerate() {
+            let own = &mut self.increments[i * n..(i + 1) * n];
+            if self.step == T::ZERO {
+                let part = T::from_f64(node) * step;
+                for (value, &rate) in own.iter_mut().zip(&self.other) {
+                    *value = part * rate;
+                }
+                continue;
+            }
+            own.fill(T::ZERO);
+            let place = T::ONE + ratio * T::from_f64(node);
+            for j in 0..s {
+                let weight =
+                    self.step * (integral(self.table, j, place) - integral(self.table, j, T::ONE));
+                for (value, &rate) in own.iter_mut().zip(&self.rates[j * n..(j + 1) * n]) {
+                    *value += weight * rate;
+                }
+            }
+        }
+    }
+
+    /// y at the end of the step, from the rates of the stages.
+    fn finish(&mut self, step: T) {
+        let n = self.start.len();
+        for i in 0..n {
+            let (mut main, mut rest) = (T::ZERO, T::ZERO);
+            for (j, &(large, small)) in self.table.weights.iter().enumerate() {
+                main += T::from_f64(large) * self.rates[j * n + i];
+                rest += T::from_f64(small) * self.rates[j * n + i];
+            }
+            let increment = step * main + (step * rest + self.residue[i]);
+            (self.end[i], self.end_residue[i]) = two_sum(self.start[i], increment);
+            self.sizes[i] = self.sizes[i].max(self.end[i].abs());
+        }
+    }
+}
+
+/// Integral from 0 to x of the Lagrange polynomial of node j.
+fn integral<T: Real>(table: &Table, j: usize, x: T) -> T {
+    let s = table.nodes.len();
+    let row = &table.integrals[j * s..(j + 1) * s];
+    row.iter()
+        .rev()
+        .fold(T::ZERO, |sum, &c| (sum + T::from_f64(c)) * x)
+}
+
+impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
+    fn begin(&mut self, ode: &O, time: T, report: &mut Report<T>) -> Result<(), Failure<T>> {
+        report.evaluations += 1;
+        ode.rates(time, &self.start, &mut self.other);
+        if all_finite(&self.other) {
+            return Ok(());
+        }
+        Err(Failure::NonFinite {
+            time,
+            values: self.start.clone(),
+        })
+    }
+
+    fn make(
+        &mut self,
+        ode: &O,
+        time: T,
+        step: T,
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>> {
+        self.guess(step);
+        if let Err(failure) = self.solve(ode, time, step, report) {
+            // The rates of a failed step say nothing: begin anew.
+            self.step = T::ZERO;
+            Stepper::<T, O>::begin(self, ode, time, report)?;
+            return Err(failure);
+        }
+        self.step = step;
+        self.finish(step);
+        if all_finite(&self.end) {
+            return Ok(());
+        }
+        Err(Failure::NonFinite {
+            time: time + step,
+            values: self.end.clone(),
+        })
+    }
+
+    fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
+        self
+    }
+
+    fn advance(&mut self) {
+        core::mem::swap(&mut self.start, &mut self.end);
+        core::mem::swap(&mut self.residue, &mut self.end_residue);
+    }
+}
+
+impl<T: Real> Interpolant<T> for Memory<T> {
+    fn start(&self) -> &[T] {
+        &self.start
+    }
+
+    fn end(&self) -> &[T] {
+        &self.end
+    }
+
+    fn prepare(&mut self) -> Result<u64, DenseError<T>> {
+        Ok(0)
+    }
+
+    /// The collocation polynomial.
+    fn value(&self, fraction: T, out: &mut [T]) {
+        let n = self.start.len();
+        out.copy_from_slice(&self.start);
+        for j in 0..self.table.nodes.len() {
+            let weight = self.step * integral(self.table, j, fraction);
+            for (value, &rate) in out.iter_mut().zip(&self.rates[j * n..(j + 1) * n]) {
+                *value += weight * rate;
+            }
+        }
+    }
+}

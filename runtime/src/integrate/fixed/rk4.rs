@@ -1,0 +1,193 @@
+//! The classical Runge–Kutta method.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::ControlFlow;
+
+use super::driver::{Failure, Grid, Stepper};
+use crate::integrate::dense::{DenseError, DenseStep, Interpolant};
+use crate::integrate::error::IntegrationError;
+use crate::integrate::integrator::Integrator;
+use crate::integrate::report::{Report, Solution};
+use crate::integrate::request::all_finite;
+use crate::scalar::Real;
+use crate::system::{Ode, State};
+
+/// The classical Runge–Kutta method of order 4, with steps of one length.
+///
+/// No error estimate: it is here for comparison, and for loops whose steps are
+/// given. Four evaluations a step; values inside a step are those of the cubic
+/// through its ends with their rates (order 3) and cost nothing. Memory: 7
+/// vectors of the state's length; steps allocate nothing. The last step is
+/// shorter where the span is no multiple of the step.
+///
+/// Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations
+/// I*, 2nd edition, Springer 1993, section II.1, table 1.2.
+///
+/// # Examples
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use branched_pendulum::prelude::*;
+///
+/// let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| rates[0] = -y[0]);
+/// let start = State::new(0.0, vec![1.0]);
+/// let solution = Rk4::new(0.01).integrate(&decay, &start, 1.0, |_| ControlFlow::Continue(()))?;
+/// assert!((solution.state.values[0] - (-1.0_f64).exp()).abs() < 1e-10);
+/// assert_eq!(solution.report.evaluations, 401);
+/// # Ok::<(), IntegrationError<f64>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rk4<T> {
+    /// Length of the steps, positive whatever the direction.
+    pub step: T,
+    /// Number of steps after which a run ends with an error.
+    pub step_limit: u64,
+}
+
+impl<T: Real> Rk4<T> {
+    /// The method with steps of length `step`, without a limit on their
+    /// number.
+    pub fn new(step: T) -> Self {
+        Self {
+            step,
+            step_limit: u64::MAX,
+        }
+    }
+}
+
+impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Rk4<T> {
+    fn integrate(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        end: T,
+        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Solution<T>, IntegrationError<T>> {
+        let grid = Grid {
+            step: self.step,
+            halvings: 0,
+            step_limit: self.step_limit,
+        };
+        grid.run(ode, start, end, || Memory::new(&start.values), observer)
+    }
+}
+
+/// The vectors that a run works on.
+struct Memory<T> {
+    start: Vec<T>,
+    end: Vec<T>,
+    stage: Vec<T>,
+    sum: Vec<T>,
+    rates: Vec<T>,
+    start_rates: Vec<T>,
+    end_rates: Vec<T>,
+    step: T,
+}
+
+impl<T: Real> Memory<T> {
+    fn new(start: &[T]) -> Self {
+        let zeros = || vec![T::ZERO; start.len()];
+        Self {
+            start: start.to_vec(),
+            end: zeros(),
+            stage: zeros(),
+            sum: zeros(),
+            rates: zeros(),
+            start_rates: zeros(),
+            end_rates: zeros(),
+            step: T::ZERO,
+        }
+    }
+}
+
+fn finite<T: Real>(time: T, values: &[T], rates: &[T]) -> Result<(), Failure<T>> {
+    if all_finite(rates) {
+        return Ok(());
+    }
+    Err(Failure::NonFinite {
+        time,
+        values: values.to_vec(),
+    })
+}
+
+impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
+    fn begin(&mut self, ode: &O, time: T, report: &mut Report<T>) -> Result<(), Failure<T>> {
+        report.evaluations += 1;
+        ode.rates(time, &self.start, &mut self.start_rates);
+        finite(time, &self.start, &self.start_rates)
+    }
+
+    fn make(
+        &mut self,
+        ode: &O,
+        time: T,
+        step: T,
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>> {
+        self.step = step;
+        let half = T::from_f64(0.5) * step;
+        let two = T::from_f64(2.0);
+        let (middle, end_time) = (time + half, time + step);
+        self.sum.copy_from_slice(&self.start_rates);
+        self.rates.copy_from_slice(&self.start_rates);
+        for (at, length, weight) in [
+            (middle, half, two),
+            (middle, half, two),
+            (end_time, step, T::ONE),
+        ] {
+            for (i, value) in self.stage.iter_mut().enumerate() {
+                *value = self.start[i] + length * self.rates[i];
+            }
+            report.evaluations += 1;
+            ode.rates(at, &self.stage, &mut self.rates);
+            finite(at, &self.stage, &self.rates)?;
+            for (sum, &rate) in self.sum.iter_mut().zip(&self.rates) {
+                *sum += weight * rate;
+            }
+        }
+        let sixth = step / T::from_f64(6.0);
+        for (i, end) in self.end.iter_mut().enumerate() {
+            *end = self.start[i] + sixth * self.sum[i];
+        }
+        finite(end_time, &self.end, &self.end)?;
+        report.evaluations += 1;
+        ode.rates(end_time, &self.end, &mut self.end_rates);
+        finite(end_time, &self.end, &self.end_rates)
+    }
+
+    fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
+        self
+    }
+
+    fn advance(&mut self) {
+        core::mem::swap(&mut self.start, &mut self.end);
+        core::mem::swap(&mut self.start_rates, &mut self.end_rates);
+    }
+}
+
+impl<T: Real> Interpolant<T> for Memory<T> {
+    fn start(&self) -> &[T] {
+        &self.start
+    }
+
+    fn end(&self) -> &[T] {
+        &self.end
+    }
+
+    fn prepare(&mut self) -> Result<u64, DenseError<T>> {
+        Ok(0)
+    }
+
+    /// y + s (Δy + r (d₁ + s (d₂ − d₁))) with d₁ = h k₀ − Δy, d₂ = Δy − h k₁,
+    /// r = 1 − s.
+    fn value(&self, s: T, out: &mut [T]) {
+        let r = T::ONE - s;
+        for (i, out) in out.iter_mut().enumerate() {
+            let increment = self.end[i] - self.start[i];
+            let left = self.step * self.start_rates[i] - increment;
+            let right = increment - self.step * self.end_rates[i];
+            *out = self.start[i] + s * (increment + r * (left + s * (right - left)));
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Hamiltonian systems in canonical variables.
+
+use super::{LengthMismatch, Ode, State};
+use crate::scalar::Scalar;
+
+/// Hamilton's equations, q' = ∂H/∂p, p' = −∂H/∂q + Q, in canonical variables.
+///
+/// For a pendulum with mass matrix M the velocities are q' = M⁻¹p and the rates
+/// of the momenta ∂L/∂q at these velocities: no derivative of M⁻¹ is needed.
+/// Generalised forces Q, such as friction, belong to p' where there are any;
+/// the motion is symplectic without them.
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum::prelude::*;
+///
+/// /// A point of mass m on a rod of length l: H = p²/(2ml²) + mgl(1 − cos q).
+/// struct Point { mass: f64, length: f64 }
+///
+/// impl Canonical<f64> for Point {
+///     fn freedoms(&self) -> usize {
+///         1
+///     }
+///     fn canonical_rates(
+///         &self, _time: f64, q: &[f64], p: &[f64], q_rates: &mut [f64], p_rates: &mut [f64],
+///     ) {
+///         q_rates[0] = p[0] / (self.mass * self.length * self.length);
+///         p_rates[0] = -self.mass * 9.80665 * self.length * q[0].sin();
+///     }
+/// }
+///
+/// let point = Point { mass: 0.1, length: 0.5 };
+/// let start = State::from_positions_and_momenta(0.0, &[1.0], &[0.0])?;
+/// let method = Gauss::new(GaussOrder::Four, 0.01);
+/// let end = method.integrate(&CanonicalVariables(&point), &start, 10.0, |_| {
+///     core::ops::ControlFlow::Continue(())
+/// })?;
+/// assert!(end.state.values[0].abs() <= 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub trait Canonical<T> {
+    /// Number of coordinates, and of momenta.
+    fn freedoms(&self) -> usize;
+
+    /// Writes the rates of the coordinates `q` (rad) and of the momenta `p`
+    /// (kg m²/s) at `time` (s). All four slices have length
+    /// [`freedoms`](Self::freedoms).
+    ///
+    /// Where there is no answer, write NaN.
+    fn canonical_rates(&self, time: T, q: &[T], p: &[T], q_rates: &mut [T], p_rates: &mut [T]);
+}
+
+/// A [`Canonical`] system as a first-order system: the state is the
+/// coordinates followed by the momenta.
+#[derive(Clone, Copy, Debug)]
+pub struct CanonicalVariables<'a, C>(pub &'a C);
+
+impl<T: Scalar, C: Canonical<T>> Ode<T> for CanonicalVariables<'_, C> {
+    fn dimension(&self) -> usize {
+        2 * self.0.freedoms()
+    }
+
+    #[inline]
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        let n = self.0.freedoms();
+        if state.len() != 2 * n || rates.len() != 2 * n {
+            rates.fill(T::from_f64(f64::NAN));
+            return;
+        }
+        let (q, p) = state.split_at(n);
+        let (q_rates, p_rates) = rates.split_at_mut(n);
+        self.0.canonical_rates(time, q, p, q_rates, p_rates);
+    }
+}
+
+impl<T: Scalar> State<T> {
+    /// A state of a [`Canonical`] system at `time`.
+    ///
+    /// # Errors
+    ///
+    /// [`LengthMismatch`] unless both slices have the same length; the momenta
+    /// stand in the place of the velocities.
+    pub fn from_positions_and_momenta(time: T, q: &[T], p: &[T]) -> Result<Self, LengthMismatch> {
+        Self::from_positions_and_velocities(time, q, p)
+    }
+
+    /// The momenta of a state of a [`Canonical`] system: the second half of
+    /// its components.
+    pub fn momenta(&self) -> &[T] {
+        self.velocities()
+    }
+}

@@ -1,0 +1,123 @@
+//! No method allocates in its steps: a million of them, counted.
+
+#![cfg(feature = "std")]
+// A global allocator cannot be written without `unsafe`; this one hands every
+// request on to the system's, unchanged, and counts it.
+#![allow(unsafe_code)]
+
+use core::ops::ControlFlow;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use branched_pendulum::prelude::*;
+
+thread_local! {
+    // Of this thread alone: the tests run side by side.
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // A thread that is ending has no counter any more.
+        let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations() -> u64 {
+    ALLOCATIONS.with(Cell::get)
+}
+
+const STEP: f64 = 1e-3;
+const STEPS: u64 = 1_000_000;
+
+fn oscillator() -> impl Ode<f64> {
+    OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+        rates[0] = y[1];
+        rates[1] = -y[0];
+    })
+}
+
+/// Allocations of a run from its second step on, each step being asked for a
+/// value inside.
+fn in_steps<O: Ode<f64>>(ode: &O, method: &impl Integrator<f64, O>) -> u64 {
+    let (mut before, mut after, mut steps) = (None, 0, 0_u64);
+    let start = State::at_rest(0.0, &[1.0]);
+    method
+        .integrate(ode, &start, STEP * STEPS as f64, |step| {
+            let mut value = [0.0; 2];
+            let middle = 0.5 * (step.start_time() + step.end_time());
+            step.eval(middle, &mut value).unwrap();
+            steps += 1;
+            after = allocations();
+            before.get_or_insert(after);
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert!(steps >= STEPS - 1, "{steps}");
+    after - before.unwrap()
+}
+
+fn options() -> Options<f64> {
+    Options {
+        initial_step: Some(STEP),
+        max_step: Some(STEP),
+        step_limit: u64::MAX,
+        compensated: true,
+        beta: 0.04,
+        ..Options::with_tolerance(1e-6)
+    }
+}
+
+#[test]
+fn the_counter_counts() {
+    let before = allocations();
+    let boxed = std::hint::black_box(Box::new(1));
+    assert_eq!((allocations() - before, *boxed), (1, 1));
+}
+
+#[test]
+fn explicit_pairs() {
+    let ode = oscillator();
+    assert_eq!(in_steps(&ode, &Dopri5::new(options())), 0);
+    assert_eq!(in_steps(&ode, &Dop853::new(options())), 0);
+    assert_eq!(in_steps(&ode, &Verner98::new(options())), 0);
+}
+
+#[test]
+fn methods_with_fixed_steps() {
+    let ode = oscillator();
+    assert_eq!(in_steps(&ode, &Rk4::new(STEP)), 0);
+    for solver in [Solver::FixedPoint, Solver::Newton] {
+        let method = Gauss {
+            solver,
+            ..Gauss::new(GaussOrder::Four, STEP)
+        };
+        assert_eq!(in_steps(&ode, &method), 0);
+    }
+}
+
+#[test]
+fn events() {
+    let position = |_time: f64, y: &[f64]| y[0];
+    let events = [Event::new(Crossing::Either, &position).with_checks(2)];
+    let start = State::at_rest(0.0, &[1.0]);
+    let (mut before, mut after) = (None, 0);
+    Dopri5::new(options())
+        .integrate_with_events(&oscillator(), &start, STEP * STEPS as f64, &events, |_| {
+            after = allocations();
+            before.get_or_insert(after);
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert_eq!(after - before.unwrap(), 0);
+}

@@ -1,0 +1,207 @@
+//! Events: found to rounding, in order, each once; by every method.
+
+use core::f64::consts::{FRAC_PI_2, PI};
+use core::ops::ControlFlow;
+
+use branched_pendulum::prelude::*;
+
+use crate::problems::{harmonic, watch};
+
+/// y = cos t, y' = −sin t.
+fn start() -> State<f64> {
+    State::at_rest(0.0, &[1.0])
+}
+
+fn dop853() -> Dop853<f64> {
+    Dop853::new(Options::with_tolerance(1e-13))
+}
+
+/// Times, with the direction, of the crossings of a function on [`harmonic`].
+fn crossings(
+    method: &impl Integrator<f64, dyn Ode<f64>>,
+    end: f64,
+    event: Event<'_, f64>,
+) -> Vec<(f64, bool)> {
+    let mut found = Vec::new();
+    let ode: &dyn Ode<f64> = &harmonic();
+    method
+        .integrate_with_events(ode, &start(), end, &[event], |crossing| {
+            found.push((crossing.time, crossing.rising));
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    found
+}
+
+fn assert_crossings(found: &[(f64, bool)], expected: &[(f64, bool)], tolerance: f64) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(
+            (found.0 - expected.0).abs() < tolerance,
+            "{found:?} {expected:?}"
+        );
+        assert_eq!(found.1, expected.1);
+    }
+}
+
+#[test]
+fn every_method_finds_the_zeros_of_a_cosine() {
+    let position = |_time: f64, y: &[f64]| y[0];
+    let event = || Event::new(Crossing::Either, &position);
+    let zeros: Vec<_> = (0..6)
+        .map(|k| (FRAC_PI_2 + PI * f64::from(k), k % 2 == 1))
+        .collect();
+    let options = || Options::with_tolerance(1e-13);
+    assert_crossings(&crossings(&dop853(), 18.0, event()), &zeros, 1e-12);
+    assert_crossings(
+        &crossings(&Dopri5::new(options()), 18.0, event()),
+        &zeros,
+        1e-11,
+    );
+    assert_crossings(
+        &crossings(&Verner98::new(options()), 18.0, event()),
+        &zeros,
+        1e-12,
+    );
+    assert_crossings(&crossings(&Rk4::new(1e-3), 18.0, event()), &zeros, 1e-11);
+    let gauss = Gauss::new(GaussOrder::Eight, 0.02);
+    assert_crossings(&crossings(&gauss, 18.0, event()), &zeros, 1e-10);
+}
+
+#[test]
+fn directions() {
+    let position = |_time: f64, y: &[f64]| y[0];
+    let falling = crossings(&dop853(), 9.0, Event::new(Crossing::Falling, &position));
+    assert_crossings(
+        &falling,
+        &[(FRAC_PI_2, false), (5.0 * FRAC_PI_2, false)],
+        1e-12,
+    );
+    let rising = crossings(&dop853(), 9.0, Event::new(Crossing::Rising, &position));
+    assert_crossings(&rising, &[(3.0 * FRAC_PI_2, true)], 1e-12);
+    // Backwards the cosine falls first too.
+    let back = crossings(&dop853(), -5.0, Event::new(Crossing::Falling, &position));
+    assert_crossings(&back, &[(-FRAC_PI_2, false)], 1e-12);
+}
+
+#[test]
+fn a_zero_is_located_to_rounding() {
+    let clock = |time: f64, _y: &[f64]| time - 2.0_f64.sqrt();
+    let found = crossings(&dop853(), 5.0, Event::new(Crossing::Rising, &clock));
+    let [(time, true)] = found[..] else {
+        panic!("{found:?}");
+    };
+    // Behind the zero, and next to it.
+    let zero = 2.0_f64.sqrt();
+    assert!(time >= zero && time <= zero.next_up(), "{time:e}");
+}
+
+#[test]
+fn several_events_in_one_step_come_in_order() {
+    let late = |time: f64, _y: &[f64]| time - 0.31;
+    let early = |time: f64, _y: &[f64]| time - 0.29;
+    // Two zeros of one function, between two others.
+    let twice = |time: f64, _y: &[f64]| (time - 0.295) * (time - 0.305);
+    let events = [
+        Event::new(Crossing::Either, &late),
+        Event::new(Crossing::Either, &twice).with_checks(200),
+        Event::new(Crossing::Either, &early),
+    ];
+    let options = Options {
+        initial_step: Some(1.0),
+        ..Options::with_tolerance(1e-3)
+    };
+    let straight = OdeFn::new(1, |_time: f64, _y: &[f64], rates: &mut [f64]| {
+        rates[0] = 1.0
+    });
+    let mut found = Vec::new();
+    let solution = Dop853::new(options)
+        .integrate_with_events(
+            &straight,
+            &State::new(0.0, vec![0.0]),
+            1.0,
+            &events,
+            |event| {
+                assert!((event.state[0] - event.time).abs() < 1e-15);
+                found.push((event.event, event.rising));
+                ControlFlow::Continue(())
+            },
+        )
+        .unwrap();
+    assert_eq!(solution.report.accepted, 1);
+    assert_eq!(found, [(2, true), (1, false), (1, true), (0, true)]);
+}
+
+#[test]
+fn a_run_that_stops_at_an_event_goes_on_from_there() {
+    let position = |_time: f64, y: &[f64]| y[0];
+    let events = [Event::new(Crossing::Either, &position)];
+    let (mut state, mut times) = (start(), Vec::new());
+    loop {
+        let solution = dop853()
+            .integrate_with_events(&harmonic(), &state, 10.0, &events, |event| {
+                times.push(event.time);
+                ControlFlow::Break(())
+            })
+            .unwrap();
+        state = solution.state;
+        if solution.report.stop == StopReason::EndReached {
+            break;
+        }
+        assert_eq!(solution.report.stop, StopReason::StoppedByEvent);
+        assert_eq!(times.last(), Some(&state.time));
+        assert!(state.values[0].abs() < 1e-15);
+    }
+    assert_eq!(times.len(), 3, "{times:?}");
+    assert_eq!(state.time, 10.0);
+    assert!((state.values[0] - 10.0_f64.cos()).abs() < 1e-11);
+}
+
+#[test]
+fn an_event_at_the_start_is_not_reported() {
+    let velocity = |_time: f64, y: &[f64]| y[1];
+    let found = crossings(&dop853(), 4.0, Event::new(Crossing::Either, &velocity));
+    assert_crossings(&found, &[(PI, true)], 1e-12);
+}
+
+#[test]
+fn a_function_without_a_value_is_an_error() {
+    let broken = |time: f64, _y: &[f64]| (1.0 - time).sqrt();
+    let events = [Event::new(Crossing::Either, &broken)];
+    let error = dop853()
+        .integrate_with_events(&harmonic(), &start(), 5.0, &events, |_| {
+            ControlFlow::Continue(())
+        })
+        .unwrap_err();
+    let IntegrationError::Event {
+        event: 0,
+        time,
+        last,
+        ..
+    } = &error
+    else {
+        panic!("{error:?}");
+    };
+    assert!(*time > 1.0 && last.time >= *time);
+    assert!(
+        error
+            .to_string()
+            .starts_with("the function of event 0 is NaN at t = 1.")
+    );
+}
+
+#[test]
+fn events_do_not_change_the_steps() {
+    let position = |_time: f64, y: &[f64]| y[0];
+    let events = [Event::new(Crossing::Either, &position)];
+    let plain = dop853()
+        .integrate(&harmonic(), &start(), 9.0, watch)
+        .unwrap();
+    let searched = dop853()
+        .integrate_with_events(&harmonic(), &start(), 9.0, &events, |_| {
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert_eq!(plain.state, searched.state);
+    assert_eq!(plain.report.accepted, searched.report.accepted);
+}
