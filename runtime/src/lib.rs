@@ -7,6 +7,7 @@
 //!
 //! - [`scalar`]: the numbers that emitted code computes with,
 //! - [`system`]: the traits that it implements, and states,
+//! - [`batch`]: accelerations of many states, in vector registers,
 //! - [`integrate`]: trajectories, with error control and dense output,
 //! - [`analysis`]: linear modes and spectra,
 //! - [`data`]: CSV files.
@@ -63,7 +64,7 @@
 //! # Features
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
-//!   `alloc` and offers [`scalar`], [`system`] and [`integrate`].
+//!   `alloc` and offers [`scalar`], [`system`], [`batch`] and [`integrate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `chart`: line charts as SVG and PNG.
@@ -75,6 +76,7 @@ extern crate alloc;
 
 #[cfg(feature = "std")]
 pub mod analysis;
+pub mod batch;
 #[cfg(feature = "chart")]
 pub mod chart;
 #[cfg(feature = "std")]
