@@ -3,7 +3,7 @@
 use super::Emission;
 use super::names::Locals;
 use crate::exact::Rational;
-use crate::program::{Argument, Entry, Op, Shape, ValueId};
+use crate::program::{Argument, Entry, Op, Purpose, Shape, ValueId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -31,9 +31,16 @@ impl Emission<'_> {
         });
         let result = self.result_type(entry);
         let body = self.body(entry);
+        // A batch compiles the accelerations for wider registers than the rest
+        // of the build uses, which only inlining allows.
+        let inline = if entry.purpose == Purpose::Accelerations {
+            quote!(#[inline(always)])
+        } else {
+            quote!(#[inline])
+        };
         quote! {
             #docs
-            #[inline]
+            #inline
             pub fn #name(&self, #(#arguments),*) -> #result {
                 #body
             }
@@ -62,12 +69,17 @@ impl Emission<'_> {
     fn body(&self, entry: &Entry) -> TokenStream {
         let needed = self.program.needed(&entry.outputs);
         let locals = self.locals(entry, &needed);
+        let mut lines = Vec::new();
+        let (mut paired, whole) = self.gathered(entry, &needed);
+        if !paired.is_empty() {
+            lines.push(self.sin_cos_each(&paired, whole, &needed, &locals));
+        }
+        let read = self.read(entry, &needed, whole.is_some().then_some(&paired));
         let inputs = entry
             .arguments
             .iter()
-            .map(|&argument| self.take_apart(argument, &needed, &locals));
-        let mut lines = Vec::new();
-        let mut paired = Vec::new();
+            .filter(|argument| whole != Some(**argument) || self.reads(**argument, &read))
+            .map(|&argument| self.take_apart(argument, &read, &locals));
         for &id in &needed {
             let angle = match *self.op(id) {
                 Op::Sin(angle) | Op::Cos(angle) => angle,
@@ -94,13 +106,14 @@ impl Emission<'_> {
         }
     }
 
-    /// `let [theta_parent, _, theta_child_2] = *theta;`
-    fn take_apart(&self, argument: Argument, needed: &[ValueId], locals: &Locals) -> TokenStream {
+    /// `let [theta_parent, _, theta_child_2] = *theta;`, the elements that are
+    /// `read`.
+    fn take_apart(&self, argument: Argument, read: &[ValueId], locals: &Locals) -> TokenStream {
         let array = ident(argument.name());
         let mut any = false;
         let elements: Vec<TokenStream> = (0..self.scene.links.len())
             .map(|index| {
-                let name = needed
+                let name = read
                     .iter()
                     .find(|id| *self.op(**id) == Op::Input(argument, index))
                     .and_then(|id| locals.names.get(id));
@@ -123,23 +136,23 @@ impl Emission<'_> {
 
     /// `let (sin_parent, cos_parent) = theta_parent.sin_cos();`
     fn sin_cos(&self, angle: ValueId, needed: &[ValueId], locals: &Locals) -> TokenStream {
-        let name = |op: Op| {
-            needed
-                .iter()
-                .find(|id| *self.op(**id) == op)
-                .and_then(|id| locals.names.get(id))
-                .map_or_else(
-                    || quote!(_),
-                    |name| {
-                        let name = ident(name);
-                        quote!(#name)
-                    },
-                )
-        };
+        let name = |op: Op| self.local(&op, needed, locals);
         let sin = name(Op::Sin(angle));
         let cos = name(Op::Cos(angle));
         let angle = self.bound(angle, locals, Binding::Atom);
         quote!(let (#sin, #cos) = #angle.sin_cos();)
+    }
+
+    /// The name of a value where it is needed, `_` where it is not.
+    pub(super) fn local(&self, op: &Op, needed: &[ValueId], locals: &Locals) -> TokenStream {
+        let found = needed.iter().find(|id| self.op(**id) == op);
+        match found.and_then(|id| locals.names.get(id)) {
+            Some(name) => {
+                let name = ident(name);
+                quote!(#name)
+            }
+            None => quote!(_),
+        }
     }
 
     fn outputs(&self, entry: &Entry, locals: &Locals) -> TokenStream {

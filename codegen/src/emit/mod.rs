@@ -4,6 +4,7 @@
 mod docs;
 mod formulas;
 mod function;
+mod gather;
 mod model;
 mod names;
 mod stub;
