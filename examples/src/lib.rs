@@ -3,5 +3,6 @@
 //! Each program in `src/bin` is a thin shell around one module here.
 
 pub mod branched_double;
+pub mod evaluation_speed;
 pub mod exit;
 pub mod transfer_orders;

@@ -9,6 +9,7 @@
 //! - [`system`]: the traits that it implements, and states,
 //! - [`integrate`]: trajectories, with error control, dense output and events,
 //! - [`ensemble`]: many trajectories on all cores,
+//! - [`batch`]: accelerations of many states, in vector registers,
 //! - [`analysis`]: linear modes and spectra,
 //! - [`data`]: CSV files.
 //!
@@ -64,7 +65,7 @@
 //! # Features
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
-//!   `alloc` and offers [`scalar`], [`system`] and [`integrate`].
+//!   `alloc` and offers [`scalar`], [`system`], [`batch`] and [`integrate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `chart`: line charts as SVG and PNG.
@@ -76,6 +77,7 @@ extern crate alloc;
 
 #[cfg(feature = "std")]
 pub mod analysis;
+pub mod batch;
 #[cfg(feature = "chart")]
 pub mod chart;
 #[cfg(feature = "std")]

@@ -4,7 +4,7 @@ use super::Emission;
 use super::names::Locals;
 use super::parts::{Line, MOST_LINES};
 use crate::exact::Rational;
-use crate::program::{Argument, Entry, Op, Shape, ValueId};
+use crate::program::{Argument, Entry, Op, Purpose, Shape, ValueId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -38,9 +38,16 @@ impl Emission<'_> {
         let locals = self.locals(entry, &needed);
         let body = self.body(entry, &needed, &locals);
         let parts = self.part_functions(entry, &needed, &locals);
+        // A batch compiles the accelerations for wider registers than the rest
+        // of the build uses, which only inlining allows.
+        let inline = if entry.purpose == Purpose::Accelerations {
+            quote!(#[inline(always)])
+        } else {
+            quote!(#[inline])
+        };
         quote! {
             #docs
-            #[inline]
+            #inline
             pub fn #name(&self, #(#arguments),*) -> #result {
                 #body
             }
@@ -77,12 +84,19 @@ impl Emission<'_> {
     }
 
     fn body(&self, entry: &Entry, needed: &[ValueId], locals: &Locals) -> TokenStream {
+        let (gathered, whole) = self.gathered(entry, needed);
+        let lines = self.lines(&gathered, whole, needed, locals);
+        // The parts of a long function are handed numbers, not arrays.
+        let long = lines.len() > MOST_LINES;
+        let whole = whole.filter(|_| !long);
+        let read = self.read(entry, needed, whole.is_some().then_some(&gathered));
         let inputs = entry
             .arguments
             .iter()
-            .map(|&argument| self.take_apart(argument, needed, locals));
-        let lines = self.lines(needed, locals);
-        let lines: Vec<TokenStream> = if lines.len() > MOST_LINES {
+            .filter(|argument| whole != Some(**argument) || self.reads(**argument, &read))
+            .map(|&argument| self.take_apart(argument, &read, locals));
+        let lines: Vec<TokenStream> = if long {
+            let lines = self.lines(&gathered, None, needed, locals);
             let parts = self.parts(entry, &lines, locals);
             let numbers = self.numbers_of_outputs(entry, &lines, locals);
             let calls = parts.iter().map(|part| part.call(entry));
@@ -98,10 +112,27 @@ impl Emission<'_> {
         }
     }
 
-    /// The `let` lines of a function.
-    pub(super) fn lines(&self, needed: &[ValueId], locals: &Locals) -> Vec<Line> {
+    /// The `let` lines of a function; first the sines and cosines that are
+    /// asked for at once, of an argument as a `whole` or of single angles.
+    pub(super) fn lines(
+        &self,
+        gathered: &[ValueId],
+        whole: Option<Argument>,
+        needed: &[ValueId],
+        locals: &Locals,
+    ) -> Vec<Line> {
         let mut lines = Vec::new();
-        let mut paired = Vec::new();
+        let mut paired = gathered.to_vec();
+        if !gathered.is_empty() {
+            let of_gathered = needed.iter().copied().filter(|&id| {
+                matches!(*self.op(id), Op::Sin(angle) | Op::Cos(angle) if gathered.contains(&angle))
+            });
+            lines.push(Line {
+                defines: of_gathered.collect(),
+                reads: gathered.to_vec(),
+                tokens: self.sin_cos_each(gathered, whole, needed, locals),
+            });
+        }
         for &id in needed {
             let angle = match *self.op(id) {
                 Op::Sin(angle) | Op::Cos(angle) => angle,
@@ -136,12 +167,13 @@ impl Emission<'_> {
         lines
     }
 
-    /// `let [theta_parent, _, theta_child_2] = *theta;`
-    fn take_apart(&self, argument: Argument, needed: &[ValueId], locals: &Locals) -> TokenStream {
+    /// `let [theta_parent, _, theta_child_2] = *theta;`, the elements that are
+    /// `read`.
+    fn take_apart(&self, argument: Argument, read: &[ValueId], locals: &Locals) -> TokenStream {
         let array = ident(argument.name());
         if argument == Argument::Time {
             let used = |id: &ValueId| matches!(self.op(*id), Op::Input(Argument::Time, _));
-            return if needed.iter().any(used) {
+            return if read.iter().any(used) {
                 TokenStream::new()
             } else {
                 quote!(let _ = #array;)
@@ -150,7 +182,7 @@ impl Emission<'_> {
         let mut any = false;
         let elements: Vec<TokenStream> = (0..self.scene.links.len())
             .map(|index| {
-                let name = needed
+                let name = read
                     .iter()
                     .find(|id| *self.op(**id) == Op::Input(argument, index))
                     .and_then(|id| locals.names.get(id));
@@ -173,23 +205,23 @@ impl Emission<'_> {
 
     /// `let (sin_parent, cos_parent) = theta_parent.sin_cos();`
     fn sin_cos(&self, angle: ValueId, needed: &[ValueId], locals: &Locals) -> TokenStream {
-        let name = |op: Op| {
-            needed
-                .iter()
-                .find(|id| *self.op(**id) == op)
-                .and_then(|id| locals.names.get(id))
-                .map_or_else(
-                    || quote!(_),
-                    |name| {
-                        let name = ident(name);
-                        quote!(#name)
-                    },
-                )
-        };
+        let name = |op: Op| self.local(&op, needed, locals);
         let sin = name(Op::Sin(angle));
         let cos = name(Op::Cos(angle));
         let angle = self.bound(angle, locals, Binding::Atom);
         quote!(let (#sin, #cos) = #angle.sin_cos();)
+    }
+
+    /// The name of a value where it is needed, `_` where it is not.
+    pub(super) fn local(&self, op: &Op, needed: &[ValueId], locals: &Locals) -> TokenStream {
+        let found = needed.iter().find(|id| self.op(**id) == op);
+        match found.and_then(|id| locals.names.get(id)) {
+            Some(name) => {
+                let name = ident(name);
+                quote!(#name)
+            }
+            None => quote!(_),
+        }
     }
 
     fn outputs(&self, entry: &Entry, locals: &Locals) -> TokenStream {

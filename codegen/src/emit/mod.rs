@@ -6,6 +6,7 @@ mod docs;
 mod drive;
 mod formulas;
 mod function;
+mod gather;
 mod model;
 mod names;
 mod observables;

@@ -163,7 +163,8 @@ impl Emission<'_> {
         if values.count() <= MOST_LINES {
             return TokenStream::new();
         }
-        let lines = self.lines(needed, locals);
+        let (gathered, _) = self.gathered(entry, needed);
+        let lines = self.lines(&gathered, None, needed, locals);
         if lines.len() <= MOST_LINES {
             return TokenStream::new();
         }

@@ -94,7 +94,9 @@ impl Emission<'_> {
                 const LINKS: usize = #links;
                 const LINK_NAMES: &'static [&'static str] = &[#(#link_names),*];
 
-                #[inline]
+                // Always: a caller compiled for wider registers must be
+                // able to compile this body for them.
+                #[inline(always)]
                 fn accelerations_into(&self, #time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
                     #body
                 }

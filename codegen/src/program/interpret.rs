@@ -54,6 +54,18 @@ impl Program {
         parameters: &[f64],
         input: impl Fn(Argument, usize) -> f64,
     ) -> Option<Vec<f64>> {
+        self.evaluate_with(f64::sin_cos, entry, parameters, input)
+    }
+
+    /// As [`evaluate`](Self::evaluate), with another sine and cosine: emitted
+    /// code uses the runtime's.
+    pub fn evaluate_with(
+        &self,
+        sin_cos: impl Fn(f64) -> (f64, f64),
+        entry: &str,
+        parameters: &[f64],
+        input: impl Fn(Argument, usize) -> f64,
+    ) -> Option<Vec<f64>> {
         let entry = self.entry(entry)?;
         let constants = self.setup.evaluate(parameters);
         let mut values: Vec<f64> = vec![0.0; self.definitions.len()];
@@ -63,8 +75,8 @@ impl Program {
                 Op::Input(argument, index) => input(argument, index),
                 Op::Constant(constant) => constants[constant.0 as usize],
                 Op::Number(ref number) => number.to_f64(),
-                Op::Sin(a) => at(a).sin_cos().0,
-                Op::Cos(a) => at(a).sin_cos().1,
+                Op::Sin(a) => sin_cos(at(a)).0,
+                Op::Cos(a) => sin_cos(at(a)).1,
                 Op::Sqrt(a) => at(a).sqrt(),
                 Op::Neg(a) => -at(a),
                 Op::Add(a, b) => at(a) + at(b),

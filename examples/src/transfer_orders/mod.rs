@@ -18,7 +18,7 @@ pub mod error_curve;
 pub mod forms;
 pub mod output;
 pub mod phase_average;
-mod random;
+pub(crate) mod random;
 pub mod trajectories;
 
 pub use arguments::{ArgumentError, Arguments, Request};

@@ -3,15 +3,15 @@
 /// SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, *Fast splittable
 /// pseudorandom number generators*, OOPSLA 2014).
 #[derive(Clone, Debug)]
-pub(super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub(super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(seed)
     }
 
     /// Uniform between `-bound` and `bound`.
-    pub(super) fn within(&mut self, bound: f64) -> f64 {
+    pub(crate) fn within(&mut self, bound: f64) -> f64 {
         // The upper 53 bits are a whole number that f64 holds exactly.
         let unit = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         bound * (2.0 * unit - 1.0)

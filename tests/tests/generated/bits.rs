@@ -1,7 +1,7 @@
 //! Emitted code agrees with its program bit for bit: what the interpreter
 //! computes operation by operation is what the compiled function returns.
 
-use branched_pendulum::Transfer;
+use branched_pendulum::{Scalar, Transfer};
 use branched_pendulum_codegen::program::Argument;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
@@ -71,7 +71,8 @@ macro_rules! agree {
                 _ => first[index],
             };
             let compare = |name: &str, compiled: Vec<f64>| {
-                let interpreted = stages.program.evaluate(name, parameters, input);
+                let interpreted =
+                    stages.program.evaluate_with(Scalar::sin_cos, name, parameters, input);
                 let interpreted = interpreted.unwrap_or_else(|| panic!("no entry {name}"));
                 let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
                 assert_eq!(bits(&compiled), bits(&interpreted), "{name} at {first:?}, {second:?}");

@@ -1,5 +1,6 @@
 //! Runs the pipeline on text and evaluates programs.
 
+use branched_pendulum::scalar::Scalar;
 use branched_pendulum_codegen::Stages;
 use branched_pendulum_codegen::mechanics::{Energies, Frame, Mechanics};
 use branched_pendulum_codegen::program::{Argument, Program};
@@ -46,7 +47,8 @@ impl Compiled {
         self.evaluate_with(&[], entry, inputs)
     }
 
-    /// The outputs of an entry point for the given parameters.
+    /// The outputs of an entry point for the given parameters, with the sine and
+    /// cosine that emitted code uses.
     pub(crate) fn evaluate_with(
         &self,
         parameters: &[f64],
@@ -63,7 +65,7 @@ impl Compiled {
             inputs[position.expect("an entry point uses its own arguments")][index]
         };
         self.program
-            .evaluate(entry, parameters, input)
+            .evaluate_with(Scalar::sin_cos, entry, parameters, input)
             .expect("the entry point is there")
     }
 }

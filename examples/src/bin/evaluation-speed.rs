@@ -1,0 +1,50 @@
+//! What one evaluation of the accelerations costs.
+//!
+//! `evaluation-speed --help` says what is measured.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use branched_pendulum_examples::evaluation_speed::{measure, output};
+use branched_pendulum_examples::exit;
+
+const HELP: &str = "\
+What do the accelerations of one state cost, in emitted code one by one and in
+batches, against the system's sines and cosines alone, code written by hand for
+the paper's pendulum, a recursion that takes any tree as a table, and the
+textbook's dense matrix?
+
+Usage: evaluation-speed [--output FOLDER]
+
+  --output FOLDER  write the chart there, as evaluation-speed.svg and .png
+  --help           this text
+";
+
+/// Passes over the states.
+const REPEATS: usize = 301;
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let folder = match words.as_slice() {
+        [] => None,
+        ["--help" | "-h"] => {
+            print!("{HELP}");
+            return ExitCode::SUCCESS;
+        }
+        ["--output", folder] if !folder.is_empty() => Some(PathBuf::from(folder)),
+        _ => {
+            let message = "takes at most `--output FOLDER`";
+            return exit::wrong_command_line("evaluation-speed", &message);
+        }
+    };
+    let rows = measure::all(REPEATS);
+    print!("{}", output::table(&rows));
+    exit::of_run(
+        "evaluation-speed",
+        match folder {
+            Some(folder) => output::write(&folder, &rows).map(drop),
+            None => Ok(()),
+        },
+    )
+}

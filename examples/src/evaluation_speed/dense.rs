@@ -1,0 +1,84 @@
+//! The textbook: the whole mass matrix, Cholesky.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::table::{GRAVITY, Link};
+
+/// A(θ) = A_ij cos(θ_i − θ_j), for any tree.
+#[derive(Clone, Debug)]
+pub struct Dense {
+    coupling: DMatrix<f64>,
+    weight: Vec<f64>,
+    sines: Vec<f64>,
+    cosines: Vec<f64>,
+    matrix: DMatrix<f64>,
+    right: DVector<f64>,
+}
+
+impl Dense {
+    /// The constants of a tree: `docs/physics.md`, section 1.
+    #[must_use]
+    pub fn new(links: &[Link]) -> Self {
+        let n = links.len();
+        let mut subtree: Vec<f64> = links.iter().map(|link| link.mass).collect();
+        let mut moment: Vec<f64> = links.iter().map(|link| link.mass * link.com).collect();
+        let mut coupling = DMatrix::zeros(n, n);
+        for (i, link) in links.iter().enumerate() {
+            coupling[(i, i)] = link.inertia + link.mass * link.com * link.com;
+        }
+        for (i, link) in links.iter().enumerate().rev() {
+            if let Some(parent) = link.parent {
+                subtree[parent] += subtree[i];
+                moment[parent] += link.lever * subtree[i];
+                coupling[(parent, parent)] += link.lever * link.lever * subtree[i];
+            }
+        }
+        for j in 0..n {
+            let mut below = j;
+            while let Some(above) = links[below].parent {
+                coupling[(above, j)] = links[below].lever * moment[j];
+                coupling[(j, above)] = coupling[(above, j)];
+                below = above;
+            }
+        }
+        Self {
+            coupling,
+            weight: moment.iter().map(|moment| GRAVITY * moment).collect(),
+            sines: vec![0.0; n],
+            cosines: vec![0.0; n],
+            matrix: DMatrix::zeros(n, n),
+            right: DVector::zeros(n),
+        }
+    }
+
+    /// Angular accelerations; NaN where Cholesky finds no factors.
+    pub fn accelerations(&mut self, theta: &[f64], omega: &[f64], alpha: &mut [f64]) {
+        let n = self.weight.len();
+        for i in 0..n {
+            (self.sines[i], self.cosines[i]) = theta[i].sin_cos();
+            self.right[i] = -self.weight[i] * self.sines[i];
+        }
+        for j in 0..n {
+            for i in 0..n {
+                let coupling = self.coupling[(i, j)];
+                let sine = self.sines[i] * self.cosines[j] - self.cosines[i] * self.sines[j];
+                let cosine = self.cosines[i] * self.cosines[j] + self.sines[i] * self.sines[j];
+                self.matrix[(i, j)] = coupling * cosine;
+                self.right[i] -= coupling * sine * omega[j] * omega[j];
+            }
+        }
+        // nalgebra factors a matrix that it owns: it is lent and taken back.
+        let matrix = std::mem::replace(&mut self.matrix, DMatrix::zeros(0, 0));
+        match matrix.cholesky() {
+            Some(factors) => {
+                factors.solve_mut(&mut self.right);
+                alpha.copy_from_slice(self.right.as_slice());
+                self.matrix = factors.unpack_dirty();
+            }
+            None => {
+                alpha.fill(f64::NAN);
+                self.matrix = DMatrix::zeros(n, n);
+            }
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! The contenders and the clock.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use branched_pendulum::Pendulum;
+use branched_pendulum::batch::Batch;
+use branched_pendulum::scalar::{Lane, Lanes};
+
+use super::articulated::Articulated;
+use super::by_hand::ByHand;
+use super::dense::Dense;
+use super::scenes::{Paper, Tree7, Tree15, Tree31, Tree127};
+use super::states::{Layouts, random};
+use super::table::{self, Link};
+
+/// Numbers in one pass, about: they fit into the second cache.
+const NUMBERS: usize = 6144;
+
+/// What is measured, in the order of the columns.
+pub const CONTENDERS: [&str; 7] = [
+    "sin_cos of std",
+    "one state",
+    "batch f64",
+    "batch f32",
+    "by hand",
+    "articulated",
+    "dense",
+];
+
+/// Median times for one state of one scene, ns, in the order of [`CONTENDERS`];
+/// none where there is nothing to measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The scene.
+    pub scene: &'static str,
+    /// Its number of links.
+    pub links: usize,
+    /// The times.
+    pub times: [Option<f64>; CONTENDERS.len()],
+}
+
+/// One pass over all states; the time is of the pass.
+type Pass = Box<dyn FnMut()>;
+
+/// Measures all scenes: medians of `repeats` passes. The contenders of a scene
+/// take turns, so that a change of the processor's clock meets all of them.
+#[must_use]
+pub fn all(repeats: usize) -> Vec<Row> {
+    let paper = batches::<3, Paper<_>, Paper<_>>(Paper::default(), Paper::default());
+    let tree7 = batches::<7, Tree7<_>, Tree7<_>>(Tree7::default(), Tree7::default());
+    let tree15 = batches::<15, Tree15<_>, Tree15<_>>(Tree15::default(), Tree15::default());
+    let tree31 = batches::<31, Tree31<_>, Tree31<_>>(Tree31::default(), Tree31::default());
+    let mut with_hand = paper;
+    with_hand[4] = Some(by_hand());
+    vec![
+        row::<3>("paper", with_hand, Paper::new(), &table::paper(), repeats),
+        row::<7>("tree", tree7, Tree7::new(), &table::tree(3), repeats),
+        row::<15>("tree", tree15, Tree15::new(), &table::tree(4), repeats),
+        row::<31>("tree", tree31, Tree31::new(), &table::tree(5), repeats),
+        row::<127>(
+            "tree",
+            Default::default(),
+            Tree127::new(),
+            &table::tree(7),
+            repeats,
+        ),
+    ]
+}
+
+type Passes = [Option<Pass>; CONTENDERS.len()];
+
+fn count<const N: usize>() -> usize {
+    // A multiple of all lanes: remainders are tested, not timed.
+    (NUMBERS / N).next_multiple_of(16)
+}
+
+fn inputs<const N: usize>() -> (Layouts, Layouts) {
+    (
+        random(1, N, count::<N>(), std::f64::consts::PI),
+        random(2, N, count::<N>(), 9.0),
+    )
+}
+
+fn arrays<const N: usize>(layouts: &Layouts) -> Vec<[f64; N]> {
+    layouts
+        .by_state
+        .iter()
+        .map(|state| std::array::from_fn(|i| state[i]))
+        .collect()
+}
+
+fn row<const N: usize>(
+    scene: &'static str,
+    mut passes: Passes,
+    model: impl Pendulum<f64> + 'static,
+    links: &[Link],
+    repeats: usize,
+) -> Row {
+    passes[0] = Some(Box::new(sines::<N>()));
+    passes[1] = Some(Box::new(states::<N>(move |theta, omega, alpha| {
+        model.accelerations_into(0.0, theta, omega, alpha);
+    })));
+    let mut recursion = Articulated::new(links);
+    passes[5] = Some(Box::new(states::<N>(move |theta, omega, alpha| {
+        recursion.accelerations(theta, omega, alpha);
+    })));
+    let mut dense = Dense::new(links);
+    passes[6] = Some(Box::new(states::<N>(move |theta, omega, alpha| {
+        dense.accelerations(theta, omega, alpha);
+    })));
+    let mut times: [Vec<f64>; CONTENDERS.len()] = Default::default();
+    for _ in 0..repeats {
+        for (times, pass) in times.iter_mut().zip(&mut passes) {
+            if let Some(pass) = pass {
+                let start = Instant::now();
+                pass();
+                times.push(start.elapsed().as_secs_f64() * 1e9 / count::<N>() as f64);
+            }
+        }
+    }
+    Row {
+        scene,
+        links: N,
+        times: times.map(median),
+    }
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// The system's sine and cosine of all angles, alone.
+fn sines<const N: usize>() -> impl FnMut() + 'static {
+    let theta = arrays::<N>(&inputs::<N>().0);
+    let mut sums = vec![[0.0; N]; theta.len()];
+    move || {
+        for (theta, sums) in black_box(&theta).iter().zip(black_box(&mut sums)) {
+            for i in 0..N {
+                let (sine, cosine) = f64::sin_cos(theta[i]);
+                sums[i] = sine + cosine;
+            }
+        }
+    }
+}
+
+/// One state after the other; the processor may overlap them.
+fn states<const N: usize>(
+    mut evaluate: impl FnMut(&[f64; N], &[f64; N], &mut [f64; N]) + 'static,
+) -> impl FnMut() + 'static {
+    let (theta, omega) = inputs::<N>();
+    let (theta, omega) = (arrays::<N>(&theta), arrays::<N>(&omega));
+    let mut alpha = vec![[0.0; N]; theta.len()];
+    move || {
+        let states = black_box(&theta).iter().zip(black_box(&omega));
+        for ((theta, omega), alpha) in states.zip(black_box(&mut alpha)) {
+            evaluate(theta, omega, alpha);
+        }
+    }
+}
+
+fn by_hand() -> Pass {
+    let model = ByHand::default();
+    Box::new(states::<3>(move |theta, omega, alpha| {
+        *alpha = model.accelerations(theta, omega);
+    }))
+}
+
+fn batches<const N: usize, P, Q>(double: P, single: Q) -> Passes
+where
+    P: Pendulum<Lanes<f64, 8>> + 'static,
+    Q: Pendulum<Lanes<f32, 16>> + 'static,
+{
+    let mut passes = Passes::default();
+    passes[2] = Some(Box::new(batch::<N, _, _, 8>(double, |x| x)));
+    passes[3] = Some(Box::new(batch::<N, _, _, 16>(single, |x| x as f32)));
+    passes
+}
+
+fn batch<const N: usize, P, T, const M: usize>(
+    model: P,
+    convert: fn(f64) -> T,
+) -> impl FnMut() + 'static
+where
+    P: Pendulum<Lanes<T, M>> + 'static,
+    T: Lane,
+{
+    let (theta, omega) = inputs::<N>();
+    let columns = |layouts: &Layouts| -> Vec<Vec<T>> {
+        let column = |column: &Vec<f64>| column.iter().map(|&x| convert(x)).collect();
+        layouts.by_link.iter().map(column).collect()
+    };
+    let (theta, omega) = (columns(&theta), columns(&omega));
+    let mut alpha = vec![vec![T::from_f64(0.0); count::<N>()]; N];
+    move || {
+        let done = Batch::new(&model).accelerations(
+            T::from_f64(0.0),
+            black_box(&theta),
+            black_box(&omega),
+            black_box(&mut alpha),
+        );
+        debug_assert!(done.is_ok());
+    }
+}

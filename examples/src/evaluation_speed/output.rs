@@ -1,0 +1,81 @@
+//! The table, its CSV and the chart.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use branched_pendulum::chart::{Axis, Chart, ChartError, Panel, Series};
+use branched_pendulum::scalar::InstructionSet;
+
+use super::measure::{CONTENDERS, Row};
+
+/// The table that the program prints: times, and beneath each row the ratios to
+/// the system's sines and cosines.
+#[must_use]
+pub fn table(rows: &[Row]) -> String {
+    let mut text = format!(
+        "Median time for the accelerations of one state, ns, and over that of the \
+         system's\nsines and cosines alone. Batches with {}.\n\n{:12}",
+        InstructionSet::widest(),
+        "links",
+    );
+    for name in CONTENDERS {
+        push(&mut text, format_args!(" {name:>14}"));
+    }
+    text.push('\n');
+    for row in rows {
+        push(
+            &mut text,
+            format_args!("{:12}", format!("{} {}", row.links, row.scene)),
+        );
+        for time in row.times {
+            let cell = time.map_or("-".to_owned(), |time| format!("{time:.2}"));
+            push(&mut text, format_args!(" {cell:>14}"));
+        }
+        push(&mut text, format_args!("\n{:12}", ""));
+        for time in row.times {
+            let ratio = time.zip(row.times[0]).map(|(time, sines)| time / sines);
+            let cell = ratio.map_or(String::new(), |ratio| format!("({ratio:.3})"));
+            push(&mut text, format_args!(" {cell:>14}"));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Writing to a `String` cannot fail.
+fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
+    let _ = text.write_fmt(arguments);
+}
+
+/// Time for one link against the number of links.
+#[must_use]
+pub fn chart(rows: &[Row]) -> Chart {
+    let mut panel = Panel::new(Axis::log("time for one link (ns)"));
+    for (index, name) in CONTENDERS.iter().enumerate() {
+        let points: Vec<(f64, f64)> = rows
+            .iter()
+            .filter_map(|row| {
+                let links = row.links as f64;
+                row.times[index].map(|time| (links, time / links))
+            })
+            .collect();
+        let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+        panel = panel.series(Series::line(*name, &x, &y).with_symbols());
+    }
+    Chart::new("Accelerations of one state", Axis::log("links")).panel(panel)
+}
+
+/// Writes the chart as SVG and PNG.
+///
+/// # Errors
+/// [`ChartError`].
+pub fn write(folder: &Path, rows: &[Row]) -> Result<Vec<PathBuf>, ChartError> {
+    let chart = chart(rows);
+    let files = [
+        folder.join("evaluation-speed.svg"),
+        folder.join("evaluation-speed.png"),
+    ];
+    chart.write_svg(&files[0])?;
+    chart.write_png(&files[1])?;
+    Ok(files.to_vec())
+}

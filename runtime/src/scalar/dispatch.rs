@@ -1,0 +1,155 @@
+//! The widest vector instructions of the machine, chosen at run time.
+//!
+//! A build for x86-64 may use SSE2 only, unless it names a newer processor.
+//! [`run`] compiles a computation three times, with wider instructions allowed,
+//! and takes the copy that the machine can run. The results have equal bits:
+//! each instruction set computes the same IEEE 754 operations, none is fused.
+
+use core::fmt;
+
+/// Vector instructions that a build can choose among at run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum InstructionSet {
+    /// Those that the build was made for: SSE2 for x86-64 by default.
+    Build,
+    /// AVX2, registers of 256 bits.
+    Avx2,
+    /// AVX-512 (F, VL, DQ and BW), registers of 512 bits.
+    Avx512,
+}
+
+impl InstructionSet {
+    /// All of them, from narrow to wide.
+    pub const ALL: [Self; 3] = [Self::Build, Self::Avx2, Self::Avx512];
+
+    /// The widest that this machine has. Without the feature `std`, and on
+    /// other architectures than x86-64, that is [`Build`](Self::Build).
+    #[inline(always)]
+    #[must_use]
+    pub fn widest() -> Self {
+        machine::widest()
+    }
+}
+
+impl fmt::Display for InstructionSet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Build => "the build's own instructions",
+            Self::Avx2 => "AVX2",
+            Self::Avx512 => "AVX-512",
+        })
+    }
+}
+
+/// A computation that is compiled for several instruction sets. What it calls
+/// profits only as far as it is inlined: write `#[inline(always)]`.
+pub(crate) trait Kernel {
+    /// What it returns.
+    type Output;
+
+    /// Computes.
+    fn run(self) -> Self::Output;
+}
+
+/// Runs `kernel` with the instructions of `set`, or with the widest that the
+/// machine has, if these are narrower.
+#[inline(always)]
+pub(crate) fn run<K: Kernel>(set: InstructionSet, kernel: K) -> K::Output {
+    machine::run(set.min(InstructionSet::widest()), kernel)
+}
+
+/// Runs `kernel` with the widest instructions of the machine.
+#[inline(always)]
+pub(crate) fn run_widest<K: Kernel>(kernel: K) -> K::Output {
+    machine::run(InstructionSet::widest(), kernel)
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[allow(unsafe_code)]
+mod machine {
+    use core::sync::atomic::{AtomicU8, Ordering};
+
+    use super::{InstructionSet, Kernel};
+
+    /// 0 before the first question, then 1 + the answer.
+    static WIDEST: AtomicU8 = AtomicU8::new(0);
+
+    #[inline(always)]
+    pub(super) fn widest() -> InstructionSet {
+        // Each thread that comes first finds the same answer.
+        match WIDEST.load(Ordering::Relaxed) {
+            0 => detect(),
+            1 => InstructionSet::Build,
+            2 => InstructionSet::Avx2,
+            _ => InstructionSet::Avx512,
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn detect() -> InstructionSet {
+        let (code, set) = if has_avx512() {
+            (3, InstructionSet::Avx512)
+        } else if std::is_x86_feature_detected!("avx2") {
+            (2, InstructionSet::Avx2)
+        } else {
+            (1, InstructionSet::Build)
+        };
+        WIDEST.store(code, Ordering::Relaxed);
+        set
+    }
+
+    fn has_avx512() -> bool {
+        std::is_x86_feature_detected!("avx2")
+            && std::is_x86_feature_detected!("avx512f")
+            && std::is_x86_feature_detected!("avx512vl")
+            && std::is_x86_feature_detected!("avx512dq")
+            && std::is_x86_feature_detected!("avx512bw")
+    }
+
+    /// `set` must have come from `widest`, or be narrower: this module is
+    /// private, and the two functions above see to it.
+    #[inline(always)]
+    pub(super) fn run<K: Kernel>(set: InstructionSet, kernel: K) -> K::Output {
+        match set {
+            InstructionSet::Build => build(kernel),
+            // SAFETY: the call is sound on machines that have the features
+            // which the function enables. `widest` has asked for each of them,
+            // and `set` is not wider.
+            InstructionSet::Avx2 => unsafe { avx2(kernel) },
+            // SAFETY: likewise.
+            InstructionSet::Avx512 => unsafe { avx512(kernel) },
+        }
+    }
+
+    #[inline(never)]
+    fn build<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
+
+    #[target_feature(enable = "avx2")]
+    fn avx2<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
+
+    #[target_feature(enable = "avx2,avx512f,avx512vl,avx512dq,avx512bw")]
+    fn avx512<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
+    }
+}
+
+#[cfg(not(all(feature = "std", target_arch = "x86_64")))]
+mod machine {
+    use super::{InstructionSet, Kernel};
+
+    #[inline(always)]
+    pub(super) fn widest() -> InstructionSet {
+        InstructionSet::Build
+    }
+
+    #[inline(always)]
+    pub(super) fn run<K: Kernel>(_set: InstructionSet, kernel: K) -> K::Output {
+        kernel.run()
+    }
+}

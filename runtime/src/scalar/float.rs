@@ -1,0 +1,117 @@
+//! The machine's own numbers.
+
+use super::lanes::{Lane, Sealed};
+use super::{Real, Scalar, sincos};
+
+macro_rules! implement_scalar {
+    ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident) => {
+        impl Scalar for $float {
+            #[inline(always)]
+            #[allow(clippy::cast_possible_truncation)]
+            fn from_f64(value: f64) -> Self {
+                value as $float
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                let ([sine], [cosine]) = $sin_cos([self]);
+                (sine, cosine)
+            }
+
+            #[inline(always)]
+            fn sin_cos_each<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
+                $several(angles)
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                #[cfg(feature = "std")]
+                return $float::sqrt(self);
+                #[cfg(all(feature = "libm", not(feature = "std")))]
+                return libm::$sqrt(self);
+            }
+        }
+
+        impl Lane for $float {
+            #[inline(always)]
+            fn sin_cos_lanes<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
+                $sin_cos(angles)
+            }
+        }
+
+        impl Sealed for $float {}
+
+        impl Real for $float {
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const EPSILON: Self = $float::EPSILON;
+            const NAN: Self = $float::NAN;
+
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                self.into()
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+
+            #[inline(always)]
+            fn powf(self, exponent: Self) -> Self {
+                #[cfg(feature = "std")]
+                return $float::powf(self, exponent);
+                #[cfg(all(feature = "libm", not(feature = "std")))]
+                return libm::$pow(self, exponent);
+            }
+
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+        }
+    };
+}
+
+implement_scalar!(f64, sincos::sin_cos_f64, sincos::several_f64, sqrt, pow);
+implement_scalar!(f32, sincos::sin_cos_f32, sincos::several_f32, sqrtf, powf);
+
+#[cfg(test)]
+mod tests {
+    use crate::scalar::{Real, Scalar};
+
+    fn laws<T: Real>() {
+        let angle = T::from_f64(0.7);
+        let (sine, cosine) = Scalar::sin_cos(angle);
+        let defect = sine * sine + cosine * cosine - T::ONE;
+        assert!(Real::abs(defect) <= T::EPSILON + T::EPSILON);
+        let two = T::ONE + T::ONE;
+        assert_eq!(Scalar::sqrt(two * two), two);
+        assert_eq!(Real::powf(two, two), two * two);
+        assert!(!Real::is_finite(T::ONE / T::ZERO));
+        assert!(Real::is_finite(T::ONE));
+        assert!(T::ONE + T::EPSILON > T::ONE);
+        assert_eq!(Real::to_f64(two), 2.0);
+    }
+
+    #[test]
+    fn f64_and_f32_obey_the_same_laws() {
+        laws::<f64>();
+        laws::<f32>();
+    }
+
+    #[test]
+    fn constants_round_once_to_the_nearest_value() {
+        // 0.1 is no f32: the nearest one must come out, not a truncation.
+        assert_eq!(<f32 as Scalar>::from_f64(0.1), 0.1_f32);
+        assert_eq!(<f64 as Scalar>::from_f64(0.1), 0.1_f64);
+    }
+
+    #[test]
+    fn maximum_and_minimum_keep_self_beside_nan() {
+        assert_eq!(Real::max(1.0_f64, f64::NAN), 1.0);
+        assert_eq!(Real::min(1.0_f64, f64::NAN), 1.0);
+        assert_eq!(Real::max(1.0_f64, 2.0), 2.0);
+        assert_eq!(Real::min(1.0_f64, 2.0), 1.0);
+    }
+}

@@ -1,0 +1,107 @@
+//! Several numbers in step.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::Scalar;
+
+/// A number that has lanes: `f64` or `f32`.
+pub trait Lane: Scalar + Sealed {
+    /// As [`Scalar::sin_cos_each`], for code that is compiled for wide
+    /// registers already.
+    #[doc(hidden)]
+    fn sin_cos_lanes<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]);
+}
+
+/// Keeps other crates from implementing [`Lane`].
+pub trait Sealed {}
+
+/// `N` numbers that go through the same operations, each in its lane: one
+/// evaluation of emitted code is then one of `N` states.
+///
+/// A plain array and loops over it, which the compiler turns into vector
+/// instructions: `Lanes<f64, 4>` and `Lanes<f32, 8>` fill a register of AVX2,
+/// `Lanes<f64, 8>` and `Lanes<f32, 16>` one of AVX-512. Lane `i` of a result
+/// has the bits that the scalar computation gives.
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum::scalar::{Lanes, Scalar};
+///
+/// let angles = Lanes([0.0, 0.5, 1.0, 1.5_f64]);
+/// let (sines, cosines) = angles.sin_cos();
+/// assert_eq!((sines.0[2], cosines.0[2]), Scalar::sin_cos(1.0_f64));
+/// assert_eq!((angles * Lanes::splat(2.0)).0, [0.0, 1.0, 2.0, 3.0]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct Lanes<T, const N: usize>(
+    /// The numbers.
+    pub [T; N],
+);
+
+impl<T: Copy, const N: usize> Lanes<T, N> {
+    /// The same value in every lane.
+    #[inline(always)]
+    #[must_use]
+    pub const fn splat(value: T) -> Self {
+        Self([value; N])
+    }
+}
+
+macro_rules! lane_by_lane {
+    ($trait:ident, $function:ident, $operator:tt) => {
+        impl<T: Lane, const N: usize> $trait for Lanes<T, N> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                let mut result = self;
+                for i in 0..N {
+                    result.0[i] = self.0[i] $operator other.0[i];
+                }
+                result
+            }
+        }
+    };
+}
+
+lane_by_lane!(Add, add, +);
+lane_by_lane!(Sub, sub, -);
+lane_by_lane!(Mul, mul, *);
+lane_by_lane!(Div, div, /);
+
+impl<T: Lane, const N: usize> Neg for Lanes<T, N> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        let mut result = self;
+        for i in 0..N {
+            result.0[i] = -self.0[i];
+        }
+        result
+    }
+}
+
+impl<T: Lane, const N: usize> Scalar for Lanes<T, N> {
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        Self::splat(T::from_f64(value))
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (sines, cosines) = T::sin_cos_lanes(self.0);
+        (Self(sines), Self(cosines))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let mut result = self;
+        for i in 0..N {
+            result.0[i] = self.0[i].sqrt();
+        }
+        result
+    }
+}

@@ -1,0 +1,174 @@
+//! Sine and cosine for `f64`.
+
+use core::f64::consts::FRAC_2_PI;
+use core::hint::black_box;
+use core::ops::{Add, Mul, Sub};
+
+use super::reduction;
+
+/// The common range. Up to 2¹⁶ quarter turns the products with the parts of π/2
+/// below are exact, and no angle comes closer to a multiple of π/2 than 2⁻⁶¹
+/// (29 quarter turns, found by trying all), where 2⁻¹²⁵ is left out.
+pub(super) const LIMIT: f64 = 102_943.0;
+
+/// π/2 = PART_1 + PART_2 + PART_3 up to 2⁻¹³⁰; 37, 37 and 53 bits.
+const PART_1: f64 = f64::from_bits(0x3ff9_21fb_5444_0000);
+const PART_2: f64 = f64::from_bits(0x3d86_8c23_4c4c_0000);
+const PART_3: f64 = f64::from_bits(0x3b29_8a2e_0370_7345);
+
+/// Adding 1.5 · 2⁵² rounds to an integer and leaves it in the lowest bits.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+
+const SIGN: u64 = 1 << 63;
+
+/// sin x = x + x³ (S1 + S2 x² + … + S6 x¹⁰) up to 2⁻⁵⁸ x for |x| ≤ π/4.
+const SINE: [f64; 6] = [
+    -1.666_666_666_666_663_2e-1,
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+
+/// cos x = 1 − x²/2 + x⁴ (C1 + C2 x² + … + C6 x¹⁰) up to 2⁻⁵⁸ for |x| ≤ π/4.
+const COSINE: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+
+/// What one written order of operations computes with: a number, or several in
+/// one register.
+pub(super) trait Pack:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
+    /// The same number everywhere.
+    fn splat(value: f64) -> Self;
+
+    /// The results of a turn by a number of quarters, which stands in the lowest
+    /// bits of `quarter`, from those without it: odd numbers exchange sine and
+    /// cosine, and their second bits say the signs.
+    fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self);
+}
+
+impl Pack for f64 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
+        let quarter = quarter.to_bits();
+        let exchange = (quarter & 1).wrapping_neg() & (sine.to_bits() ^ cosine.to_bits());
+        let sine_sign = (quarter << 62) & SIGN;
+        let cosine_sign = (quarter.wrapping_add(1) << 62) & SIGN;
+        (
+            f64::from_bits(sine.to_bits() ^ exchange ^ sine_sign),
+            f64::from_bits(cosine.to_bits() ^ exchange ^ cosine_sign),
+        )
+    }
+}
+
+/// An angle minus the nearest multiple of π/2: `high − low`, and in the lowest
+/// two bits of `quarter` which multiple. `low` is below 2⁻⁵³, and below 2⁻⁹ of
+/// `high`.
+#[derive(Clone, Copy)]
+pub(super) struct Reduced<P> {
+    quarter: P,
+    high: P,
+    low: P,
+}
+
+/// Sines and cosines of `N` angles.
+#[inline(always)]
+pub(in crate::scalar) fn sin_cos_f64<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
+    let mut common = true;
+    for angle in angles {
+        common &= angle.abs() < LIMIT;
+    }
+    let mut sines = [0.0; N];
+    let mut cosines = [0.0; N];
+    if !common {
+        // Copies for this block alone: were angles and results themselves lent out,
+        // they would live in memory on the common path too.
+        let (mut far_sines, mut far_cosines) = ([0.0; N], [0.0; N]);
+        beyond(black_box(angles), &mut far_sines, &mut far_cosines);
+        for i in 0..N {
+            (sines[i], cosines[i]) = (far_sines[i], far_cosines[i]);
+        }
+        return (sines, cosines);
+    }
+    for i in 0..N {
+        (sines[i], cosines[i]) = turn(reduce(angles[i]));
+    }
+    (sines, cosines)
+}
+
+/// The same, with angles outside the common range among them.
+#[cold]
+#[inline(never)]
+pub(super) fn beyond<const N: usize>(
+    angles: [f64; N],
+    sines: &mut [f64; N],
+    cosines: &mut [f64; N],
+) {
+    for i in 0..N {
+        let angle = angles[i];
+        if angle.abs() < LIMIT {
+            (sines[i], cosines[i]) = turn(reduce(angle));
+        } else if angle.is_finite() {
+            let (quarter, [high, low, _]) = reduction::modulo_half_pi(angle);
+            (sines[i], cosines[i]) = turn(Reduced {
+                quarter: f64::from_bits(quarter),
+                high,
+                low: -low,
+            });
+        } else {
+            (sines[i], cosines[i]) = (f64::NAN, f64::NAN);
+        }
+    }
+}
+
+/// Cody and Waite's reduction, for the common range.
+#[inline(always)]
+pub(super) fn reduce<P: Pack>(angle: P) -> Reduced<P> {
+    let quarter = angle * P::splat(FRAC_2_PI) + P::splat(ROUND);
+    let n = quarter - P::splat(ROUND);
+    // Both products and the first difference are exact.
+    let first = angle - n * P::splat(PART_1);
+    let second = n * P::splat(PART_2);
+    let high = first - second;
+    let lost = (first - high) - second;
+    Reduced {
+        quarter,
+        high,
+        low: n * P::splat(PART_3) - lost,
+    }
+}
+
+/// Sine and cosine of quarter turns plus a small angle.
+#[inline(always)]
+pub(super) fn turn<P: Pack>(angle: Reduced<P>) -> (P, P) {
+    let Reduced { quarter, high, low } = angle;
+    let square = high * high;
+    let fourth = square * square;
+    let half = P::splat(0.5) * square;
+    let one = P::splat(1.0);
+    let head = one - half;
+    // Pairs of terms: half the latency of Horner's scheme.
+    let [s1, s2, s3, s4, s5, s6] = SINE.map(P::splat);
+    let tail = (s1 + square * s2) + fourth * ((s3 + square * s4) + fourth * (s5 + square * s6));
+    // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
+    let sine = high - (low - (square * high) * tail);
+
+    let [c1, c2, c3, c4, c5, c6] = COSINE.map(P::splat);
+    let tail = (c1 + square * c2) + fourth * ((c3 + square * c4) + fourth * (c5 + square * c6));
+    // cos(high − low) = cos(high) + low sin(high)
+    let cosine = head + (((one - head) - half) + (fourth * tail + high * low));
+    P::exchange(quarter, sine, cosine)
+}

@@ -1,0 +1,140 @@
+//! Several angles of plain numbers, in the widest registers of the machine.
+//!
+//! A narrow register is filled where the angles are; for wide ones a function
+//! is called, since only a function can be compiled for other instructions than
+//! its surroundings. A wide load has to wait for narrow stores just made to the
+//! same place: angles are therefore read where they lie, never gathered first.
+
+use super::super::dispatch::{Kernel, run_widest};
+use super::{sin_cos_f32, sin_cos_f64};
+
+/// Sines and cosines of `N` angles.
+#[inline(always)]
+pub(in crate::scalar) fn several_f64<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
+    match N {
+        // A call costs more than it saves.
+        0..3 => sin_cos_f64(*angles),
+        3..8 => few::sin_cos(angles),
+        _ => run_widest(Many(angles)),
+    }
+}
+
+/// As [`several_f64`].
+#[inline(always)]
+pub(in crate::scalar) fn several_f32<const N: usize>(angles: &[f32; N]) -> ([f32; N], [f32; N]) {
+    if N < 8 {
+        sin_cos_f32(*angles)
+    } else {
+        run_widest(Many(angles))
+    }
+}
+
+/// At least eight angles.
+struct Many<'a, T, const N: usize>(&'a [T; N]);
+
+macro_rules! eight_at_a_time {
+    ($float:ident, $sin_cos:ident) => {
+        impl<const N: usize> Kernel for Many<'_, $float, N> {
+            type Output = ([$float; N], [$float; N]);
+
+            /// Where blocks of eight do not divide, the last one overlaps the
+            /// one before.
+            #[inline(always)]
+            fn run(self) -> Self::Output {
+                let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
+                let mut start = 0;
+                while start < N {
+                    let first = start.min(N - 8);
+                    let block = first..first + 8;
+                    let mut angles = [0.0; 8];
+                    angles.copy_from_slice(&self.0[block.clone()]);
+                    let (block_sines, block_cosines) = $sin_cos(angles);
+                    sines[block.clone()].copy_from_slice(&block_sines);
+                    cosines[block].copy_from_slice(&block_cosines);
+                    start += 8;
+                }
+                (sines, cosines)
+            }
+        }
+    };
+}
+
+eight_at_a_time!(f64, sin_cos_f64);
+eight_at_a_time!(f32, sin_cos_f32);
+
+/// Three to seven angles.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[allow(unsafe_code)]
+mod few {
+    use super::super::quad::sin_cos_quad;
+    use super::sin_cos_f64;
+    use crate::scalar::dispatch::InstructionSet;
+
+    #[inline(always)]
+    pub(super) fn sin_cos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
+        if N > 4 {
+            return in_blocks(angles);
+        }
+        // Whole registers are stored: a load that crosses two stores would
+        // have to wait.
+        let (sines, cosines) = in_blocks::<N, 4>(angles);
+        let mut result = ([0.0; N], [0.0; N]);
+        result.0.copy_from_slice(&sines[..N]);
+        result.1.copy_from_slice(&cosines[..N]);
+        result
+    }
+
+    /// Results of `M` angles, `N` or one block.
+    #[inline(always)]
+    fn in_blocks<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {
+        match InstructionSet::widest() {
+            InstructionSet::Build => build(angles),
+            // SAFETY: the machine has what the functions are compiled for.
+            InstructionSet::Avx2 => unsafe { avx2(angles) },
+            // SAFETY: likewise.
+            InstructionSet::Avx512 => unsafe { avx512(angles) },
+        }
+    }
+
+    #[inline(never)]
+    fn build<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {
+        sin_cos_f64(core::array::from_fn(|i| {
+            angles.get(i).copied().unwrap_or(0.0)
+        }))
+    }
+
+    #[target_feature(enable = "avx2")]
+    fn avx2<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {
+        quads(angles)
+    }
+
+    #[target_feature(enable = "avx2,avx512f,avx512vl,avx512dq")]
+    fn avx512<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {
+        quads(angles)
+    }
+
+    /// The last of several blocks overlaps the one before.
+    #[target_feature(enable = "avx2")]
+    #[inline]
+    fn quads<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {
+        let (mut sines, mut cosines) = ([0.0; M], [0.0; M]);
+        let mut start = 0;
+        while start < M {
+            let first = start.min(M - 4);
+            let block = core::array::from_fn(|i| angles.get(first + i).copied().unwrap_or(0.0));
+            let (block_sines, block_cosines) = sin_cos_quad(block);
+            sines[first..first + 4].copy_from_slice(&block_sines);
+            cosines[first..first + 4].copy_from_slice(&block_cosines);
+            start += 4;
+        }
+        (sines, cosines)
+    }
+}
+
+#[cfg(not(all(feature = "std", target_arch = "x86_64")))]
+mod few {
+    #[inline(always)]
+    pub(super) fn sin_cos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
+        super::sin_cos_f64(*angles)
+    }
+}
