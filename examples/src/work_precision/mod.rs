@@ -4,7 +4,7 @@
 //! equations those that the macro writes, in absolute angles; errors are
 //! against the reference trajectories, which come from arbitrary precision.
 //!
-//! - [`reference`]: the trajectories,
+//! - [`mod@reference`]: the trajectories,
 //! - [`measure`]: error, time and evaluations of one run; energy over 1,000 s,
 //! - [`output`]: tables, CSV files and charts.
 

@@ -63,7 +63,7 @@ mod tests {
             assert!(problem.end >= 10.0);
         }
         // By eye, from the file.
-        assert_eq!(problems()[0].expected[0], -0.1351468380460742728);
-        assert_eq!(problems()[2].expected[5], -8.352998681130676998);
+        assert_eq!(problems()[0].expected[0], -0.13514683809607428);
+        assert_eq!(problems()[2].expected[5], -8.352998681130677);
     }
 }
