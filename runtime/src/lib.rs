@@ -9,7 +9,7 @@
 //! - [`system`]: the traits that it implements, and states,
 //! - [`integrate`]: trajectories, with error control, dense output and events,
 //! - [`ensemble`]: many trajectories on all cores,
-//! - [`analysis`]: linear modes and spectra,
+//! - [`analysis`]: linear modes, spectra, growth of deviations,
 //! - [`data`]: CSV files.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
