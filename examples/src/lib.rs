@@ -5,4 +5,7 @@
 pub mod branched_double;
 pub mod evaluation_speed;
 pub mod exit;
+pub mod solvers;
+pub mod stability_map;
 pub mod transfer_orders;
+pub mod work_precision;

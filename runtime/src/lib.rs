@@ -10,7 +10,7 @@
 //! - [`integrate`]: trajectories, with error control, dense output and events,
 //! - [`ensemble`]: many trajectories on all cores,
 //! - [`batch`]: accelerations of many states, in vector registers,
-//! - [`analysis`]: linear modes and spectra,
+//! - [`analysis`]: linear modes, spectra, growth of deviations,
 //! - [`data`]: CSV files.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
@@ -95,7 +95,7 @@ pub mod system;
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
-pub use system::{Energy, Pendulum, SymmetricPendulum};
+pub use system::{Canonical, Energy, Pendulum, SymmetricPendulum};
 
 #[cfg(feature = "macros")]
 #[doc = include_str!("attribute.md")]

@@ -67,6 +67,10 @@ impl Emission<'_> {
         match entry.shape {
             Shape::Scalar => quote!(T),
             Shape::Vector => quote!([T; #length]),
+            Shape::Pair => {
+                let half = Literal::usize_unsuffixed(entry.outputs.len() / 2);
+                quote!([[T; #half]; 2])
+            }
             Shape::Matrix(size) => {
                 let size = Literal::usize_unsuffixed(size);
                 quote!([[T; #size]; #size])
@@ -234,6 +238,10 @@ impl Emission<'_> {
         match entry.shape {
             Shape::Scalar => quote!(#(#values)*),
             Shape::Vector => quote!([#(#values),*]),
+            Shape::Pair => {
+                let (first, second) = values.split_at(values.len() / 2);
+                quote!([[#(#first),*], [#(#second),*]])
+            }
             Shape::Matrix(size) => {
                 let rows = values.chunks(size).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])

@@ -16,12 +16,14 @@ impl Emission<'_> {
             .symmetric
             .is_some()
             .then(|| self.symmetric_pendulum());
+        let canonical = self.scene.requests.momenta.then(|| self.canonical());
         let sectors = self.mechanics.sectors.as_ref();
         let sectors = sectors.map(|sectors| self.sectors(sectors));
         quote! {
             #pendulum
             #energy
             #symmetric
+            #canonical
             #sectors
         }
     }
@@ -98,6 +100,54 @@ impl Emission<'_> {
                 // able to compile this body for them.
                 #[inline(always)]
                 fn accelerations_into(&self, #time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+                    #body
+                }
+            }
+        }
+    }
+
+    /// `impl Canonical`; NaN for slices of a wrong length.
+    fn canonical(&self) -> TokenStream {
+        let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
+        let timed = self.mechanics.drive.is_some();
+        let (parameter, time) = if timed {
+            (quote!(time), quote!(time,))
+        } else {
+            (quote!(_time), TokenStream::new())
+        };
+        let body = self.with_arrays(
+            &["theta", "momenta"],
+            quote! {{
+                let [velocities, torques] = self.canonical_rates(#time &theta, &momenta);
+                q_rates.copy_from_slice(&velocities);
+                p_rates.copy_from_slice(&torques);
+            }},
+            quote! {{
+                q_rates.fill(T::from_f64(f64::NAN));
+                p_rates.fill(T::from_f64(f64::NAN));
+            }},
+        );
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
+                #[inline]
+                fn freedoms(&self) -> usize {
+                    #links
+                }
+
+                #[inline]
+                fn canonical_rates(
+                    &self,
+                    #parameter: T,
+                    theta: &[T],
+                    momenta: &[T],
+                    q_rates: &mut [T],
+                    p_rates: &mut [T],
+                ) {
+                    if q_rates.len() != #links || p_rates.len() != #links {
+                        q_rates.fill(T::from_f64(f64::NAN));
+                        p_rates.fill(T::from_f64(f64::NAN));
+                        return;
+                    }
                     #body
                 }
             }

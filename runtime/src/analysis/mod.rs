@@ -1,4 +1,5 @@
-//! From matrices and trajectories to physics: linear modes and spectra.
+//! From matrices and trajectories to physics: linear modes, spectra, and the
+//! growth of deviations.
 
 pub mod modes;
 pub mod spectrum;

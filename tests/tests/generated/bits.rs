@@ -36,7 +36,7 @@ impl<const N: usize> Values for [f64; N] {
     }
 }
 
-impl<const N: usize> Values for [[f64; N]; N] {
+impl<const N: usize, const M: usize> Values for [[f64; N]; M] {
     fn values(self) -> Vec<f64> {
         self.concat()
     }
@@ -97,7 +97,7 @@ fn simple() {
 macro_rules! paper_agrees {
     ($model:expr) => {
         agree!("paper", $model, [], 3,
-            two: [accelerations, kinetic_energy, momenta, velocities, symmetric_accelerations,
+            two: [accelerations, kinetic_energy, momenta, velocities, canonical_rates, symmetric_accelerations,
                   symmetric_momenta, symmetric_velocities, hamiltonian, antiphase_energy,
                   transfer_angle_1, transfer_amplitude_2, transfer_quadratic_form,
                   transfer_exact, transfer_exact_from_rates],
@@ -124,7 +124,7 @@ fn chain() {
 #[test]
 fn triplet() {
     agree!("triplet", Triplet::new(), [], 4,
-        two: [accelerations, momenta, velocities, symmetric_accelerations, symmetric_momenta,
+        two: [accelerations, momenta, velocities, canonical_rates, symmetric_accelerations, symmetric_momenta,
               symmetric_velocities, antiphase_energy_d1, antiphase_energy_d2,
               transfer_amplitude_2_d1, transfer_amplitude_2_d2, transfer_quadratic_form_d1,
               transfer_quadratic_form_d2, transfer_exact_d1, transfer_exact_d2,
@@ -143,7 +143,7 @@ fn offset() {
 fn observed() {
     let model = Observed::new(ObservedParameters { m: 0.10531 }).expect("possible parameters");
     agree!("observed", model, [0.10531], 3,
-        two: [accelerations, momenta, velocities, symmetric_accelerations, symmetric_momenta,
+        two: [accelerations, momenta, velocities, canonical_rates, symmetric_accelerations, symmetric_momenta,
               symmetric_velocities,
               twist, twist_rate, twist_friction_rate, twist_from_momenta, twist_rate_from_momenta,
               height, height_rate, height_from_momenta, height_rate_from_momenta,
@@ -166,7 +166,7 @@ fn sweep() {
     };
     let model = Sweep::new(parameters).expect("possible parameters");
     agree!("sweep", model, [9.7, 0.21, 3e-3, 0.17], 3,
-        two: [accelerations, momenta, velocities], one: []);
+        two: [accelerations, momenta, velocities, canonical_rates], one: []);
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn driven() {
     };
     let model = Driven::new(parameters).expect("possible parameters");
     agree!("driven", model, [0.3, 7.1, -0.4, 0.05], 3,
-        timed: [accelerations, symmetric_accelerations, drive_power, antiphase_drive_power],
+        timed: [accelerations, canonical_rates, symmetric_accelerations, drive_power, antiphase_drive_power],
         rates: [friction_power],
         two: [kinetic_energy, momenta, velocities, symmetric_momenta, symmetric_velocities,
               hamiltonian, antiphase_energy, transfer_exact, transfer_exact_from_rates,
