@@ -27,7 +27,7 @@ impl Emission<'_> {
         Literal::usize_unsuffixed(self.scene.links.len())
     }
 
-    /// Copies slices into arrays of the same names.
+    /// Slices as arrays of the same names.
     fn with_arrays(
         &self,
         slices: &[&str],
@@ -40,7 +40,7 @@ impl Emission<'_> {
             .map(|name| Ident::new(name, Span::call_site()))
             .collect();
         quote! {
-            match (#(<[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
+            match (#(<&[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
                 (#(::core::result::Result::Ok(#names),)*) => #success,
                 _ => #failure,
             }
@@ -70,7 +70,7 @@ impl Emission<'_> {
         let body = self.fill(
             &output,
             &["theta", "omega"],
-            quote!(self.accelerations(&theta, &omega)),
+            quote!(self.accelerations(theta, omega)),
         );
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
@@ -93,9 +93,9 @@ impl Emission<'_> {
             |slices: &[&str], call| self.with_arrays(slices, call, quote!(T::from_f64(f64::NAN)));
         let kinetic = value(
             &["theta", "omega"],
-            quote!(self.kinetic_energy(&theta, &omega)),
+            quote!(self.kinetic_energy(theta, omega)),
         );
-        let potential = value(&["theta"], quote!(self.potential_energy(&theta)));
+        let potential = value(&["theta"], quote!(self.potential_energy(theta)));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
                 #[inline]
@@ -124,7 +124,7 @@ impl Emission<'_> {
         let body = self.fill(
             &output,
             &["coordinates", "rates"],
-            quote!(self.symmetric_accelerations(&coordinates, &rates)),
+            quote!(self.symmetric_accelerations(coordinates, rates)),
         );
         quote! {
             impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {
