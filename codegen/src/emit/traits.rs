@@ -41,7 +41,7 @@ impl Emission<'_> {
         Ident::new(name, Span::call_site())
     }
 
-    /// Copies slices into arrays of the same names.
+    /// Slices as arrays of the same names.
     fn with_arrays(
         &self,
         slices: &[&str],
@@ -54,7 +54,7 @@ impl Emission<'_> {
             .map(|name| Ident::new(name, Span::call_site()))
             .collect();
         quote! {
-            match (#(<[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
+            match (#(<&[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
                 (#(::core::result::Result::Ok(#names),)*) => #success,
                 _ => #failure,
             }
@@ -86,8 +86,8 @@ impl Emission<'_> {
             &output,
             &["theta", "omega"],
             match driven {
-                true => quote!(self.accelerations(time, &theta, &omega)),
-                false => quote!(self.accelerations(&theta, &omega)),
+                true => quote!(self.accelerations(time, theta, omega)),
+                false => quote!(self.accelerations(theta, omega)),
             },
         );
         let time = self.time_name();
@@ -118,7 +118,7 @@ impl Emission<'_> {
         let body = self.with_arrays(
             &["theta", "momenta"],
             quote! {{
-                let [velocities, torques] = self.canonical_rates(#time &theta, &momenta);
+                let [velocities, torques] = self.canonical_rates(#time theta, momenta);
                 q_rates.copy_from_slice(&velocities);
                 p_rates.copy_from_slice(&torques);
             }},
@@ -160,9 +160,9 @@ impl Emission<'_> {
             |slices: &[&str], call| self.with_arrays(slices, call, quote!(T::from_f64(f64::NAN)));
         let kinetic = value(
             &["theta", "omega"],
-            quote!(self.kinetic_energy(&theta, &omega)),
+            quote!(self.kinetic_energy(theta, omega)),
         );
-        let potential = value(&["theta"], quote!(self.potential_energy(&theta)));
+        let potential = value(&["theta"], quote!(self.potential_energy(theta)));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
                 #[inline]
@@ -192,8 +192,8 @@ impl Emission<'_> {
             &output,
             &["coordinates", "rates"],
             match self.mechanics.drive.is_some() {
-                true => quote!(self.symmetric_accelerations(time, &coordinates, &rates)),
-                false => quote!(self.symmetric_accelerations(&coordinates, &rates)),
+                true => quote!(self.symmetric_accelerations(time, coordinates, rates)),
+                false => quote!(self.symmetric_accelerations(coordinates, rates)),
             },
         );
         let time = self.time_name();

@@ -72,7 +72,7 @@ macro_rules! agree {
             };
             let compare = |name: &str, compiled: Vec<f64>| {
                 let interpreted =
-                    stages.program.evaluate_with(Scalar::sin_cos, name, parameters, input);
+                    stages.program.evaluate(Scalar::sin_cos, name, parameters, input);
                 let interpreted = interpreted.unwrap_or_else(|| panic!("no entry {name}"));
                 let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
                 assert_eq!(bits(&compiled), bits(&interpreted), "{name} at {first:?}, {second:?}");

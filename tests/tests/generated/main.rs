@@ -2,5 +2,6 @@
 
 mod bits;
 mod hygiene;
+mod machine_code;
 mod scalars;
 mod toolchain;
