@@ -252,7 +252,7 @@ impl Emission<'_> {
         let at = |id: ValueId, place: Binding| self.bound(id, locals, place);
         match *self.op(id) {
             Op::Constant(constant) => {
-                let field = format_ident!("{}", self.program.setup.get(constant).name);
+                let field = self.field(constant);
                 (quote!(self.#field), Binding::Atom)
             }
             Op::Number(ref number) => (number_tokens(number), Binding::Atom),

@@ -2,4 +2,5 @@
 
 mod bits;
 mod hygiene;
+mod sectors;
 mod toolchain;
