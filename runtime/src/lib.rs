@@ -8,7 +8,8 @@
 //! - [`scalar`]: the numbers that emitted code computes with,
 //! - [`system`]: the traits that it implements, and states,
 //! - [`integrate`]: trajectories, with error control and dense output,
-//! - [`analysis`]: linear modes and spectra,
+//! - [`sectors`]: what identical subtrees do in phase and against each other,
+//! - [`analysis`]: linear modes, of trees and of sectors, and spectra,
 //! - [`data`]: CSV files.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward

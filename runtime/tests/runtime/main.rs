@@ -12,4 +12,5 @@ mod order;
 mod problems;
 mod reference;
 mod requests;
+mod sector_modes;
 mod spectrum;
