@@ -3,5 +3,7 @@
 //! Each program in `src/bin` is a thin shell around one module here.
 
 pub mod branched_double;
+pub mod energy_cascade;
 pub mod exit;
+pub mod quadrature;
 pub mod transfer_orders;

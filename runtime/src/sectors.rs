@@ -49,7 +49,8 @@ pub struct Sector {
 
 /// A model whose sectors are known.
 pub trait Sectors {
-    /// The sectors: the means, then the differences, outer branchings first.
+    /// The sectors: the means, then the differences, those of a branching before
+    /// those of the branchings below it.
     /// Together they have as many coordinates as there are links.
     const SECTORS: &'static [Sector];
 }
