@@ -6,7 +6,7 @@ use super::parts::{Line, MOST_LINES};
 use crate::exact::Rational;
 use crate::program::{Argument, Entry, Op, Shape, ValueId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 pub(super) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
