@@ -192,10 +192,10 @@ fn orthonormal_basis(sectors: &[Sector], links: usize) -> Result<DMatrix<f64>, S
                 })?;
             *entry += weight / root;
         }
-        for earlier in 0..column {
-            if basis.column(column).dot(&basis.column(earlier)).abs() > SKEWNESS {
+        for (other, first) in coordinates.iter().enumerate().take(column) {
+            if basis.column(column).dot(&basis.column(other)).abs() > SKEWNESS {
                 return Err(SectorModesError::NotOrthogonal {
-                    first: coordinates[earlier].name,
+                    first: first.name,
                     second: coordinate.name,
                 });
             }
