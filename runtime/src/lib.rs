@@ -10,7 +10,8 @@
 //! - [`integrate`]: trajectories, with error control, dense output and events,
 //! - [`ensemble`]: many trajectories on all cores,
 //! - [`batch`]: accelerations of many states, in vector registers,
-//! - [`analysis`]: linear modes, spectra, growth of deviations,
+//! - [`sectors`]: what identical subtrees do in phase and against each other,
+//! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
 //! - [`data`]: CSV files.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward

@@ -1,10 +1,14 @@
-//! The seven fixture scenes, compiled. Their files under `fixtures/scenes` are
+//! The nine fixture scenes, compiled. Their files under `fixtures/scenes` are
 //! what snapshots show, so that what is read is what is run.
 
 #[path = "../fixtures/scenes/chain.rs"]
 pub mod chain;
 #[path = "../fixtures/scenes/driven.rs"]
 pub mod driven;
+#[path = "../fixtures/scenes/generations.rs"]
+pub mod generations;
+#[path = "../fixtures/scenes/nested.rs"]
+pub mod nested;
 #[path = "../fixtures/scenes/observed.rs"]
 pub mod observed;
 #[path = "../fixtures/scenes/offset.rs"]

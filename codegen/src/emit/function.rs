@@ -6,7 +6,7 @@ use super::parts::{Line, MOST_LINES};
 use crate::exact::Rational;
 use crate::program::{Argument, Entry, Op, Purpose, Shape, ValueId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 pub(super) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
@@ -292,7 +292,7 @@ impl Emission<'_> {
         let at = |id: ValueId, place: Binding| self.bound(id, locals, place);
         match *self.op(id) {
             Op::Constant(constant) => {
-                let field = format_ident!("{}", self.program.setup.get(constant).name);
+                let field = self.field(constant);
                 (quote!(self.#field), Binding::Atom)
             }
             Op::Number(ref number) => (number_tokens(number), Binding::Atom),

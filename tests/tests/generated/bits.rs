@@ -1,12 +1,14 @@
 //! Emitted code agrees with its program bit for bit: what the interpreter
 //! computes operation by operation is what the compiled function returns.
 
-use branched_pendulum::{Scalar, Transfer};
+use branched_pendulum::{Budget, Scalar, Transfer};
 use branched_pendulum_codegen::program::Argument;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
     chain::Chain,
     driven::{Driven, DrivenParameters},
+    generations::Generations,
+    nested::Nested,
     observed::{Observed, ObservedParameters},
     offset::Offset,
     paper::Paper,
@@ -45,6 +47,18 @@ impl<const N: usize, const M: usize> Values for [[f64; N]; M] {
 impl Values for Transfer<f64> {
     fn values(self) -> Vec<f64> {
         vec![self.kinetic, self.potential]
+    }
+}
+
+impl<const S: usize> Values for [Transfer<f64>; S] {
+    fn values(self) -> Vec<f64> {
+        self.into_iter().flat_map(Values::values).collect()
+    }
+}
+
+impl<const S: usize> Values for Budget<f64, S> {
+    fn values(self) -> Vec<f64> {
+        [self.energies, self.transfers, self.powers].concat()
     }
 }
 
@@ -185,6 +199,31 @@ fn driven() {
               hamiltonian, antiphase_energy, transfer_exact, transfer_exact_from_rates,
               antiphase_friction_power],
         one: [potential_energy, to_symmetric, from_symmetric]);
+}
+
+#[test]
+fn nested() {
+    agree!("nested", Nested::new(), [], 7,
+        timed: [accelerations, canonical_rates, symmetric_accelerations, budget_rest, budget_canonical,
+                budget_velocity, budget_parseval, symmetric_budget_rest,
+                symmetric_budget_canonical, symmetric_budget_velocity,
+                symmetric_budget_parseval],
+        rates: [],
+        two: [momenta, velocities, symmetric_momenta, symmetric_velocities, sector_transfers,
+              transfer_matrix, symmetric_sector_transfers, symmetric_transfer_matrix,
+              sector_transfers_amplitude_2, sector_transfers_amplitude_4],
+        one: [mass_matrix, stiffness_matrix, to_symmetric, from_symmetric]);
+}
+
+/// A function that is emitted in parts computes what an undivided one would.
+#[test]
+fn functions_in_parts() {
+    let tokens = scene("generations").tokens.to_string();
+    for part in ["budget_parseval_part_1", "budget_parseval_part_2"] {
+        assert!(tokens.contains(&format!("fn {part} ")), "no {part}");
+    }
+    agree!("generations", Generations::new(), [], 15,
+        two: [accelerations, budget_parseval], one: []);
 }
 
 #[test]

@@ -4,4 +4,5 @@ mod bits;
 mod hygiene;
 mod machine_code;
 mod scalars;
+mod sectors;
 mod toolchain;

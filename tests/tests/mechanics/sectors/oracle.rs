@@ -112,7 +112,8 @@ fn velocities(tree: &Tree, theta: &[f64], omega: &[f64]) -> [DVector<f64>; 2] {
         }
         velocity
     };
-    [0, 1].map(|axis| DVector::from_fn(n, |index, _| of_link(index)[axis]))
+    let all: Vec<[f64; 2]> = (0..n).map(of_link).collect();
+    [0, 1].map(|axis| DVector::from_fn(n, |index, _| all[index][axis]))
 }
 
 /// V of every sector.
