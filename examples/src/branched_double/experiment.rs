@@ -4,8 +4,7 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::integrate::DenseError;
 use branched_pendulum::prelude::{
-    DenseStep, Dop853, IntegrationError, Integrator, Ode, Options, Real, State,
-    SymmetricCoordinates, Tolerance,
+    DenseStep, Dop853, IntegrationError, Ode, Options, Real, State, SymmetricCoordinates, Tolerance,
 };
 
 use super::apparatus::{Apparatus, Flow, Sample};

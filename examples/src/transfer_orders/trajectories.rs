@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::integrate::DenseError;
 use branched_pendulum::prelude::{
-    DenseStep, Dop853, Integrator, Options, State, SymmetricCoordinates, Tolerance,
+    DenseStep, Dop853, Options, State, SymmetricCoordinates, Tolerance,
 };
 
 use super::error_curve::{AMPLITUDES, Point, Sums, logarithmic};
