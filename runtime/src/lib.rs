@@ -10,6 +10,7 @@
 //! - [`integrate`]: trajectories, with error control, dense output and events,
 //! - [`ensemble`]: many trajectories on all cores,
 //! - [`batch`]: accelerations of many states, in vector registers,
+//! - [`taylor`]: sums that emitted Taylor recurrences are made of,
 //! - [`analysis`]: linear modes and spectra,
 //! - [`data`]: CSV files.
 //!
@@ -65,7 +66,7 @@
 //! # Features
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
-//!   `alloc` and offers [`scalar`], [`system`], [`batch`] and [`integrate`].
+//!   `alloc` and offers [`scalar`], [`system`], [`batch`], [`taylor`] and [`integrate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `chart`: line charts as SVG and PNG.
@@ -90,12 +91,13 @@ pub mod prelude;
 pub mod scalar;
 pub mod sectors;
 pub mod system;
+pub mod taylor;
 
 // What emitted code names, at the shortest path.
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
-pub use system::{Energy, Pendulum, SymmetricPendulum};
+pub use system::{Energy, Pendulum, SymmetricPendulum, TaylorPendulum};
 
 #[cfg(feature = "macros")]
 #[doc = include_str!("attribute.md")]

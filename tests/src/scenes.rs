@@ -1,16 +1,20 @@
-//! The seven fixture scenes, compiled. Their files under `fixtures/scenes` are
+//! The fixture scenes, compiled. Their files under `fixtures/scenes` are
 //! what snapshots show, so that what is read is what is run.
 
 #[path = "../fixtures/scenes/chain.rs"]
 pub mod chain;
 #[path = "../fixtures/scenes/driven.rs"]
 pub mod driven;
+#[path = "../fixtures/scenes/driven_series.rs"]
+pub mod driven_series;
 #[path = "../fixtures/scenes/observed.rs"]
 pub mod observed;
 #[path = "../fixtures/scenes/offset.rs"]
 pub mod offset;
 #[path = "../fixtures/scenes/paper.rs"]
 pub mod paper;
+#[path = "../fixtures/scenes/series.rs"]
+pub mod series;
 #[path = "../fixtures/scenes/simple.rs"]
 pub mod simple;
 #[path = "../fixtures/scenes/sweep.rs"]
