@@ -34,9 +34,7 @@ pub fn begin<T: Scalar, const N: usize, const D: usize, const P: usize>(
 ) -> Range<usize> {
     let last = coefficients.len().saturating_sub(1).max(1);
     if factors.len() + 1 < last || D != 2 * N {
-        coefficients
-            .as_flattened_mut()
-            .fill(T::from_f64(f64::NAN));
+        coefficients.as_flattened_mut().fill(T::from_f64(f64::NAN));
         return 1..1;
     }
     let orders = [(theta, omega), (omega, accelerations)];
@@ -49,7 +47,8 @@ pub fn begin<T: Scalar, const N: usize, const D: usize, const P: usize>(
 }
 
 /// Σ u\[j\] v\[k−j\] over 0 < j < k for each pair of factors u, v, of which row
-/// j − 1 holds the coefficients of order j. The terms are added from j = 1 on.
+/// j − 1 holds the coefficients of order j. The terms are added in pairs from the middle outwards, those
+/// with the newest coefficients last.
 ///
 /// Rows that do not exist count as zero. Uses the widest vector instructions of
 /// the machine; the results do not depend on them.
@@ -105,11 +104,22 @@ fn sum_block<T: Scalar, const P: usize, const W: usize>(
     at: usize,
     sums: &mut [T; W],
 ) {
+    let (early, rest) = rows.split_at(rows.len() / 2);
+    let (middle, late) = rest.split_at(rest.len() - early.len());
     let mut partial = *sums;
-    for ([left, _], [_, right]) in rows.iter().zip(rows.iter().rev()) {
+    for [left, right] in middle {
         let (left, right) = (&left[at..at + W], &right[at..at + W]);
         for i in 0..W {
-            partial[i] = partial[i] + left[i] * right[i];
+            partial[i] = left[i] * right[i];
+        }
+    }
+    // From the middle outwards: the coefficients that were written last are
+    // read last, when they have arrived in memory.
+    for ([u, v], [u_late, v_late]) in early.iter().rev().zip(late) {
+        let (u, v) = (&u[at..at + W], &v[at..at + W]);
+        let (u_late, v_late) = (&u_late[at..at + W], &v_late[at..at + W]);
+        for i in 0..W {
+            partial[i] = partial[i] + (u[i] * v_late[i] + u_late[i] * v[i]);
         }
     }
     *sums = partial;
@@ -123,11 +133,18 @@ pub fn advance<T: Scalar, const N: usize, const D: usize>(
     k: usize,
     accelerations: &[T; N],
 ) {
-    let divisor = whole::<T>(k + 1);
-    if let Some([row, next, ..]) = coefficients.get_mut(k..) {
-        let known = row.iter().skip(N).chain(accelerations);
-        for (out, &rate) in next.iter_mut().zip(known) {
-            *out = rate / divisor;
+    // A product: its rounding is far below that of order 1, a division takes
+    // its time.
+    let inverse = T::from_f64(1.0) / whole::<T>(k + 1);
+    if let Some([row, next, ..]) = coefficients.get_mut(k..)
+        && D == 2 * N
+    {
+        let (angles, velocities) = next.split_at_mut(N);
+        for (out, &rate) in angles.iter_mut().zip(&row[N..]) {
+            *out = rate * inverse;
+        }
+        for (out, &rate) in velocities.iter_mut().zip(accelerations) {
+            *out = rate * inverse;
         }
     }
 }

@@ -169,7 +169,12 @@ impl Emission<'_> {
 
     /// `let [theta_parent, _, theta_child_2] = *theta;`, the elements that are
     /// `read`.
-    pub(super) fn take_apart(&self, argument: Argument, read: &[ValueId], locals: &Locals) -> TokenStream {
+    pub(super) fn take_apart(
+        &self,
+        argument: Argument,
+        read: &[ValueId],
+        locals: &Locals,
+    ) -> TokenStream {
         let array = ident(argument.name());
         if argument == Argument::Time {
             let used = |id: &ValueId| matches!(self.op(*id), Op::Input(Argument::Time, _));

@@ -55,11 +55,7 @@ pub(super) struct Recurrences<'e> {
 }
 
 impl<'e> Recurrences<'e> {
-    pub(super) fn new(
-        emission: &'e Emission<'e>,
-        entry: &'e Entry,
-        needed: &'e [ValueId],
-    ) -> Self {
+    pub(super) fn new(emission: &'e Emission<'e>, entry: &'e Entry, needed: &'e [ValueId]) -> Self {
         let links = emission.scene.links.len();
         let mut locals = emission.locals(entry, needed);
         let reserved = ["coefficients", "factors", "accelerations", "orders"];
@@ -244,16 +240,21 @@ impl<'e> Recurrences<'e> {
 
     /// `let [theta_parent_k, _, omega_parent_k, _] = coefficients[k];`
     fn inputs(&self) -> TokenStream {
-        let elements = [Argument::Theta, Argument::Omega].into_iter().flat_map(|argument| {
-            (0..self.links).map(move |index| {
-                let input = Op::Input(argument, index);
-                let found = self.needed.iter().find(|id| *self.emission.op(**id) == input);
-                match found.and_then(|id| self.names.get(id)) {
-                    Some(name) => quote!(#name),
-                    None => quote!(_),
-                }
-            })
-        });
+        let elements = [Argument::Theta, Argument::Omega]
+            .into_iter()
+            .flat_map(|argument| {
+                (0..self.links).map(move |index| {
+                    let input = Op::Input(argument, index);
+                    let found = self
+                        .needed
+                        .iter()
+                        .find(|id| *self.emission.op(**id) == input);
+                    match found.and_then(|id| self.names.get(id)) {
+                        Some(name) => quote!(#name),
+                        None => quote!(_),
+                    }
+                })
+            });
         let k = &self.order;
         quote!(let [#(#elements),*] = coefficients[#k];)
     }
@@ -356,7 +357,10 @@ impl<'e> Recurrences<'e> {
                     (quote!(#sum * #inverse + #angle_k * #cos), Binding::Sum)
                 } else {
                     let sin = zeroth(self.id(&Op::Sin(angle)));
-                    (quote!(-(#sum * #inverse + #angle_k * #sin)), Binding::Prefix)
+                    (
+                        quote!(-(#sum * #inverse + #angle_k * #sin)),
+                        Binding::Prefix,
+                    )
                 }
             }
             Op::Input(..) | Op::Constant(_) | Op::Number(_) => {

@@ -18,4 +18,5 @@ mod reference;
 mod requests;
 mod spectrum;
 mod stability;
+mod taylor;
 mod variational;

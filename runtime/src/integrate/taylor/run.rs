@@ -20,12 +20,7 @@ pub(super) struct Run<'a, T, O: ?Sized> {
 
 impl<'a, T: Real, O: TaylorOde<T> + ?Sized> Run<'a, T, O> {
     /// A run of `ode` about to leave `start`.
-    pub(super) fn new(
-        ode: &'a O,
-        options: &'a Options<T>,
-        order: usize,
-        start: &State<T>,
-    ) -> Self {
+    pub(super) fn new(ode: &'a O, options: &'a Options<T>, order: usize, start: &State<T>) -> Self {
         Self {
             ode,
             options,
