@@ -86,7 +86,7 @@ fn solves_the_equation(
     accelerations: impl Fn(Double, &[Double; 3], &[Double; 3]) -> [Double; 3],
 ) {
     const STATES: usize = 40;
-    for (order, tau) in [(2, 1e-4), (3, 1e-4), (5, 5e-4), (8, 1e-3), (13, 3e-3)] {
+    for (order, tau) in [(2, 1e-4), (3, 1e-4), (5, 5e-4), (8, 1e-3), (12, 5e-3)] {
         let mut random = Random::new(11);
         let mut mean = 0.0;
         for _ in 0..STATES {
@@ -100,7 +100,7 @@ fn solves_the_equation(
             };
             let (far, near) = (at(tau / pace), at(tau / (2.0 * pace)));
             // Rounding is some 1e-30.
-            assert!(near > 1e-28, "order {order}: nothing left to compare");
+            assert!(near > 1e-27, "order {order}: nothing left to compare");
             mean += (far / near).log2() / STATES as f64;
         }
         println!("order {order}: {mean}");
