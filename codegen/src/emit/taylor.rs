@@ -29,7 +29,7 @@ impl Emission<'_> {
             .collect();
         let turn = recurrences.turn();
         let k = &recurrences.order;
-        let docs = self.taylor_docs(entry);
+        let docs = self.taylor_docs(entry, recurrences.count());
         let name = ident(&entry.name);
         let runtime = self.runtime();
         let links = self.links();
@@ -62,11 +62,13 @@ impl Emission<'_> {
         }
     }
 
-    fn taylor_docs(&self, entry: &Entry) -> TokenStream {
+    fn taylor_docs(&self, entry: &Entry, sums: usize) -> TokenStream {
         let mut lines = self.meaning(entry.purpose);
         let operations = self.program.operations(&entry.outputs);
         lines.push(String::new());
-        lines.push(format!("Cost of order 0: {operations}."));
+        lines.push(format!(
+            "Cost of order 0: {operations}. Each order k > 0: no sin_cos, some three times the products and twice the sums, and {sums} sums of k − 1 products, side by side."
+        ));
         doc_lines(&lines)
     }
 

@@ -100,6 +100,11 @@ impl<'e> Recurrences<'e> {
         self.sums.len().max(1).next_multiple_of(BLOCK)
     }
 
+    /// Number of sums of products in each order.
+    pub(super) fn count(&self) -> usize {
+        self.sums.len()
+    }
+
     /// Whether an operation needs a sum of products.
     fn nonlinear(&self, op: &Op) -> bool {
         match *op {
