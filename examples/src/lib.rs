@@ -3,6 +3,11 @@
 //! Each program in `src/bin` is a thin shell around one module here.
 
 pub mod branched_double;
+pub mod energy_cascade;
 pub mod evaluation_speed;
 pub mod exit;
+pub mod quadrature;
+pub mod solvers;
+pub mod stability_map;
 pub mod transfer_orders;
+pub mod work_precision;

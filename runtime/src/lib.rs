@@ -10,8 +10,9 @@
 //! - [`integrate`]: trajectories, with error control, dense output and events,
 //! - [`ensemble`]: many trajectories on all cores,
 //! - [`batch`]: accelerations of many states, in vector registers,
+//! - [`sectors`]: what identical subtrees do in phase and against each other,
 //! - [`taylor`]: sums that emitted Taylor recurrences are made of,
-//! - [`analysis`]: linear modes and spectra,
+//! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
 //! - [`data`]: CSV files.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
@@ -97,7 +98,7 @@ pub mod taylor;
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
-pub use system::{Energy, Pendulum, SymmetricPendulum, TaylorPendulum};
+pub use system::{Canonical, Energy, Pendulum, SymmetricPendulum, TaylorPendulum};
 
 #[cfg(feature = "macros")]
 #[doc = include_str!("attribute.md")]

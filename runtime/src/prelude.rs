@@ -8,6 +8,7 @@ pub use crate::integrate::{
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
+pub use crate::sectors::{Budget, Sectors};
 pub use crate::system::{
     AbsoluteAngles, Canonical, CanonicalVariables, Energy, Ode, OdeFn, Pendulum, State,
     SymmetricCoordinates, SymmetricPendulum, TaylorOde, TaylorPendulum,

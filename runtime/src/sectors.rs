@@ -20,7 +20,7 @@ impl SectorCoordinate {
     /// Σ weight²: the square of the factor that turns the coordinate into the
     /// orthonormal one. The orthonormal coordinate is √norm · coordinate, its
     /// momentum that of the coordinate divided by √norm; for the difference of
-    /// two links the norm is 2.
+    /// two links the norm is 2. `analysis::sector_modes` says more.
     #[must_use]
     pub fn norm(&self) -> f64 {
         self.weights.iter().map(|(_, weight)| weight * weight).sum()
@@ -49,7 +49,8 @@ pub struct Sector {
 
 /// A model whose sectors are known.
 pub trait Sectors {
-    /// The sectors: the means, then the differences, outer branchings first.
+    /// The sectors: the means, then the differences, those of a branching before
+    /// those of the branchings below it.
     /// Together they have as many coordinates as there are links.
     const SECTORS: &'static [Sector];
 }

@@ -7,6 +7,10 @@ pub mod chain;
 pub mod driven;
 #[path = "../fixtures/scenes/driven_series.rs"]
 pub mod driven_series;
+#[path = "../fixtures/scenes/generations.rs"]
+pub mod generations;
+#[path = "../fixtures/scenes/nested.rs"]
+pub mod nested;
 #[path = "../fixtures/scenes/observed.rs"]
 pub mod observed;
 #[path = "../fixtures/scenes/offset.rs"]

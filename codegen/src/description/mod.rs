@@ -13,7 +13,7 @@
 //! property    = name "=" value
 //! value       = expression | "(" expression "," expression ")"
 //! request     = name [ "(" [ form { "," form } [ "," ] ] ")" ]
-//! form        = name [ "=" integer ]
+//! form        = name [ "=" integer | "(" [ name { "," name } [ "," ] ] ")" ]
 //! observable  = name "=" expression
 //!
 //! expression  = term { ( "+" | "-" ) term }
@@ -223,4 +223,6 @@ pub struct Form {
     pub name: Ident,
     /// What follows the `=`.
     pub value: Option<Multiplicity>,
+    /// The names in its parentheses.
+    pub members: Option<Vec<Ident>>,
 }

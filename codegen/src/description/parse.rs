@@ -310,7 +310,7 @@ fn observable(input: ParseStream<'_>, _: &mut Report) -> Result<Observable, Faul
     Ok(Observable { name, value })
 }
 
-fn form(input: ParseStream<'_>, _: &mut Report) -> Result<Form, Fault> {
+fn form(input: ParseStream<'_>, report: &mut Report) -> Result<Form, Fault> {
     let name = identifier(input, "`angle = 1`, `amplitude = 2` or `exact`")?;
     let value = if input.peek(Token![=]) {
         take::<Token![=]>(input, "`=`")?;
@@ -318,7 +318,18 @@ fn form(input: ParseStream<'_>, _: &mut Report) -> Result<Form, Fault> {
     } else {
         None
     };
-    Ok(Form { name, value })
+    let members = if value.is_none() && input.peek(token::Paren) {
+        let names = group(input, Delimiter::Parenthesis, "`(`")?;
+        let member = |input: ParseStream<'_>, _: &mut Report| identifier(input, "a sector");
+        Some(list(names, report, member).members)
+    } else {
+        None
+    };
+    Ok(Form {
+        name,
+        value,
+        members,
+    })
 }
 
 /// A whole number; all beyond `u32` count as `u32::MAX`.

@@ -96,10 +96,16 @@ impl Display for Request {
 
 impl Display for Form {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self.value {
-            Some(value) => write!(f, "{} = {}", self.name, value.count),
-            None => write!(f, "{}", self.name),
+        write!(f, "{}", self.name)?;
+        if let Some(value) = self.value {
+            write!(f, " = {}", value.count)?;
         }
+        if let Some(members) = &self.members {
+            write!(f, "(")?;
+            separated(members, f)?;
+            write!(f, ")")?;
+        }
+        Ok(())
     }
 }
 

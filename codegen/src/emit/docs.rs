@@ -122,6 +122,11 @@ impl Emission<'_> {
             Purpose::AbsoluteVelocities => {
                 vec!["Angular velocities ω (in rad/s) that belong to the momenta: solves M(θ) ω = p.".into()]
             }
+            Purpose::CanonicalRates => vec![
+                "Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta ∂L/∂θ + Q (in N m), friction, drag and drive included, at angles and momenta.".into(),
+                String::new(),
+                "For methods in canonical variables, as `integrate::Gauss` with `system::CanonicalVariables`.".into(),
+            ],
             Purpose::MassMatrix => vec![
                 "Mass matrix M(θ) (in kg m²) by rows. Zero between links of different branches.".into(),
                 String::new(),

@@ -35,6 +35,7 @@ impl Emission<'_> {
                 None => Vec::new(),
             },
             Purpose::AbsoluteMomenta => self.momenta(absolute),
+            Purpose::CanonicalRates => self.momentum_rates(absolute),
             Purpose::SymmetricAccelerations => symmetric
                 .map(|frame| self.equations(frame))
                 .unwrap_or_default(),
@@ -93,6 +94,23 @@ impl Emission<'_> {
             | Purpose::SymmetricVelocities
             | Purpose::Hamiltonian => Vec::new(),
         }
+    }
+
+    fn momentum_rates(&self, frame: &Frame) -> Vec<Formula> {
+        let rates = frame.momentum_rates.iter().flatten();
+        frame
+            .momenta
+            .iter()
+            .zip(rates)
+            .map(|(&id, rate)| {
+                let symbol = self.mechanics.symbols.get(id);
+                Formula {
+                    left: format!("d{}/dt", symbol.text),
+                    left_latex: format!("\\dot {}", symbol.latex),
+                    right: rate.clone(),
+                }
+            })
+            .collect()
     }
 
     fn momenta(&self, frame: &Frame) -> Vec<Formula> {

@@ -6,7 +6,7 @@ use super::parts::{Line, MOST_LINES};
 use crate::exact::Rational;
 use crate::program::{Argument, Entry, Op, Purpose, Shape, ValueId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 pub(super) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
@@ -67,6 +67,10 @@ impl Emission<'_> {
         match entry.shape {
             Shape::Scalar => quote!(T),
             Shape::Vector => quote!([T; #length]),
+            Shape::Pair => {
+                let half = Literal::usize_unsuffixed(entry.outputs.len() / 2);
+                quote!([[T; #half]; 2])
+            }
             Shape::Matrix(size) => {
                 let size = Literal::usize_unsuffixed(size);
                 quote!([[T; #size]; #size])
@@ -239,6 +243,10 @@ impl Emission<'_> {
         match entry.shape {
             Shape::Scalar => quote!(#(#values)*),
             Shape::Vector => quote!([#(#values),*]),
+            Shape::Pair => {
+                let (first, second) = values.split_at(values.len() / 2);
+                quote!([[#(#first),*], [#(#second),*]])
+            }
             Shape::Matrix(size) => {
                 let rows = values.chunks(size).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
@@ -289,7 +297,7 @@ impl Emission<'_> {
         let at = |id: ValueId, place: Binding| self.bound(id, locals, place);
         match *self.op(id) {
             Op::Constant(constant) => {
-                let field = format_ident!("{}", self.program.setup.get(constant).name);
+                let field = self.field(constant);
                 (quote!(self.#field), Binding::Atom)
             }
             Op::Number(ref number) => (number_tokens(number), Binding::Atom),

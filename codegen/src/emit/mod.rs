@@ -20,7 +20,7 @@ pub use stub::stub;
 
 use crate::description::StructItem;
 use crate::mechanics::Mechanics;
-use crate::program::{ConstantId, Op, Program, Purpose, ValueId};
+use crate::program::{ConstantId, ConstantOp, Op, Program, Purpose, ValueId};
 use crate::scene::Scene;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -98,7 +98,7 @@ impl Emission<'_> {
 
     fn named_behind(&self, id: ConstantId, stored: &mut BTreeSet<ConstantId>) {
         let definition = self.program.setup.get(id);
-        if let crate::program::ConstantOp::Named(..) = definition.op {
+        if let ConstantOp::Named(..) = definition.op {
             stored.insert(id);
             return;
         }
@@ -107,8 +107,23 @@ impl Emission<'_> {
         }
     }
 
+    /// The field of a stored constant. A parameter that code reads as it is has
+    /// its own name, unless a constant of the scene, or the argument that the
+    /// parameters come in, is called the same.
     fn field(&self, id: ConstantId) -> Ident {
-        format_ident!("{}", self.program.setup.get(id).name)
+        let setup = &self.program.setup;
+        let definition = setup.get(id);
+        let mut name = definition.name.clone();
+        if let ConstantOp::Parameter(_) = definition.op {
+            let others = |name: &str| {
+                let mut constants = setup.iter().filter(|(other, _)| *other != id);
+                name == "parameters" || constants.any(|(_, constant)| constant.name == name)
+            };
+            while others(&name) {
+                name = format!("parameter_{name}");
+            }
+        }
+        format_ident!("{name}")
     }
 
     fn op(&self, id: ValueId) -> &Op {

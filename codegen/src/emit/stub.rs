@@ -64,6 +64,11 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
 
         #[allow(missing_docs, unused_variables, clippy::all)]
         impl<T: #runtime::Scalar> #name<T> {
+            pub fn canonical_rates<const N: usize>(
+                &self, #time theta: &[T; N], momenta: &[T; N],
+            ) -> [[T; N]; 2] {
+                ::core::unimplemented!()
+            }
             #(pub fn #maps<const N: usize>(&self, first: &[T; N], second: &[T; N]) -> [T; N] {
                 ::core::unimplemented!()
             })*

@@ -94,7 +94,7 @@ impl Emission<'_> {
                 let (coefficients, _) = coefficients.as_chunks_mut::<#components>();
                 let (factors, _) = factors.as_chunks_mut::<#lanes>();
                 let (factors, _) = factors.as_chunks_mut::<2>();
-                self.taylor_coefficients(#argument &theta, &omega, coefficients, factors)
+                self.taylor_coefficients(#argument theta, omega, coefficients, factors)
             }),
             quote!(coefficients.fill(T::from_f64(f64::NAN))),
         );

@@ -16,6 +16,7 @@ impl Emission<'_> {
             .symmetric
             .is_some()
             .then(|| self.symmetric_pendulum());
+        let canonical = self.scene.requests.momenta.then(|| self.canonical());
         let sectors = self.mechanics.sectors.as_ref();
         let sectors = sectors.map(|sectors| self.sectors(sectors));
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
@@ -23,6 +24,7 @@ impl Emission<'_> {
             #pendulum
             #energy
             #symmetric
+            #canonical
             #sectors
             #taylor
         }
@@ -41,7 +43,7 @@ impl Emission<'_> {
         Ident::new(name, Span::call_site())
     }
 
-    /// Copies slices into arrays of the same names.
+    /// Slices as arrays of the same names.
     pub(super) fn with_arrays(
         &self,
         slices: &[&str],
@@ -54,7 +56,7 @@ impl Emission<'_> {
             .map(|name| Ident::new(name, Span::call_site()))
             .collect();
         quote! {
-            match (#(<[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
+            match (#(<&[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
                 (#(::core::result::Result::Ok(#names),)*) => #success,
                 _ => #failure,
             }
@@ -86,8 +88,8 @@ impl Emission<'_> {
             &output,
             &["theta", "omega"],
             match driven {
-                true => quote!(self.accelerations(time, &theta, &omega)),
-                false => quote!(self.accelerations(&theta, &omega)),
+                true => quote!(self.accelerations(time, theta, omega)),
+                false => quote!(self.accelerations(theta, omega)),
             },
         );
         let time = self.time_name();
@@ -106,15 +108,63 @@ impl Emission<'_> {
         }
     }
 
+    /// `impl Canonical`; NaN for slices of a wrong length.
+    fn canonical(&self) -> TokenStream {
+        let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
+        let timed = self.mechanics.drive.is_some();
+        let (parameter, time) = if timed {
+            (quote!(time), quote!(time,))
+        } else {
+            (quote!(_time), TokenStream::new())
+        };
+        let body = self.with_arrays(
+            &["theta", "momenta"],
+            quote! {{
+                let [velocities, torques] = self.canonical_rates(#time theta, momenta);
+                q_rates.copy_from_slice(&velocities);
+                p_rates.copy_from_slice(&torques);
+            }},
+            quote! {{
+                q_rates.fill(T::from_f64(f64::NAN));
+                p_rates.fill(T::from_f64(f64::NAN));
+            }},
+        );
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
+                #[inline]
+                fn freedoms(&self) -> usize {
+                    #links
+                }
+
+                #[inline]
+                fn canonical_rates(
+                    &self,
+                    #parameter: T,
+                    theta: &[T],
+                    momenta: &[T],
+                    q_rates: &mut [T],
+                    p_rates: &mut [T],
+                ) {
+                    if q_rates.len() != #links || p_rates.len() != #links {
+                        q_rates.fill(T::from_f64(f64::NAN));
+                        p_rates.fill(T::from_f64(f64::NAN));
+                        return;
+                    }
+                    #body
+                }
+            }
+        }
+    }
+
     fn energy(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let value =
             |slices: &[&str], call| self.with_arrays(slices, call, quote!(T::from_f64(f64::NAN)));
         let kinetic = value(
             &["theta", "omega"],
-            quote!(self.kinetic_energy(&theta, &omega)),
+            quote!(self.kinetic_energy(theta, omega)),
         );
-        let potential = value(&["theta"], quote!(self.potential_energy(&theta)));
+        let potential = value(&["theta"], quote!(self.potential_energy(theta)));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
                 #[inline]
@@ -144,8 +194,8 @@ impl Emission<'_> {
             &output,
             &["coordinates", "rates"],
             match self.mechanics.drive.is_some() {
-                true => quote!(self.symmetric_accelerations(time, &coordinates, &rates)),
-                false => quote!(self.symmetric_accelerations(&coordinates, &rates)),
+                true => quote!(self.symmetric_accelerations(time, coordinates, rates)),
+                false => quote!(self.symmetric_accelerations(coordinates, rates)),
             },
         );
         let time = self.time_name();

@@ -102,6 +102,7 @@ impl Derivation<'_> {
             stiffness: None,
             energies: None,
             momentum: None,
+            momentum_rates: None,
             dissipative_forces: Vec::new(),
             drive: Vec::new(),
             bias: Vec::new(),
@@ -144,6 +145,9 @@ impl Derivation<'_> {
                 }
             }),
             momentum: requests.momenta.then(|| self.exprs(&frame.momentum())),
+            momentum_rates: requests
+                .momenta
+                .then(|| self.exprs(&frame.momentum_rates(self))),
             dissipative_forces: self.exprs(&frame.dissipative_forces()),
             drive: self.exprs(&frame.drive_forces(self)),
             bias: self.exprs(&frame.bias(self)),

@@ -16,6 +16,16 @@ impl Frame {
             .collect()
     }
 
+    /// ∂L/∂q_i + Q_i, of friction, drag and drive.
+    pub(super) fn momentum_rates(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let others = self.dissipative_forces().into_iter();
+        self.forces(derivation)
+            .into_iter()
+            .zip(others.zip(self.drive_forces(derivation)))
+            .map(|(force, (loss, drive))| (&(&force + &loss) + &drive).expand())
+            .collect()
+    }
+
     /// ∂H/∂q_i at fixed momenta: from ∂M⁻¹ = −M⁻¹ (∂M) M⁻¹,
     /// −½ Σ v_j (∂_i M_jk) v_k + ∂U/∂q_i.
     pub(super) fn hamiltonian_slopes(&self, derivation: &Derivation<'_>) -> Vec<Formula> {

@@ -92,6 +92,9 @@ pub struct Frame {
     pub energies: Option<Energies>,
     /// p_i = ∂L/∂v_i in coordinates and velocities, if momenta are asked for.
     pub momentum: Option<Vec<Expr>>,
+    /// ṗ_i = ∂L/∂q_i + Q_i, friction, drag and drive included, in coordinates
+    /// and velocities, if momenta are asked for.
+    pub momentum_rates: Option<Vec<Expr>>,
     /// Generalized forces −∂R/∂v_i of friction and drag, zero where there are
     /// none; contained in `bias` with the opposite sign.
     pub dissipative_forces: Vec<Expr>,

@@ -70,6 +70,12 @@ impl Setup {
         &self.definitions[id.0 as usize]
     }
 
+    /// All constants, in the order in which they were formed.
+    pub fn iter(&self) -> impl Iterator<Item = (ConstantId, &ConstantDefinition)> {
+        let definitions = self.definitions.iter().enumerate();
+        definitions.map(|(index, definition)| (ConstantId(index as u32), definition))
+    }
+
     /// A number.
     pub(super) fn number(&mut self, value: Rational) -> ConstantId {
         self.intern(ConstantOp::Number(value), None)
@@ -173,7 +179,8 @@ impl Setup {
         let id = ConstantId(self.definitions.len() as u32);
         let exact = self.value(&op);
         let wanted = name.map_or_else(|| spelling::constant(self, &op), str::to_owned);
-        // A parameter is no field of the model, so its name claims nothing.
+        // A parameter keeps its name in texts, so it claims none; should it become
+        // a field, `emit` tells the two apart.
         let name = match op {
             ConstantOp::Parameter(_) => wanted,
             _ => self.unique(wanted, id),

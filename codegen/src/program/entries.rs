@@ -136,7 +136,7 @@ impl EntryList<'_, '_> {
                 Shape::Vector,
             );
             let mut phase = Door::new(frame, Theta, None, Some(AbsoluteMomenta));
-            let velocities = frame
+            let velocities: Vec<ValueId> = frame
                 .velocities
                 .iter()
                 .map(|&v| self.lowering.symbol(&mut phase, v))
@@ -145,9 +145,20 @@ impl EntryList<'_, '_> {
                 "velocities",
                 Purpose::AbsoluteVelocities,
                 &[Theta, AbsoluteMomenta],
-                velocities,
+                velocities.clone(),
                 Shape::Vector,
             );
+            if let Some(rates) = &frame.momentum_rates {
+                let mut outputs = velocities;
+                outputs.extend(self.exprs(&mut phase, rates));
+                self.push(
+                    "canonical_rates",
+                    Purpose::CanonicalRates,
+                    &self.timed(&[Theta, AbsoluteMomenta]),
+                    outputs,
+                    Shape::Pair,
+                );
+            }
         }
         if let Some(stiffness) = &frame.stiffness {
             let size = frame.coordinates.len();

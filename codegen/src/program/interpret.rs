@@ -47,19 +47,9 @@ impl Program {
     /// The outputs of an entry point.
     ///
     /// `parameters` are the scene's parameters in order, `input` supplies the
-    /// elements of the arguments. Linear in the length of the program.
+    /// elements of the arguments, and `sin_cos` is the sine and cosine that
+    /// emitted code would use. Linear in the length of the program.
     pub fn evaluate(
-        &self,
-        entry: &str,
-        parameters: &[f64],
-        input: impl Fn(Argument, usize) -> f64,
-    ) -> Option<Vec<f64>> {
-        self.evaluate_with(f64::sin_cos, entry, parameters, input)
-    }
-
-    /// As [`evaluate`](Self::evaluate), with another sine and cosine: emitted
-    /// code uses the runtime's.
-    pub fn evaluate_with(
         &self,
         sin_cos: impl Fn(f64) -> (f64, f64),
         entry: &str,

@@ -126,6 +126,8 @@ pub enum Shape {
     Scalar,
     /// An array.
     Vector,
+    /// Two arrays of equal length.
+    Pair,
     /// A square matrix of that size, by rows.
     Matrix(usize),
     /// A `Transfer`: kinetic part, potential part.
@@ -165,6 +167,8 @@ pub enum Purpose {
     AbsoluteMomenta,
     /// ω from θ, p.
     AbsoluteVelocities,
+    /// ω and ṗ from θ, p.
+    CanonicalRates,
     /// M at θ.
     MassMatrix,
     /// ∂²U/∂θ∂θ at θ.

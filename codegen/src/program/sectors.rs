@@ -176,7 +176,7 @@ impl EntryList<'_, '_> {
             }
         }
         if request.canonical {
-            let outputs = transfers(&mut copies, &values, &motion, &places, Counting::Amplitude);
+            let outputs = transfers(&mut copies, &values, &motion, &places, |_| false);
             found.push((
                 "sector_transfers",
                 Purpose::SectorTransfers(None),
@@ -228,7 +228,13 @@ impl EntryList<'_, '_> {
         let state = State::Momenta(counting);
         let motion = motion(&mut copies, scene, mechanics, &values, state);
         let places: Vec<Which> = sectors.sectors.iter().map(|sector| sector.place).collect();
-        let outputs = transfers(&mut copies, &values, &motion, &places, counting);
+        let small = scene.requests.budget.as_ref();
+        let small = small.map_or(&[][..], |budget| budget.small.as_slice());
+        let loses = |which: Which| {
+            counting == Counting::Angle
+                && which.is_some_and(|place| small.is_empty() || small.contains(&place))
+        };
+        let outputs = transfers(&mut copies, &values, &motion, &places, loses);
         let name = match counting {
             Counting::Angle => "angle",
             Counting::Amplitude => "amplitude",
@@ -314,6 +320,10 @@ fn motion(
 ) -> Motion {
     let handed = |copies: &mut Copies<'_>, argument| -> Fields {
         let whole = argument == Argument::Momenta && state == State::Momenta(Counting::Angle);
+        let budget = scene.requests.budget.as_ref();
+        let chosen = budget.map_or(&[][..], |budget| budget.small.as_slice());
+        let is_small =
+            |place: &(usize, usize)| !whole && (chosen.is_empty() || chosen.contains(place));
         match state {
             State::Absolute => scene
                 .orbits
@@ -338,8 +348,10 @@ fn motion(
                     let field = &mut fields[orbit];
                     match which {
                         None => field.mean = copies.graded.value(value),
-                        Some(place) if whole => field.put(place, copies.graded.value(value)),
-                        Some(place) => field.put(place, copies.graded.difference(value)),
+                        Some(place) if is_small(&place) => {
+                            field.put(place, copies.graded.small(value));
+                        }
+                        Some(place) => field.put(place, copies.graded.value(value)),
                     }
                 }
                 fields
@@ -415,14 +427,15 @@ fn transfers(
     values: &Values,
     motion: &Motion,
     places: &[Which],
-    counting: Counting,
+    loses_an_order: impl Fn(Which) -> bool,
 ) -> Vec<ValueId> {
     let mut outputs = Vec::new();
     for &which in places {
         let parts = copies.transfer_parts(values, motion, which);
-        let slopes = match (counting, which) {
-            (Counting::Angle, Some(_)) => copies.graded.without_highest(&parts.slopes),
-            _ => parts.slopes,
+        let slopes = if loses_an_order(which) {
+            copies.graded.without_highest(&parts.slopes)
+        } else {
+            parts.slopes
         };
         let kinetic = copies.graded.add(&slopes, &parts.kinetic);
         outputs.push(copies.graded.total(&kinetic));

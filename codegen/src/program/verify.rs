@@ -92,6 +92,7 @@ impl Program {
         for entry in &self.entries {
             let filled = match entry.shape {
                 Shape::Scalar => entry.outputs.len() == 1,
+                Shape::Pair => entry.outputs.len() >= 2 && entry.outputs.len() % 2 == 0,
                 Shape::Vector => !entry.outputs.is_empty(),
                 Shape::Matrix(size) => entry.outputs.len() == size * size,
                 Shape::Transfer => entry.outputs.len() == 2,

@@ -221,6 +221,19 @@ pub enum Message {
     },
     /// `budget()` without any form.
     NoBudgetForm,
+    /// `small` without sectors.
+    NoSmallSector,
+    /// `small(...)` in a budget without truncated forms.
+    SmallWithoutOrder,
+    /// A sector that the scene does not have.
+    UnknownSector {
+        /// As written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<String>,
+        /// All that there are.
+        known: String,
+    },
     /// A form of the budget that takes no value.
     BudgetOrder {
         /// The form.

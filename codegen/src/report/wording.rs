@@ -299,6 +299,29 @@ impl Message {
                 "empty",
                 "write `budget` for all exact forms, or choose: `budget(parseval)`",
             ),
+            M::NoSmallSector => problem(
+                "no sector is named as small",
+                "empty",
+                "write `small(child_d)` with names of sectors, or leave it out to count all \
+                 differences as small",
+            ),
+            M::SmallWithoutOrder => problem(
+                "`small` needs an order",
+                "nothing is expanded in it",
+                "write `budget(amplitude = 4, small(...))`, or leave it out: other forms are exact",
+            ),
+            M::UnknownSector {
+                name,
+                nearest,
+                known,
+            } => problem(
+                format!("unknown sector `{name}`"),
+                "not a sector of differences",
+                match nearest {
+                    Some(nearest) => format!("did you mean `{nearest}`?"),
+                    None => format!("sectors are `{known}`"),
+                },
+            ),
             M::BudgetOrder { form } => problem(
                 format!("`{form}` has no order"),
                 "takes no value",

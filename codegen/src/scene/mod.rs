@@ -241,6 +241,9 @@ pub struct BudgetRequest {
     /// Orders in the angles of the differences alone, momenta kept whole; 1 is
     /// the counting of the paper. Comes with `momenta` and `symmetric`.
     pub angle_orders: Vec<u32>,
+    /// The sectors whose differences count as small in these orders, each by
+    /// its group and the number of the difference; all if none is named.
+    pub small: Vec<(usize, usize)>,
 }
 
 /// Which forms of the energy transfer are asked for; at least one.

@@ -135,7 +135,7 @@ pub const OBSERVABLE_SUFFIXES: [&str; 5] = [
 /// list against the fixtures.
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
-    "accelerations", "accelerations_into", "clone", "default", "eq", "fmt", "from",
+    "accelerations", "accelerations_into", "canonical_rates", "clone", "freedoms", "default", "eq", "fmt", "from",
     "from_parameters", "from_symmetric", "hamiltonian", "into", "kinetic_energy",
     "kinetic_energy_of", "mass_matrix", "momenta", "new", "potential_energy",
     "potential_energy_of", "stiffness_matrix", "symmetric_accelerations",

@@ -2,11 +2,13 @@
 
 use std::ops::RangeInclusive;
 
-use proc_macro2::Span;
+use proc_macro2::{Ident, Span};
 
 use super::expand::Expansion;
-use super::{BudgetRequest, LinkId, Requests, TransferRequest};
+use super::{BudgetRequest, LinkId, Requests, Scene, TransferRequest};
 use crate::description::{Form, Request};
+use crate::mechanics::coordinates::symmetric_coordinates;
+use crate::mechanics::sectors::sectors;
 use crate::report::{Message, Report, nearest};
 
 /// All outputs.
@@ -29,6 +31,7 @@ const BUDGET_FORMS: &[&str] = &[
     "matrix",
     "angle",
     "amplitude",
+    "small",
 ];
 
 /// All forms of the transfer.
@@ -46,6 +49,8 @@ pub(super) struct Resolved {
     symmetric: Option<Span>,
     transfer: Option<Span>,
     budget: Option<Span>,
+    /// Names of the sectors whose differences are small.
+    pub(super) small: Vec<Ident>,
 }
 
 /// Reads the requests; what is wrong goes to `report`.
@@ -55,6 +60,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         symmetric: None,
         transfer: None,
         budget: None,
+        small: Vec::new(),
     };
     let mut seen: Vec<String> = Vec::new();
     for Request {
@@ -87,7 +93,8 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
                 resolved.transfer = Some(span);
             }
             "budget" => {
-                wanted.budget = Some(budget(span, forms.as_deref(), *damaged, report));
+                let small = &mut resolved.small;
+                wanted.budget = Some(budget(span, forms.as_deref(), *damaged, small, report));
                 resolved.budget = Some(span);
             }
             _ => {
@@ -113,7 +120,13 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
 }
 
 /// Reads the forms of the budget; all exact ones if none is named.
-fn budget(span: Span, forms: Option<&[Form]>, damaged: bool, report: &mut Report) -> BudgetRequest {
+fn budget(
+    span: Span,
+    forms: Option<&[Form]>,
+    damaged: bool,
+    small: &mut Vec<Ident>,
+    report: &mut Report,
+) -> BudgetRequest {
     let mut request = BudgetRequest::default();
     let Some(forms) = forms else {
         return BudgetRequest {
@@ -128,7 +141,12 @@ fn budget(span: Span, forms: Option<&[Form]>, damaged: bool, report: &mut Report
         report.error(span, Message::NoBudgetForm);
     }
     let mut seen: Vec<(String, Option<u32>)> = Vec::new();
-    for Form { name, value } in forms {
+    for Form {
+        name,
+        value,
+        members,
+    } in forms
+    {
         let text = name.to_string();
         let order = value.map(|value| value.count);
         if seen.contains(&(text.clone(), order)) {
@@ -136,6 +154,10 @@ fn budget(span: Span, forms: Option<&[Form]>, damaged: bool, report: &mut Report
             continue;
         }
         let place = value.map_or(name.span(), |value| value.span);
+        if members.is_some() && text != "small" && BUDGET_FORMS.contains(&text.as_str()) {
+            let name = text.clone();
+            report.error(place, Message::RequestForms { name });
+        }
         let flag = match text.as_str() {
             "canonical" => Some(&mut request.canonical),
             "parseval" => Some(&mut request.parseval),
@@ -156,6 +178,10 @@ fn budget(span: Span, forms: Option<&[Form]>, damaged: bool, report: &mut Report
                 Some(order) => request.amplitude_orders.push(order),
                 None => report.error(place, Message::AmplitudeOrder),
             },
+            (None, "small") => match members {
+                Some(members) if !members.is_empty() => small.clone_from(members),
+                _ => report.error(place, Message::NoSmallSector),
+            },
             (None, "angle") => match order.filter(|order| ANGLE_ORDERS.contains(order)) {
                 Some(order) => request.angle_orders.push(order),
                 None => report.error(place, Message::AngleOrder),
@@ -174,7 +200,49 @@ fn budget(span: Span, forms: Option<&[Form]>, damaged: bool, report: &mut Report
         }
         seen.push((text, order));
     }
+    if request.amplitude_orders.is_empty()
+        && request.angle_orders.is_empty()
+        && let Some(name) = small.first()
+    {
+        report.error(name.span(), Message::SmallWithoutOrder);
+    }
     request
+}
+
+/// Finds the sectors that are named as small; what is wrong goes to `report`.
+pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut Report) {
+    if resolved.is_empty() {
+        return;
+    }
+    let known = sectors(&symmetric_coordinates(scene));
+    let differences = known.iter().filter(|sector| sector.place.is_some());
+    let names: Vec<&str> = differences.map(|sector| sector.name.as_str()).collect();
+    let mut small = Vec::new();
+    for ident in resolved {
+        let name = ident.to_string();
+        let found = known.iter().find(|sector| sector.name == name);
+        match found.and_then(|sector| sector.place) {
+            Some(place) if small.contains(&place) => {
+                report.error(ident.span(), Message::DuplicateRequest { name });
+            }
+            Some(place) => small.push(place),
+            None => {
+                let nearest = nearest(&name, &names).map(str::to_owned);
+                let known = names.join("`, `");
+                report.error(
+                    ident.span(),
+                    Message::UnknownSector {
+                        name,
+                        nearest,
+                        known,
+                    },
+                );
+            }
+        }
+    }
+    if let Some(budget) = &mut scene.requests.budget {
+        budget.small = small;
+    }
 }
 
 /// Reads the forms of the transfer; all of them if none is named.
@@ -200,7 +268,16 @@ fn transfer(
         report.error(span, Message::NoForm);
     }
     let mut seen: Vec<(String, Option<u32>)> = Vec::new();
-    for Form { name, value } in forms {
+    for Form {
+        name,
+        value,
+        members,
+    } in forms
+    {
+        if members.is_some() {
+            let name = name.to_string();
+            report.error(span, Message::RequestForms { name });
+        }
         let (text, span) = (name.to_string(), name.span());
         let order = value.map(|value| value.count);
         // One form may be asked for to several orders, each once.

@@ -3,7 +3,7 @@
 use super::drive::resolve_drive;
 use super::expand::{check_names, check_size, expand};
 use super::observables::resolve_observables;
-use super::requests::{check_symmetry, resolve_requests};
+use super::requests::{check_symmetry, resolve_requests, resolve_small};
 use super::singular::check_regular;
 use super::template::Builder;
 use super::values::{Usage, Values};
@@ -56,6 +56,9 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         observables: Vec::new(),
     };
     if readable {
+        if !scene.groups.is_empty() {
+            resolve_small(&resolved.small, &mut scene, report);
+        }
         resolve_observables(&description.observables, &mut scene, &owners, report);
     }
     // A link whose own values are wrong would look singular.

@@ -183,6 +183,7 @@ impl Display for BudgetRequest {
             matrix,
             amplitude_orders,
             angle_orders,
+            small,
         } = self;
         let flags = [
             (rest, "rest"),
@@ -200,6 +201,7 @@ impl Display for BudgetRequest {
                     .iter()
                     .map(|order| format!("amplitude = {order}")),
             )
+            .chain((!small.is_empty()).then(|| format!("small in {} sectors", small.len())))
             .collect();
         write!(f, "budget({})", forms.join(", "))
     }

@@ -8,7 +8,8 @@ use std::process::ExitCode;
 use branched_pendulum_examples::branched_double::help::HELP;
 use branched_pendulum_examples::branched_double::progress::ProgressBar;
 use branched_pendulum_examples::branched_double::{
-    Arguments, Failure, Findings, Frequencies, Request, Run, charts, files, scenes, table,
+    Apparatus, Arguments, Failure, Findings, Frequencies, Request, Run, charts, files, scenes,
+    table,
 };
 use branched_pendulum_examples::exit;
 
@@ -32,7 +33,13 @@ fn run(arguments: &Arguments) -> Result<(), Failure> {
     let findings: Vec<Findings> = runs.iter().map(Findings::new).collect();
     print!(
         "{}",
-        table::report(arguments, frequencies, &runs, &findings)
+        table::report(
+            arguments,
+            &Apparatus::new(arguments.friction)?,
+            frequencies,
+            &runs,
+            &findings
+        )
     );
 
     let mut written = Vec::new();

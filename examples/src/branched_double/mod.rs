@@ -9,7 +9,7 @@
 //! - [`arguments`], [`help`]: the command line,
 //! - [`apparatus`]: the two scenes, and what is measured at one instant,
 //! - [`experiment`]: one run from release to the last sample,
-//! - [`findings`]: what a run says,
+//! - [`findings`]: what a run says, [`terms`]: the terms of W one by one,
 //! - [`table`], [`files`], [`charts`]: how it is shown.
 
 pub mod apparatus;
@@ -24,6 +24,7 @@ pub mod help;
 pub mod progress;
 pub mod scenes;
 pub mod table;
+pub mod terms;
 
 pub use apparatus::{Apparatus, Flow, Friction, Sample};
 pub use argument_error::ArgumentError;

@@ -3,10 +3,11 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use super::apparatus::{FORMS, decimal};
+use super::apparatus::{Apparatus, FORMS, decimal};
 use super::arguments::Arguments;
 use super::experiment::Run;
 use super::findings::{Findings, Frequencies, Peak};
+use super::terms::{Sizes, TERMS};
 
 /// What stands above the rows: three lines of headings for each column.
 type Headings = [[&'static str; 3]];
@@ -49,10 +50,28 @@ energy error  largest deviation of the energy from what friction leaves of the
               initial energy, relative to the latter
 ";
 
-/// The whole account of the runs: frequencies, and two tables with one row
-/// for each run: what happened, and how accurately it is known.
+const SIZES: &Headings = &[
+    ["θ_1(0)", "", "deg"],
+    ["published", TERMS[0], "rms"],
+    ["published", TERMS[1], "rms"],
+    ["missing", TERMS[2], "rms"],
+    ["missing", TERMS[3], "rms"],
+    ["missing", TERMS[2], "max"],
+    ["missing", TERMS[3], "max"],
+];
+
+const SIZES_NOTES: &str = "\
+terms of W's leading order, a quadratic form in (θ_d, p_d): those of the
+published form and those that it lacks, over the rms of dH_d/dt until |θ_d|
+exceeds 0.5 rad; P of the potential, K of the kinetic energy
+";
+
+/// The whole account of the runs: frequencies, and three tables with one row
+/// for each run: what happened, how accurately it is known, and how large the
+/// terms of W are.
 pub fn report(
     arguments: &Arguments,
+    apparatus: &Apparatus,
     frequencies: Frequencies,
     runs: &[Run],
     findings: &[Findings],
@@ -71,6 +90,10 @@ pub fn report(
     text.push('\n');
     text.push_str(&table(ACCURACY, &accuracy));
     text.push_str(ACCURACY_NOTES);
+    text.push('\n');
+    let sizes: Vec<_> = runs.iter().map(|run| sizes_row(apparatus, run)).collect();
+    text.push_str(&table(SIZES, &sizes));
+    text.push_str(SIZES_NOTES);
     text
 }
 
@@ -177,6 +200,15 @@ fn accuracy_row(run: &Run, findings: &Findings) -> Vec<String> {
     row
 }
 
+fn sizes_row(apparatus: &Apparatus, run: &Run) -> Vec<String> {
+    let mut row = vec![angle(run)];
+    let sizes = Sizes::of(apparatus, run);
+    let cell = |value: Option<f64>| or_dash(value.map(|value| format!("{value:.2}")));
+    row.extend((0..4).map(|term| cell(sizes.map(|sizes| sizes.rms[term]))));
+    row.extend((2..4).map(|term| cell(sizes.map(|sizes| sizes.largest[term]))));
+    row
+}
+
 fn angle(run: &Run) -> String {
     format!("{:?}", run.angle_deg)
 }
@@ -198,7 +230,7 @@ fn three_digits(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{ACCURACY_NOTES, MOTION_NOTES, table, three_digits};
+    use super::{ACCURACY_NOTES, MOTION_NOTES, SIZES_NOTES, table, three_digits};
     use crate::branched_double::findings::{PEAK_REACH, SMALL_ANGLE};
 
     #[test]
@@ -218,7 +250,9 @@ mod tests {
     #[test]
     fn the_notes_tell_the_limits_in_force() {
         assert!(MOTION_NOTES.contains(&format!("within {PEAK_REACH} s on either side")));
-        assert!(ACCURACY_NOTES.contains(&format!("exceeds {SMALL_ANGLE} rad")));
+        for notes in [ACCURACY_NOTES, SIZES_NOTES] {
+            assert!(notes.contains(&format!("exceeds {SMALL_ANGLE} rad")));
+        }
     }
 
     #[test]

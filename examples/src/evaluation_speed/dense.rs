@@ -54,17 +54,17 @@ impl Dense {
     /// Angular accelerations; NaN where Cholesky finds no factors.
     pub fn accelerations(&mut self, theta: &[f64], omega: &[f64], alpha: &mut [f64]) {
         let n = self.weight.len();
-        for i in 0..n {
-            (self.sines[i], self.cosines[i]) = theta[i].sin_cos();
+        for (i, theta) in theta.iter().enumerate() {
+            (self.sines[i], self.cosines[i]) = theta.sin_cos();
             self.right[i] = -self.weight[i] * self.sines[i];
         }
-        for j in 0..n {
+        for (j, omega) in omega.iter().enumerate() {
             for i in 0..n {
                 let coupling = self.coupling[(i, j)];
                 let sine = self.sines[i] * self.cosines[j] - self.cosines[i] * self.sines[j];
                 let cosine = self.cosines[i] * self.cosines[j] + self.sines[i] * self.sines[j];
                 self.matrix[(i, j)] = coupling * cosine;
-                self.right[i] -= coupling * sine * omega[j] * omega[j];
+                self.right[i] -= coupling * sine * omega * omega;
             }
         }
         // nalgebra factors a matrix that it owns: it is lent and taken back.

@@ -118,7 +118,7 @@ const MAX_SWEEPS: usize = 100_000;
 /// Relative asymmetry that rounding may leave in a computed matrix.
 const ASYMMETRY: f64 = 1e-12;
 
-fn symmetric_matrix<R: AsRef<[f64]>>(
+pub(super) fn symmetric_matrix<R: AsRef<[f64]>>(
     matrix: &'static str,
     rows: &[R],
 ) -> Result<DMatrix<f64>, ModesError> {

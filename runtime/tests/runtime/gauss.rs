@@ -192,3 +192,26 @@ fn halved_steps_return_to_the_grid() {
     }
     assert!(ends.windows(2).all(|pair| pair[0] < pair[1]));
 }
+
+#[test]
+fn rates_that_end_are_reported_with_the_last_state() {
+    // y' = √(1 − t) is NaN beyond t = 1.
+    let ode = OdeFn::new(1, |time: f64, _y: &[f64], rates: &mut [f64]| {
+        rates[0] = (1.0 - time).sqrt();
+    });
+    let zero = State::new(0.0, vec![0.0]);
+    let plain = Rk4::new(0.3).integrate(&ode, &zero, 2.0, watch);
+    let halved = Gauss::new(GaussOrder::Six, 0.3).integrate(&ode, &zero, 2.0, watch);
+    for (outcome, nearness) in [(plain, 0.3), (halved, 0.3 / 1024.0)] {
+        let error = outcome.unwrap_err();
+        let IntegrationError::NonFinite { time, last, .. } = &error else {
+            panic!("{error:?}");
+        };
+        assert!(*time > 1.0 && last.time <= 1.0 && 1.0 - last.time <= nearness);
+        assert!((last.values[0] - 2.0 / 3.0).abs() < 0.1);
+    }
+    // Undefined at the start: at once.
+    let late = State::new(1.5, vec![0.0]);
+    let error = Gauss::new(GaussOrder::Two, 0.1).integrate(&ode, &late, 2.0, watch);
+    assert_eq!(error.unwrap_err().report().unwrap().evaluations, 1);
+}

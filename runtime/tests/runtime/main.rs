@@ -16,6 +16,7 @@ mod order;
 mod problems;
 mod reference;
 mod requests;
+mod sector_modes;
 mod spectrum;
 mod stability;
 mod taylor;

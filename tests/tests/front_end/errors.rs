@@ -302,6 +302,30 @@ const CASES: &[(&str, &str)] = &[
 )] struct Pendulum;",
     ),
     (
+        "budget_small",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(budget(amplitude = 2, small(e, in_phase, d, d), matrix(d))),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_small_without_order",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(budget(canonical, small(d)), transfer(exact(d))),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_small_empty",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(budget(amplitude = 2, small)),
+)] struct Pendulum;",
+    ),
+    (
         "budget_without_form",
         "#[branched_pendulum(
     gravity = 9.8,

@@ -1,12 +1,14 @@
 //! Emitted code agrees with its program bit for bit: what the interpreter
 //! computes operation by operation is what the compiled function returns.
 
-use branched_pendulum::{Scalar, Transfer};
+use branched_pendulum::{Budget, Scalar, Transfer};
 use branched_pendulum_codegen::program::Argument;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
     chain::Chain,
     driven::{Driven, DrivenParameters},
+    generations::Generations,
+    nested::Nested,
     observed::{Observed, ObservedParameters},
     offset::Offset,
     paper::Paper,
@@ -37,7 +39,7 @@ impl<const N: usize> Values for [f64; N] {
     }
 }
 
-impl<const N: usize> Values for [[f64; N]; N] {
+impl<const N: usize, const M: usize> Values for [[f64; N]; M] {
     fn values(self) -> Vec<f64> {
         self.concat()
     }
@@ -46,6 +48,18 @@ impl<const N: usize> Values for [[f64; N]; N] {
 impl Values for Transfer<f64> {
     fn values(self) -> Vec<f64> {
         vec![self.kinetic, self.potential]
+    }
+}
+
+impl<const S: usize> Values for [Transfer<f64>; S] {
+    fn values(self) -> Vec<f64> {
+        self.into_iter().flat_map(Values::values).collect()
+    }
+}
+
+impl<const S: usize> Values for Budget<f64, S> {
+    fn values(self) -> Vec<f64> {
+        [self.energies, self.transfers, self.powers].concat()
     }
 }
 
@@ -73,7 +87,7 @@ macro_rules! agree {
             };
             let compare = |name: &str, compiled: Vec<f64>| {
                 let interpreted =
-                    stages.program.evaluate_with(Scalar::sin_cos, name, parameters, input);
+                    stages.program.evaluate(Scalar::sin_cos, name, parameters, input);
                 let interpreted = interpreted.unwrap_or_else(|| panic!("no entry {name}"));
                 let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
                 assert_eq!(bits(&compiled), bits(&interpreted), "{name} at {first:?}, {second:?}");
@@ -98,7 +112,7 @@ fn simple() {
 macro_rules! paper_agrees {
     ($model:expr) => {
         agree!("paper", $model, [], 3,
-            two: [accelerations, kinetic_energy, momenta, velocities, symmetric_accelerations,
+            two: [accelerations, kinetic_energy, momenta, velocities, canonical_rates, symmetric_accelerations,
                   symmetric_momenta, symmetric_velocities, hamiltonian, antiphase_energy,
                   transfer_angle_1, transfer_amplitude_2, transfer_quadratic_form,
                   transfer_exact, transfer_exact_from_rates],
@@ -125,7 +139,7 @@ fn chain() {
 #[test]
 fn triplet() {
     agree!("triplet", Triplet::new(), [], 4,
-        two: [accelerations, momenta, velocities, symmetric_accelerations, symmetric_momenta,
+        two: [accelerations, momenta, velocities, canonical_rates, symmetric_accelerations, symmetric_momenta,
               symmetric_velocities, antiphase_energy_d1, antiphase_energy_d2,
               transfer_amplitude_2_d1, transfer_amplitude_2_d2, transfer_quadratic_form_d1,
               transfer_quadratic_form_d2, transfer_exact_d1, transfer_exact_d2,
@@ -144,7 +158,7 @@ fn offset() {
 fn observed() {
     let model = Observed::new(ObservedParameters { m: 0.10531 }).expect("possible parameters");
     agree!("observed", model, [0.10531], 3,
-        two: [accelerations, momenta, velocities, symmetric_accelerations, symmetric_momenta,
+        two: [accelerations, momenta, velocities, canonical_rates, symmetric_accelerations, symmetric_momenta,
               symmetric_velocities,
               twist, twist_rate, twist_friction_rate, twist_from_momenta, twist_rate_from_momenta,
               height, height_rate, height_from_momenta, height_rate_from_momenta,
@@ -167,7 +181,7 @@ fn sweep() {
     };
     let model = Sweep::new(parameters).expect("possible parameters");
     agree!("sweep", model, [9.7, 0.21, 3e-3, 0.17], 3,
-        two: [accelerations, momenta, velocities], one: []);
+        two: [accelerations, momenta, velocities, canonical_rates], one: []);
 }
 
 #[test]
@@ -180,7 +194,7 @@ fn driven() {
     };
     let model = Driven::new(parameters).expect("possible parameters");
     agree!("driven", model, [0.3, 7.1, -0.4, 0.05], 3,
-        timed: [accelerations, symmetric_accelerations, drive_power, antiphase_drive_power],
+        timed: [accelerations, canonical_rates, symmetric_accelerations, drive_power, antiphase_drive_power],
         rates: [friction_power],
         two: [kinetic_energy, momenta, velocities, symmetric_momenta, symmetric_velocities,
               hamiltonian, antiphase_energy, transfer_exact, transfer_exact_from_rates,
@@ -212,6 +226,31 @@ fn series() {
             assert_eq!(compiled.to_bits(), interpreted.to_bits());
         }
     }
+}
+
+#[test]
+fn nested() {
+    agree!("nested", Nested::new(), [], 7,
+        timed: [accelerations, canonical_rates, symmetric_accelerations, budget_rest, budget_canonical,
+                budget_velocity, budget_parseval, symmetric_budget_rest,
+                symmetric_budget_canonical, symmetric_budget_velocity,
+                symmetric_budget_parseval],
+        rates: [],
+        two: [momenta, velocities, symmetric_momenta, symmetric_velocities, sector_transfers,
+              transfer_matrix, symmetric_sector_transfers, symmetric_transfer_matrix,
+              sector_transfers_amplitude_2, sector_transfers_amplitude_4],
+        one: [mass_matrix, stiffness_matrix, to_symmetric, from_symmetric]);
+}
+
+/// A function that is emitted in parts computes what an undivided one would.
+#[test]
+fn functions_in_parts() {
+    let tokens = scene("generations").tokens.to_string();
+    for part in ["budget_parseval_part_1", "budget_parseval_part_2"] {
+        assert!(tokens.contains(&format!("fn {part} ")), "no {part}");
+    }
+    agree!("generations", Generations::new(), [], 15,
+        two: [accelerations, budget_parseval], one: []);
 }
 
 #[test]

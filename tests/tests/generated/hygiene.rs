@@ -15,6 +15,10 @@ mod hostile {
     pub(super) struct Scalar;
     pub(super) struct Pendulum;
     pub(super) struct Transfer;
+    pub(super) struct Budget;
+    pub(super) struct Sector;
+    pub(super) struct SectorCoordinate;
+    pub(super) struct Sectors;
     pub(super) struct TryFrom;
     pub(super) mod core {}
     pub(super) mod std {}
@@ -33,9 +37,9 @@ mod hostile {
     #[::branched_pendulum::branched_pendulum(
         gravity = g,
         a(mass = parameters, com = theta, joint = omega, inertia = value) [
-            b(mass = 0.5, com = 0.1, inertia = 1e-3, friction = alpha) * 3
+            b(mass = 0.5, com = 0.1, inertia = coupling_b_a, friction = alpha) * 3
         ],
-        emit(energies, taylor, transfer(exact)),
+        emit(energies, taylor, transfer(exact), budget(canonical, parseval, matrix, amplitude = 2)),
     )]
     pub(super) struct Shadowed;
 
@@ -73,9 +77,15 @@ fn parameters_named_like_locals() {
         omega: 0.3,
         value: 1e-3,
         alpha: 1e-4,
+        coupling_b_a: 1e-3,
     })
     .expect("possible parameters");
-    assert!(model.kinetic_energy(&[0.1; 4], &[1.0; 4]) > 0.0);
+    let (theta, omega) = ([0.1, 0.3, -0.2, 0.5], [1.0, 2.0, -0.5, 0.7]);
+    let kinetic = model.kinetic_energy(&theta, &omega);
+    assert!(kinetic > 0.0);
+    let energies: f64 = model.budget_parseval(&theta, &omega).energies.iter().sum();
+    let energy = kinetic + model.potential_energy(&theta);
+    assert!((energies / energy - 1.0).abs() < 1e-14);
 }
 
 #[test]

@@ -2,5 +2,7 @@
 
 mod bits;
 mod hygiene;
+mod machine_code;
 mod scalars;
+mod sectors;
 mod toolchain;

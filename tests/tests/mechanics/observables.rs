@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
-use branched_pendulum::integrate::{Dop853, Integrator, Options};
+use branched_pendulum::integrate::{Dop853, Options};
 use branched_pendulum::system::{OdeFn, State};
 use branched_pendulum_codegen::mechanics::coordinates::{Coordinate, symmetric_coordinates};
 use branched_pendulum_codegen::report::{Message, Report};

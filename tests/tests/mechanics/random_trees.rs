@@ -224,3 +224,46 @@ fn generations_by_rule() {
     }
     worst.assert_below(1e-12, "accelerations");
 }
+
+/// Hamilton's equations: the rates of the momenta are those along the motion.
+#[test]
+fn canonical_rates_are_those_of_the_motion() {
+    let mut worst = Worst::default();
+    for seed in 0..8 {
+        let recipe = Recipe {
+            links: 8,
+            copies: &[1, 2, 3],
+            nested: true,
+            requests: "momenta",
+        };
+        let sample = sample(&recipe, 900 + seed);
+        let compiled = compile(&sample.text);
+        let n = sample.tree.links.len();
+        let mut random = Random::new(seed);
+        for _ in 0..20 {
+            let theta = random.around_zero(n, 3.0);
+            let omega = random.around_zero(n, 4.0);
+            let momenta = compiled.evaluate("momenta", &[&theta, &omega]);
+            let rates = compiled.evaluate("canonical_rates", &[&theta, &momenta]);
+            let motion = Motion::new(&sample.tree, &theta, &omega);
+            let alpha = motion.accelerations();
+            let momenta_at = |h: f64| {
+                let moved: Vec<f64> = theta.iter().zip(&omega).map(|(a, b)| a + h * b).collect();
+                let faster: Vec<f64> = omega.iter().zip(&alpha).map(|(a, b)| a + h * b).collect();
+                let motion = Motion::new(&sample.tree, &moved, &faster);
+                &motion.mass * DVector::from_vec(faster)
+            };
+            let h = 1e-4;
+            let slope = (8.0 * (momenta_at(h) - momenta_at(-h))
+                - (momenta_at(2.0 * h) - momenta_at(-2.0 * h)))
+                / (12.0 * h);
+            let scale = slope.amax() + motion.residual_terms(&alpha).amax();
+            for link in 0..n {
+                let place = || format!("seed {seed}, link {link}");
+                worst.note(rates[n + link] - slope[link], scale, place);
+                worst.note(rates[link] - omega[link], 10.0, place);
+            }
+        }
+    }
+    worst.assert_below(1e-9, "canonical rates against differences");
+}

@@ -1,6 +1,6 @@
 //! Runs the pipeline on text and evaluates programs.
 
-use branched_pendulum::scalar::Scalar;
+use branched_pendulum::Scalar;
 use branched_pendulum_codegen::Stages;
 use branched_pendulum_codegen::mechanics::{Energies, Frame, Mechanics};
 use branched_pendulum_codegen::program::{Argument, Program};
@@ -65,7 +65,7 @@ impl Compiled {
             inputs[position.expect("an entry point uses its own arguments")][index]
         };
         self.program
-            .evaluate_with(Scalar::sin_cos, entry, parameters, input)
+            .evaluate(Scalar::sin_cos, entry, parameters, input)
             .expect("the entry point is there")
     }
 }

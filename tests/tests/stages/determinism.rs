@@ -16,6 +16,20 @@ fn a_hundred_expansions_are_equal() {
     }
 }
 
+/// A budget is long: fewer expansions show the same.
+#[test]
+fn expansions_of_budgets_are_equal() {
+    for name in ["nested", "generations"] {
+        let source = std::fs::read_to_string(fixture(&format!("scenes/{name}.rs")))
+            .expect("the fixture exists");
+        let (attribute, item) = attributed_struct(&source);
+        let first = expand(attribute.clone(), item.clone()).to_string();
+        for _ in 0..3 {
+            assert_eq!(expand(attribute.clone(), item.clone()).to_string(), first);
+        }
+    }
+}
+
 /// Symbols live as long as the process: a scene's code must not depend on
 /// which scenes were expanded before it.
 #[test]
@@ -28,7 +42,7 @@ fn other_scenes_leave_no_trace() {
     };
     let before = expansion("paper");
     for name in [
-        "simple", "offset", "observed", "triplet", "chain", "sweep", "driven",
+        "simple", "offset", "observed", "triplet", "chain", "sweep", "driven", "nested",
     ] {
         expansion(name);
     }

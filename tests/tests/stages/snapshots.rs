@@ -163,3 +163,10 @@ fn driven() {
         ],
     );
 }
+
+/// Functions of budgets are too long to be read; their costs are not.
+#[test]
+fn nested() {
+    stages_of("nested");
+    operations("nested");
+}

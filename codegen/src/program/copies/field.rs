@@ -312,30 +312,42 @@ impl<'b> Copies<'b> {
             let mean = self.graded.reciprocal(&f.mean);
             return Field::uniform(f.orbit, mean);
         }
-        match (branch, self.graded.truncation) {
-            (Some(branch), None) if is_pair_of_links(branch) => self.reciprocal_of_pair(branch, f),
-            (_, None) => {
+        let leading = self.leading(f);
+        let start = self.reciprocal_of_leading(&leading);
+        let rest = self.sub(f, &leading);
+        let mut result = start.clone();
+        // What is left is small: each round gains one order.
+        for _ in 0..self.graded.truncation.unwrap_or(0) {
+            let product = self.mul(&rest, &result);
+            let correction = self.mul(&start, &product);
+            result = self.sub(&start, &correction);
+        }
+        result
+    }
+
+    /// The part of order 0.
+    pub(super) fn leading(&mut self, f: &Field) -> Field {
+        let mean = self.graded.leading(&f.mean);
+        let mut result = Field::uniform(f.orbit, mean);
+        for (&place, value) in &f.differences {
+            let value = self.graded.leading(value);
+            result.put(place, value);
+        }
+        result
+    }
+
+    /// One over a field without higher orders.
+    fn reciprocal_of_leading(&mut self, f: &Field) -> Field {
+        let branch = self.branch(f.orbit);
+        match branch {
+            _ if !f.varies_below(branch) => {
+                let mean = self.graded.reciprocal(&f.mean);
+                Field::uniform(f.orbit, mean)
+            }
+            Some(branch) if is_pair_of_links(branch) => self.reciprocal_of_pair(branch, f),
+            _ => {
                 let estimate = self.reciprocal_by_copies(f);
                 self.refined(f, &estimate)
-            }
-            (_, Some(order)) => {
-                // Differences start at order 1: each round gains one order.
-                let leading = f.mean.coefficient(0);
-                let Some(leading) = leading else {
-                    unreachable!("a pivot vanishes with the differences")
-                };
-                let leading = Series::of_order(0, leading);
-                let inverse = self.graded.reciprocal(&leading);
-                let start = Field::uniform(f.orbit, inverse.clone());
-                let whole = Field::uniform(f.orbit, leading);
-                let rest = self.sub(f, &whole);
-                let mut result = start.clone();
-                for _ in 0..order {
-                    let product = self.mul(&rest, &result);
-                    let correction = self.scale(&inverse, &product);
-                    result = self.sub(&start, &correction);
-                }
-                result
             }
         }
     }

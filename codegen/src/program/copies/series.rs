@@ -72,12 +72,18 @@ impl Graded<'_> {
         self.number(Rational::from(number))
     }
 
-    /// A value of a difference: of first order where differences are small.
-    pub(in crate::program) fn difference(&mut self, value: ValueId) -> Series {
+    /// A value that is small of first order, where orders are counted.
+    pub(in crate::program) fn small(&mut self, value: ValueId) -> Series {
         if self.builder.is(value, 0) {
             return Series::default();
         }
         Series::of_order(usize::from(self.truncation.is_some()), value)
+    }
+
+    /// The part of order 0.
+    pub(super) fn leading(&mut self, series: &Series) -> Series {
+        let kept = series.0.iter().take(1).copied().collect();
+        self.collected(kept)
     }
 
     fn by_order(

@@ -139,9 +139,22 @@ impl Copies<'_> {
                 sine: Series::default(),
             };
         }
-        match self.graded.truncation {
-            None => self.turn_by_half_angle(angle, label),
-            Some(order) => self.turn_by_powers(angle, order),
+        let Some(order) = self.graded.truncation else {
+            return self.turn_by_half_angle(angle, label);
+        };
+        let leading = self.graded.leading(angle);
+        let rest = self.graded.sub(angle, &leading);
+        let small = self.turn_by_powers(&rest, order);
+        if leading.is_zero() {
+            return small;
+        }
+        let whole = self.turn_by_half_angle(&leading, label);
+        // 1 − vers + i sin of the sum, less 1.
+        let less = self.graded.neg(&small.versine);
+        let [real, imaginary] = self.rotated(&whole, &[less, small.sine]);
+        Turn {
+            versine: self.graded.sub(&whole.versine, &real),
+            sine: self.graded.add(&whole.sine, &imaginary),
         }
     }
 

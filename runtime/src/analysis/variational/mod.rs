@@ -10,6 +10,35 @@
 //! The derivative comes from numbers that carry one ([`ByTangents`]: exact,
 //! and free where the equations are generic over the scalar) or from a function
 //! of the caller ([`WithDerivative`]).
+//!
+//! # Example
+//!
+//! How fast a pendulum leaves the top, and how long rounding lets one say where
+//! it is:
+//!
+//! ```
+//! use branched_pendulum::analysis::variational::{WithDerivative, flow_jacobian, trusted_until};
+//! use branched_pendulum::prelude::*;
+//!
+//! let pendulum = WithDerivative::new(
+//!     OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+//!         rates[0] = y[1];
+//!         rates[1] = -y[0].sin();
+//!     }),
+//!     |_time: f64, y: &[f64], v: &[f64], out: &mut [f64]| {
+//!         out[0] = v[1];
+//!         out[1] = -y[0].cos() * v[0];
+//!     },
+//! );
+//! let top = State::at_rest(0.0, &[core::f64::consts::PI]);
+//! let method = Dop853::new(Options::with_tolerance(1e-12));
+//! let (_, columns) = flow_jacobian(&method, &pendulum, &top, 5.0)?;
+//! assert!((columns[0] - 5.0_f64.cosh()).abs() < 1e-9);
+//! // One rounding is a thousandth of a radian after some thirty seconds.
+//! let until = trusted_until(&method, &pendulum, &top, 100.0, 1e-16, 1e-3)?;
+//! assert!(until.is_some_and(|time| (25.0..35.0).contains(&time)));
+//! # Ok::<(), IntegrationError<f64>>(())
+//! ```
 
 mod lyapunov;
 mod system;

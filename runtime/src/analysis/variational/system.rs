@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::fmt;
 
-use crate::scalar::Scalar;
+use crate::scalar::{Dual, Scalar};
 use crate::system::Ode;
 
 /// A system that knows how its rates change with the state.
@@ -28,6 +28,19 @@ pub trait Tangent<T>: Scalar {
 
     /// The value and the derivative.
     fn value_and_tangent(self) -> (T, T);
+}
+
+impl<T: Scalar> Tangent<T> for Dual<T, 1> {
+    fn with_tangent(value: T, tangent: T) -> Self {
+        Self {
+            value,
+            tangents: [tangent],
+        }
+    }
+
+    fn value_and_tangent(self) -> (T, T) {
+        (self.value, self.tangents[0])
+    }
 }
 
 /// A system that is generic over the scalar, linearised by numbers of type `D`

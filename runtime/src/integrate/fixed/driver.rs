@@ -97,7 +97,8 @@ impl<T: Real> Grid<T> {
         let mut left = self.step;
         loop {
             let grid = start.time + direction * T::from_f64(number + 1.0) * self.step;
-            let near = T::from_f64(1e-9) * self.step;
+            // No sliver is left over where rounding misses the end.
+            let near = (T::from_f64(1e-9) * self.step).max(lost);
             let goal = if (end - grid) * direction <= near {
                 end
             } else {

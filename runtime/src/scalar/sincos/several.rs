@@ -78,10 +78,8 @@ mod few {
         // Whole registers are stored: a load that crosses two stores would
         // have to wait.
         let (sines, cosines) = in_blocks::<N, 4>(angles);
-        let mut result = ([0.0; N], [0.0; N]);
-        result.0.copy_from_slice(&sines[..N]);
-        result.1.copy_from_slice(&cosines[..N]);
-        result
+        let first = |block: [f64; 4]| core::array::from_fn(|i| block[i % 4]);
+        (first(sines), first(cosines))
     }
 
     /// Results of `M` angles, `N` or one block.

@@ -100,18 +100,20 @@ fn weights(tree: &Tree) -> Vec<[f64; 2]> {
 /// Velocities of the centres of mass, x and y.
 fn velocities(tree: &Tree, theta: &[f64], omega: &[f64]) -> [DVector<f64>; 2] {
     let n = tree.links.len();
-    let mut velocities = [DVector::zeros(n), DVector::zeros(n)];
-    for index in 0..n {
+    let of_link = |index: usize| {
+        let mut velocity = [0.0; 2];
         let mut offset = tree.links[index].com;
         for link in tree.lineage(index) {
             let (sin, cos) = theta[link].sin_cos();
             let [along, across] = offset;
-            velocities[0][index] += (along * cos - across * sin) * omega[link];
-            velocities[1][index] += (along * sin + across * cos) * omega[link];
+            velocity[0] += (along * cos - across * sin) * omega[link];
+            velocity[1] += (along * sin + across * cos) * omega[link];
             offset = tree.links[link].pivot;
         }
-    }
-    velocities
+        velocity
+    };
+    let all: Vec<[f64; 2]> = (0..n).map(of_link).collect();
+    [0, 1].map(|axis| DVector::from_fn(n, |index, _| all[index][axis]))
 }
 
 /// V of every sector.

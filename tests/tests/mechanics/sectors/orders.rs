@@ -9,14 +9,24 @@ use crate::support::{Compiled, compile};
 fn error(compiled: &Compiled, order: u32, epsilon: f64) -> f64 {
     let n = compiled.scene.links.len();
     let sectors = compiled.mechanics.sectors.as_ref().expect("asked for");
-    let means = &sectors.sectors[0].coordinates;
+    let budget = compiled.scene.requests.budget.as_ref().expect("asked for");
+    let small: Vec<usize> = sectors
+        .sectors
+        .iter()
+        .filter(|sector| {
+            sector
+                .place
+                .is_some_and(|place| budget.small.is_empty() || budget.small.contains(&place))
+        })
+        .flat_map(|sector| sector.coordinates.clone())
+        .collect();
     let mut random = Random::new(11);
     let mut worst = 0.0_f64;
     for _ in 0..5 {
         let mut q = random.around_zero(n, 1.5);
         let mut p = random.around_zero(n, 0.02);
         for index in 0..n {
-            if !means.contains(&index) {
+            if small.contains(&index) {
                 q[index] *= epsilon;
                 p[index] *= epsilon;
             }
@@ -80,6 +90,18 @@ fn errors_of_three_copies_fall_by_one_order() {
          emit(budget(canonical, amplitude = 2, amplitude = 3, amplitude = 4))",
     );
     assert_orders(&compiled, &[2, 3, 4], 1, 0.1);
+}
+
+/// Inner differences small, the outer one as large as it likes.
+#[test]
+fn errors_with_chosen_sectors_small() {
+    let compiled = compile(
+        "gravity = 9.80665, arm: generations(count = 3, branching = 2, shape = rod, mass = 0.12, \
+         length = 0.3, mass_ratio = 0.5, length_ratio = 0.7), \
+         emit(budget(canonical, amplitude = 2, amplitude = 4, small(arm_3_1_d, arm_3_2_d)))",
+    );
+    // Each of them is between two leaves: no odd orders.
+    assert_orders(&compiled, &[2, 4], 2, 0.05);
 }
 
 /// One pair of leaves: the transfers that `transfer(...)` derives symbolically.

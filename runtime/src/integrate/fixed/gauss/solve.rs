@@ -17,6 +17,10 @@ const NOISE: f64 = 1e4;
 /// A fixed point that comes no nearer in more rounds than these is none.
 const PATIENCE: u32 = 3;
 
+/// Rates that are not finite after a relative change above this are those of an
+/// iterate that ran away.
+const RUNAWAY: f64 = 1e-3;
+
 /// A matrix of derivatives that took more rounds than this is made anew.
 const STALE: u32 = 8;
 
@@ -39,11 +43,18 @@ impl<T: Real> Memory<T> {
         let rounding = T::from_f64(ROUNDING) * T::EPSILON;
         let noise = T::from_f64(NOISE) * T::EPSILON;
         let mut best = T::ONE / T::ZERO;
-        let mut without_progress = 0;
+        let (mut without_progress, mut last) = (0, best);
         for round in 1..=self.iteration_limit {
             self.increments(step);
-            self.evaluate(ode, time, step, report)?;
+            if let Err(failure) = self.evaluate(ode, time, step, report) {
+                // An iterate that ran away says nothing about the equations.
+                if last > T::from_f64(RUNAWAY) {
+                    return self.give_up(round, last);
+                }
+                return Err(failure);
+            }
             let change = self.update(step);
+            last = change;
             if change < best {
                 best = change;
                 without_progress = 0;

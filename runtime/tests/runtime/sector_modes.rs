@@ -1,0 +1,134 @@
+//! Blocks of sectors against frequencies known in closed form, and refusals.
+
+use branched_pendulum::analysis::{Modes, ModesError, SectorModes, SectorModesError};
+use branched_pendulum::sectors::{Sector, SectorCoordinate};
+
+use crate::problems::BranchedDouble;
+
+const MEANS: Sector = Sector {
+    name: "in_phase",
+    coordinates: &[
+        SectorCoordinate {
+            name: "theta_parent",
+            weights: &[(0, 1.0)],
+        },
+        SectorCoordinate {
+            name: "theta_m",
+            weights: &[(1, 1.0), (2, 1.0)],
+        },
+    ],
+};
+
+const DIFFERENCE: Sector = Sector {
+    name: "d",
+    coordinates: &[SectorCoordinate {
+        name: "theta_d",
+        weights: &[(1, 1.0), (2, -1.0)],
+    }],
+};
+
+#[test]
+fn the_paper_s_blocks_and_frequencies() {
+    let BranchedDouble { m1, m2, mu, g1, g2 } = BranchedDouble::paper();
+    let mass = [[m1, mu, mu], [mu, m2, 0.0], [mu, 0.0, m2]];
+    let stiffness = [[g1, 0.0, 0.0], [0.0, g2, 0.0], [0.0, 0.0, g2]];
+    let modes = SectorModes::new(&[MEANS, DIFFERENCE], &mass, &stiffness).unwrap();
+    let [in_phase, antiphase] = modes.blocks.as_slice() else {
+        panic!("{} blocks", modes.blocks.len());
+    };
+    assert_eq!([in_phase.name, antiphase.name], ["in_phase", "d"]);
+    let off = 2.0_f64.sqrt() * mu;
+    for (row, expected) in in_phase.mass.iter().zip([[m1, off], [off, m2]]) {
+        for (entry, expected) in row.iter().zip(expected) {
+            assert!((entry - expected).abs() < 1e-15 * m1, "{row:?}");
+        }
+    }
+    assert!((antiphase.mass[0][0] - m2).abs() < 1e-15 * m2);
+    assert!((antiphase.stiffness[0][0] - g2).abs() < 1e-15 * g2);
+    let found = modes.frequencies_hz();
+    for (found, expected) in found.iter().zip([0.8731696, 1.2580584, 1.5825567]) {
+        assert!((found - expected).abs() <= 0.5e-7, "{found}, {expected}");
+    }
+    assert_eq!(in_phase.modes.frequencies_hz, [found[0], found[2]]);
+    assert!(modes.mass_off_block < 1e-15 && modes.stiffness_off_block < 1e-15);
+}
+
+/// Unequal siblings: the sectors are coupled, which is reported by its size.
+#[test]
+fn what_couples_the_sectors_is_reported() {
+    let mass = [[1.0, 0.0, 0.0], [0.0, 1.2, 0.0], [0.0, 0.0, 0.8]];
+    let stiffness = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let modes = SectorModes::new(&[MEANS, DIFFERENCE], &mass, &stiffness).unwrap();
+    // (1.2 - 0.8) / 2 between mean and difference, of 1.
+    assert!((modes.mass_off_block - 0.2).abs() < 1e-15);
+    assert!(modes.stiffness_off_block < 1e-15);
+}
+
+#[test]
+fn without_gravity_nothing_oscillates() {
+    let mass = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let modes = SectorModes::new(&[MEANS, DIFFERENCE], &mass, &[[0.0; 3]; 3]).unwrap();
+    assert_eq!(modes.frequencies_hz(), [0.0; 3]);
+    assert_eq!(modes.stiffness_off_block, 0.0);
+}
+
+#[test]
+fn refusals() {
+    let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let refused = |sectors: &[Sector]| SectorModes::new(sectors, &unit, &unit).unwrap_err();
+    assert_eq!(
+        refused(&[MEANS]).to_string(),
+        "the sectors have 2 coordinates and the matrices 3 rows"
+    );
+    let with = |coordinates: &'static [SectorCoordinate]| Sector {
+        coordinates,
+        ..DIFFERENCE
+    };
+    const OUTSIDE: &[SectorCoordinate] = &[SectorCoordinate {
+        name: "theta_d",
+        weights: &[(3, 1.0)],
+    }];
+    assert_eq!(
+        refused(&[MEANS, with(OUTSIDE)]).to_string(),
+        "`theta_d` weighs link 3, but the matrices have 3 rows"
+    );
+    const WEIGHTLESS: &[SectorCoordinate] = &[SectorCoordinate {
+        name: "theta_d",
+        weights: &[],
+    }];
+    assert_eq!(
+        refused(&[MEANS, with(WEIGHTLESS)]).to_string(),
+        "the weights of `theta_d` are zero or not finite"
+    );
+    const SKEW: &[SectorCoordinate] = &[SectorCoordinate {
+        name: "theta_d",
+        weights: &[(1, 1.0), (2, -0.5)],
+    }];
+    assert_eq!(
+        refused(&[MEANS, with(SKEW)]).to_string(),
+        "`theta_m` and `theta_d` are not orthogonal"
+    );
+
+    let sectors = [MEANS, DIFFERENCE];
+    let unstable = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]];
+    let error = SectorModes::new(&sectors, &unit, &unstable).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            SectorModesError::Sector {
+                sector: "in_phase",
+                source: ModesError::NegativeStiffness { .. }
+            }
+        ),
+        "{error:?}"
+    );
+    let smaller = [[1.0, 0.0], [0.0, 1.0]];
+    let rows = |matrix: &[&[f64]]| matrix.iter().map(|row| row.to_vec()).collect::<Vec<_>>();
+    let (unit, smaller) = (
+        rows(&[&unit[0], &unit[1], &unit[2]]),
+        rows(&[&smaller[0], &smaller[1]]),
+    );
+    let error = SectorModes::new(&sectors, &unit, &smaller).unwrap_err();
+    let expected = Modes::new(&unit, &smaller).unwrap_err();
+    assert_eq!(error, SectorModesError::Matrices(expected));
+}
