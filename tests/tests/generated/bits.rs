@@ -212,7 +212,7 @@ fn series() {
         let omega: [f64; 3] = random.array(-9.0, 9.0);
         let (mut coefficients, mut factors) = ([[0.0; 6]; 3], [[[0.0; 32]; 2]; 1]);
         model.taylor_coefficients(&theta, &omega, &mut coefficients, &mut factors);
-        let interpreted = stages.program.evaluate_with(
+        let interpreted = stages.program.evaluate(
             Scalar::sin_cos,
             "taylor_coefficients",
             &[],
