@@ -67,7 +67,7 @@ impl Emission<'_> {
         let operations = self.program.operations(&entry.outputs);
         lines.push(String::new());
         lines.push(format!(
-            "Cost of order 0: {operations}. Each order k > 0: no sin_cos, some three times the products and twice the sums, and {sums} sums of k − 1 products, side by side."
+            "Cost of order 0: {operations}. Each order k > 0: no sin_cos, two products and two sums in the place of each product of variables, and {sums} sums of k − 1 products, side by side."
         ));
         doc_lines(&lines)
     }
