@@ -11,6 +11,7 @@
 //! - [`ensemble`]: many trajectories on all cores,
 //! - [`batch`]: accelerations of many states, in vector registers,
 //! - [`sectors`]: what identical subtrees do in phase and against each other,
+//! - [`taylor`]: sums that emitted Taylor recurrences are made of,
 //! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
 //! - [`data`]: CSV files.
 //!
@@ -66,7 +67,7 @@
 //! # Features
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
-//!   `alloc` and offers [`scalar`], [`system`], [`batch`] and [`integrate`].
+//!   `alloc` and offers [`scalar`], [`system`], [`batch`], [`taylor`] and [`integrate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `chart`: line charts as SVG and PNG.
@@ -91,12 +92,13 @@ pub mod prelude;
 pub mod scalar;
 pub mod sectors;
 pub mod system;
+pub mod taylor;
 
 // What emitted code names, at the shortest path.
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
-pub use system::{Canonical, Energy, Pendulum, SymmetricPendulum};
+pub use system::{Canonical, Energy, Pendulum, SymmetricPendulum, TaylorPendulum};
 
 #[cfg(feature = "macros")]
 #[doc = include_str!("attribute.md")]

@@ -4,12 +4,12 @@
 pub use crate::branched_pendulum;
 pub use crate::integrate::{
     Crossing, DenseStep, Dop853, Dopri5, Event, Gauss, GaussOrder, IntegrationError, Integrator,
-    Options, Report, Rk4, Solution, Solver, StopReason, Tolerance, Verner98,
+    Options, Report, Rk4, Solution, Solver, StopReason, Taylor, Tolerance, Verner98,
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
 pub use crate::sectors::{Budget, Sectors};
 pub use crate::system::{
     AbsoluteAngles, Canonical, CanonicalVariables, Energy, Ode, OdeFn, Pendulum, State,
-    SymmetricCoordinates, SymmetricPendulum,
+    SymmetricCoordinates, SymmetricPendulum, TaylorOde, TaylorPendulum,
 };

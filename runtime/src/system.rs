@@ -7,6 +7,7 @@
 //! [`SymmetricCoordinates`] turn one into the other.
 
 mod canonical;
+mod taylor;
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -14,6 +15,7 @@ use core::fmt;
 use crate::scalar::Scalar;
 
 pub use canonical::{Canonical, CanonicalVariables};
+pub use taylor::{TaylorOde, TaylorPendulum};
 
 /// Equations of motion in absolute angles.
 ///

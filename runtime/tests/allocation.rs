@@ -106,6 +106,39 @@ fn methods_with_fixed_steps() {
     }
 }
 
+/// The oscillator by its Taylor coefficients.
+struct Series;
+
+impl Ode<f64> for Series {
+    fn dimension(&self) -> usize {
+        2
+    }
+
+    fn rates(&self, _time: f64, y: &[f64], rates: &mut [f64]) {
+        rates.copy_from_slice(&[y[1], -y[0]]);
+    }
+}
+
+impl TaylorOde<f64> for Series {
+    fn factors(&self) -> usize {
+        0
+    }
+
+    fn taylor(&self, _time: f64, y: &[f64], coefficients: &mut [f64], _factors: &mut [f64]) {
+        let (mut position, mut velocity) = (y[0], y[1]);
+        for (k, row) in coefficients.chunks_exact_mut(2).enumerate() {
+            row.copy_from_slice(&[position, velocity]);
+            let next = 1.0 / (k + 1) as f64;
+            (position, velocity) = (velocity * next, -position * next);
+        }
+    }
+}
+
+#[test]
+fn taylor_series() {
+    assert_eq!(in_steps(&Series, &Taylor::new(options())), 0);
+}
+
 #[test]
 fn events() {
     let position = |_time: f64, y: &[f64]| y[0];

@@ -1,10 +1,12 @@
-//! The nine fixture scenes, compiled. Their files under `fixtures/scenes` are
+//! The fixture scenes, compiled. Their files under `fixtures/scenes` are
 //! what snapshots show, so that what is read is what is run.
 
 #[path = "../fixtures/scenes/chain.rs"]
 pub mod chain;
 #[path = "../fixtures/scenes/driven.rs"]
 pub mod driven;
+#[path = "../fixtures/scenes/driven_series.rs"]
+pub mod driven_series;
 #[path = "../fixtures/scenes/generations.rs"]
 pub mod generations;
 #[path = "../fixtures/scenes/nested.rs"]
@@ -15,6 +17,8 @@ pub mod observed;
 pub mod offset;
 #[path = "../fixtures/scenes/paper.rs"]
 pub mod paper;
+#[path = "../fixtures/scenes/series.rs"]
+pub mod series;
 #[path = "../fixtures/scenes/simple.rs"]
 pub mod simple;
 #[path = "../fixtures/scenes/sweep.rs"]

@@ -82,7 +82,7 @@ impl Emission<'_> {
         }
     }
 
-    fn meaning(&self, purpose: Purpose) -> Vec<String> {
+    pub(super) fn meaning(&self, purpose: Purpose) -> Vec<String> {
         let difference = |number: usize| {
             let coordinate = self.mechanics.transfers[number].coordinate;
             self.mechanics.coordinates[coordinate].name.clone()
@@ -92,6 +92,25 @@ impl Emission<'_> {
                 format!("Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s).", self.at_time()),
                 String::new(),
                 format!("Solves the Euler–Lagrange equations M(θ) θ̈ + b(θ, ω{}) = 0 by elimination along the tree (Featherstone, Rigid Body Dynamics Algorithms, 2008, §6.5).", self.and_time()),
+            ],
+            Purpose::TaylorCoefficients => vec![
+                format!("Taylor coefficients of the motion that passes through the angles `theta` (in rad) with the angular velocities `omega` (in rad/s){}.", match self.mechanics.drive {
+                    Some(_) => " at `time` (in s)",
+                    None => "",
+                }),
+                String::new(),
+                "Row k of `coefficients` gets θ[k] (in rad/sᵏ), then ω[k] (in rad/sᵏ⁺¹), of θ(t₀ + τ) = Σ θ[k] τᵏ: as many orders as there are rows. `factors` is what they are formed in: at least two rows fewer, of any content; if there are not as many, all coefficients are NaN.".into(),
+                String::new(),
+                "The recurrences of the operations of `accelerations` (Jorba and Zou, Experimental Mathematics 14 (2005) 99, proposition 2.1; Hairer, Nørsett, Wanner, Solving ODEs I, section I.8), sums over 0 < j < k:".into(),
+                String::new(),
+                "```text".into(),
+                "θ[k+1] = ω[k] / (k+1),  ω[k+1] = α[k] / (k+1)".into(),
+                "(u v)[k] = Σ u[j] v[k−j] + u[0] v[k] + u[k] v[0]".into(),
+                "(u/v)[k] = (u[k] − Σ (u/v)[j] v[k−j] − (u/v)[0] v[k]) / v[0]".into(),
+                "(√u)[k] = (u[k] − Σ (√u)[j] (√u)[k−j]) / (2 (√u)[0])".into(),
+                "(sin a)[k] = Σ j a[j] (cos a)[k−j] / k + a[k] (cos a)[0]".into(),
+                "(cos a)[k] = −(Σ j a[j] (sin a)[k−j] / k + a[k] (sin a)[0])".into(),
+                "```".into(),
             ],
             Purpose::KineticEnergy => vec![format!("Kinetic energy K = ½ ωᵀ M(θ) ω (in J).{}", self.frame_note())],
             Purpose::PotentialEnergy => {

@@ -82,6 +82,7 @@ impl Emission<'_> {
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
             Purpose::Observable(n, form) => self.observable_formulas(n, form),
             Purpose::AbsoluteVelocities
+            | Purpose::TaylorCoefficients
             | Purpose::MassMatrix
             | Purpose::Budget(_)
             | Purpose::SectorTransfers(_)

@@ -14,7 +14,7 @@ pub(super) fn ident(name: &str) -> Ident {
 
 /// How tightly a written expression binds.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Binding {
+pub(super) enum Binding {
     Sum,
     Product,
     Prefix,
@@ -57,7 +57,7 @@ impl Emission<'_> {
     }
 
     /// Links and coordinates are equally many.
-    fn argument_size(&self, _argument: Argument) -> Literal {
+    pub(super) fn argument_size(&self, _argument: Argument) -> Literal {
         Literal::usize_unsuffixed(self.scene.links.len())
     }
 
@@ -173,7 +173,12 @@ impl Emission<'_> {
 
     /// `let [theta_parent, _, theta_child_2] = *theta;`, the elements that are
     /// `read`.
-    fn take_apart(&self, argument: Argument, read: &[ValueId], locals: &Locals) -> TokenStream {
+    pub(super) fn take_apart(
+        &self,
+        argument: Argument,
+        read: &[ValueId],
+        locals: &Locals,
+    ) -> TokenStream {
         let array = ident(argument.name());
         if argument == Argument::Time {
             let used = |id: &ValueId| matches!(self.op(*id), Op::Input(Argument::Time, _));
@@ -273,7 +278,7 @@ impl Emission<'_> {
 
     /// A value where it is used: its name, or its definition in parentheses if
     /// that binds less tightly than its place asks for.
-    fn bound(&self, id: ValueId, locals: &Locals, place: Binding) -> TokenStream {
+    pub(super) fn bound(&self, id: ValueId, locals: &Locals, place: Binding) -> TokenStream {
         if let Some(name) = locals.names.get(&id) {
             let name = ident(name);
             return quote!(#name);

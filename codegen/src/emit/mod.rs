@@ -12,13 +12,15 @@ mod names;
 mod observables;
 mod parts;
 mod stub;
+mod taylor;
+mod taylor_order;
 mod traits;
 
 pub use stub::stub;
 
 use crate::description::StructItem;
 use crate::mechanics::Mechanics;
-use crate::program::{ConstantId, ConstantOp, Op, Program, ValueId};
+use crate::program::{ConstantId, ConstantOp, Op, Program, Purpose, ValueId};
 use crate::scene::Scene;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -48,7 +50,10 @@ pub fn emit(
         program,
     };
     let model = emission.model();
-    let functions = program.entries.iter().map(|entry| emission.function(entry));
+    let functions = program.entries.iter().map(|entry| match entry.purpose {
+        Purpose::TaylorCoefficients => emission.taylor_coefficients(entry),
+        _ => emission.function(entry),
+    });
     let accessors = emission.accessors();
     let traits = emission.traits();
     let runtime = emission.runtime();

@@ -108,7 +108,7 @@ impl Emission<'_> {
     }
 
     /// A name that says how the value is formed, if its operands have names.
-    fn describe(&self, id: ValueId, locals: &Locals) -> Option<String> {
+    pub(super) fn describe(&self, id: ValueId, locals: &Locals) -> Option<String> {
         let name = |operand: ValueId| match self.op(operand) {
             Op::Constant(constant) => Some(self.program.setup.get(*constant).name.clone()),
             _ => locals.names.get(&operand).cloned(),
@@ -139,7 +139,13 @@ impl Emission<'_> {
 }
 
 impl Locals {
-    fn claim(&mut self, id: ValueId, wanted: String) {
+    pub(super) fn claim(&mut self, id: ValueId, wanted: String) {
+        let name = self.fresh(wanted);
+        self.names.insert(id, name);
+    }
+
+    /// A name that no local has, `wanted` or `wanted` with a number.
+    pub(super) fn fresh(&mut self, wanted: String) -> String {
         let wanted = if wanted.is_empty() {
             "shared".to_owned()
         } else {
@@ -151,6 +157,6 @@ impl Locals {
             name = format!("{wanted}_{number}");
             number += 1;
         }
-        self.names.insert(id, name);
+        name
     }
 }

@@ -55,6 +55,7 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
         transfers.push(format_ident!("transfer_angle_{order}"));
         transfers.push(format_ident!("transfer_amplitude_{order}"));
     }
+    let taylor = taylor(description, runtime);
     quote! {
         #(#attrs)*
         #vis struct #name<T = f64>(::core::marker::PhantomData<T>);
@@ -118,7 +119,43 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             fn kinetic_energy_of(&self, _: &[T], _: &[T]) -> T { ::core::unimplemented!() }
             fn potential_energy_of(&self, _: &[T]) -> T { ::core::unimplemented!() }
         }
+
+        #taylor
     }
+}
+
+/// The Taylor coefficients, where they are asked for.
+fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStream> {
+    let name = &description.item.ident;
+    let wanted = description
+        .requests
+        .iter()
+        .any(|request| request.name == "taylor");
+    let time = description.drive.as_ref().map(|_| quote!(time: T,));
+    wanted.then(|| {
+        quote! {
+            #[allow(missing_docs, unused_variables, clippy::all)]
+            impl<T: #runtime::Scalar> #name<T> {
+                pub fn taylor_coefficients<const N: usize, const D: usize, const P: usize>(
+                    &self,
+                    #time
+                    theta: &[T; N],
+                    omega: &[T; N],
+                    coefficients: &mut [[T; D]],
+                    factors: &mut [[[T; P]; 2]],
+                ) {
+                    ::core::unimplemented!()
+                }
+            }
+
+            impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
+                const FACTORS: usize = 0;
+                fn taylor_coefficients_into(
+                    &self, _: T, _: &[T], _: &[T], _: &mut [T], _: &mut [T],
+                ) {}
+            }
+        }
+    })
 }
 
 /// The functions of observables, as far as they can stand beside the others.

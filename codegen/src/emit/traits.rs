@@ -19,21 +19,23 @@ impl Emission<'_> {
         let canonical = self.scene.requests.momenta.then(|| self.canonical());
         let sectors = self.mechanics.sectors.as_ref();
         let sectors = sectors.map(|sectors| self.sectors(sectors));
+        let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
             #pendulum
             #energy
             #symmetric
             #canonical
             #sectors
+            #taylor
         }
     }
 
-    fn links(&self) -> Literal {
+    pub(super) fn links(&self) -> Literal {
         Literal::usize_unsuffixed(self.scene.links.len())
     }
 
     /// The time of the equations of motion, which undriven trees ignore.
-    fn time_name(&self) -> Ident {
+    pub(super) fn time_name(&self) -> Ident {
         let name = match self.mechanics.drive {
             Some(_) => "time",
             None => "_time",
@@ -42,7 +44,7 @@ impl Emission<'_> {
     }
 
     /// Slices as arrays of the same names.
-    fn with_arrays(
+    pub(super) fn with_arrays(
         &self,
         slices: &[&str],
         success: TokenStream,

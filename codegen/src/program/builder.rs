@@ -26,6 +26,11 @@ impl Builder {
         &self.definitions[id.0 as usize].op
     }
 
+    /// The values that `outputs` depend on, themselves included, in order.
+    pub(super) fn needed(&self, outputs: &[ValueId]) -> Vec<ValueId> {
+        super::needed(&self.definitions, outputs)
+    }
+
     fn record(&mut self, op: Op) -> ValueId {
         if let Some(&id) = self.known.get(&op) {
             return id;
@@ -82,6 +87,21 @@ impl Builder {
 
     pub(super) fn cos(&mut self, angle: ValueId) -> ValueId {
         self.record(Op::Cos(angle))
+    }
+
+    /// The cosine that belongs to a sine, or the sine that belongs to a cosine,
+    /// named after it; none for other values.
+    pub(super) fn partner(&mut self, id: ValueId) -> Option<ValueId> {
+        let (partner, from, to) = match *self.op(id) {
+            Op::Sin(angle) => (self.cos(angle), "sin_", "cos_"),
+            Op::Cos(angle) => (self.sin(angle), "cos_", "sin_"),
+            _ => return None,
+        };
+        let name = self.definitions[id.0 as usize].name.clone();
+        if let Some(rest) = name.as_deref().and_then(|name| name.strip_prefix(from)) {
+            self.name(partner, &format!("{to}{rest}"));
+        }
+        Some(partner)
     }
 
     pub(super) fn sqrt(&mut self, a: ValueId) -> ValueId {

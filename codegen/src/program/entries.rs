@@ -31,6 +31,9 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Vec<Entry> 
         list.budgets(scene, sectors, request);
     }
     list.observables(mechanics);
+    if scene.requests.taylor {
+        list.taylor();
+    }
     list.entries
 }
 

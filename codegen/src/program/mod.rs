@@ -19,6 +19,7 @@ mod rebuild;
 mod sectors;
 mod solve;
 mod spelling;
+mod taylor;
 mod text;
 mod turns;
 mod verify;
@@ -155,6 +156,9 @@ pub enum EnergyDefinition {
 pub enum Purpose {
     /// θ̈ from θ, ω.
     Accelerations,
+    /// The coefficients of θ and ω in powers of the time: order 0 of the
+    /// recurrences, which is θ̈ and the sines and cosines that it goes without.
+    TaylorCoefficients,
     /// K.
     KineticEnergy,
     /// U.
@@ -269,20 +273,25 @@ impl Program {
     /// The values that `outputs` depend on, themselves included, in order:
     /// the program pruned to them. Linear in the program's length.
     pub fn needed(&self, outputs: &[ValueId]) -> Vec<ValueId> {
-        let mut wanted = vec![false; self.definitions.len()];
-        for output in outputs {
-            wanted[output.0 as usize] = true;
-        }
-        for index in (0..wanted.len()).rev() {
-            if wanted[index] {
-                for operand in self.definitions[index].op.operands() {
-                    wanted[operand.0 as usize] = true;
-                }
+        needed(&self.definitions, outputs)
+    }
+}
+
+/// See [`Program::needed`].
+fn needed(definitions: &[Definition], outputs: &[ValueId]) -> Vec<ValueId> {
+    let mut wanted = vec![false; definitions.len()];
+    for output in outputs {
+        wanted[output.0 as usize] = true;
+    }
+    for index in (0..wanted.len()).rev() {
+        if wanted[index] {
+            for operand in definitions[index].op.operands() {
+                wanted[operand.0 as usize] = true;
             }
         }
-        (0..wanted.len() as u32)
-            .map(ValueId)
-            .filter(|id| wanted[id.0 as usize])
-            .collect()
     }
+    (0..wanted.len() as u32)
+        .map(ValueId)
+        .filter(|id| wanted[id.0 as usize])
+        .collect()
 }

@@ -262,7 +262,7 @@ impl Message {
                 suggest(
                     nearest,
                     "outputs are `energies`, `momenta`, `modes`, `symmetric`, `transfer(...)`, \
-                     `budget(...)`; accelerations are always there",
+                     `budget(...)`, `taylor`; accelerations are always there",
                 ),
             ),
             M::DuplicateRequest { name } => problem(

@@ -217,6 +217,8 @@ pub struct Requests {
     pub transfer: Option<TransferRequest>,
     /// Energies of all sectors and the transfers between them.
     pub budget: Option<BudgetRequest>,
+    /// Taylor coefficients of the motion.
+    pub taylor: bool,
 }
 
 /// Which forms of the sectors' budget are asked for; at least one. The forms

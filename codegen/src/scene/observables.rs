@@ -139,8 +139,8 @@ const METHODS: &[&str] = &[
     "from_parameters", "from_symmetric", "hamiltonian", "into", "kinetic_energy",
     "kinetic_energy_of", "mass_matrix", "momenta", "new", "potential_energy",
     "potential_energy_of", "stiffness_matrix", "symmetric_accelerations",
-    "symmetric_accelerations_into", "symmetric_momenta", "symmetric_velocities", "to_symmetric",
-    "velocities",
+    "symmetric_accelerations_into", "symmetric_momenta", "symmetric_velocities",
+    "taylor_coefficients", "taylor_coefficients_into", "to_symmetric", "velocities",
 ];
 
 /// Beginnings of names of methods that are many.

@@ -19,6 +19,7 @@ const OUTPUTS: &[&str] = &[
     "symmetric",
     "transfer",
     "budget",
+    "taylor",
 ];
 
 /// All forms of the budget.
@@ -82,6 +83,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             "energies" => wanted.energies = true,
             "momenta" => wanted.momenta = true,
             "modes" => wanted.modes = true,
+            "taylor" => wanted.taylor = true,
             "symmetric" => {
                 wanted.symmetric = true;
                 resolved.symmetric = Some(span);

@@ -148,6 +148,7 @@ impl Display for Requests {
             symmetric,
             transfer,
             budget,
+            taylor,
         } = self;
         write!(f, "accelerations")?;
         let named = [
@@ -155,6 +156,7 @@ impl Display for Requests {
             (momenta, "momenta"),
             (modes, "modes"),
             (symmetric, "symmetric"),
+            (taylor, "taylor"),
         ];
         for (wanted, name) in named {
             if *wanted {

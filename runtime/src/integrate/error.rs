@@ -59,6 +59,15 @@ pub enum InputError<T> {
         /// The beta given.
         value: T,
     },
+    /// A Taylor method of an order that there is not.
+    Order {
+        /// The order given.
+        order: usize,
+        /// The lowest order there is.
+        smallest: usize,
+        /// The highest.
+        largest: usize,
+    },
     /// The state has no components.
     EmptyState,
     /// The state does not fit the equations.
@@ -145,6 +154,14 @@ impl<T: Real> fmt::Display for InputError<T> {
                 )
             }
             Self::Beta { value } => write!(f, "beta is {value}: it must be between 0 and 0.2"),
+            Self::Order {
+                order,
+                smallest,
+                largest,
+            } => write!(
+                f,
+                "the order is {order}: it must be between {smallest} and {largest}"
+            ),
             Self::EmptyState => write!(f, "the state has no components"),
             Self::Dimension { expected, found } => {
                 write!(

@@ -10,6 +10,7 @@
 //! | [`Dopri5`] | 5(4) | 4 | adaptive | tolerances above 1e-5 |
 //! | [`Dop853`] | 8(5,3) | 7 | adaptive | most things |
 //! | [`Verner98`] | 9(8) | 8 | adaptive | tolerances below 1e-10 |
+//! | [`Taylor`] | by tolerance | that of the method | adaptive | tolerances down to rounding |
 //! | [`Rk4`] | 4 | 3 | fixed | comparison |
 //! | [`Gauss`] | 2, 4, 6, 8 | 1 to 4 | fixed | energy over long times |
 //!
@@ -27,6 +28,7 @@ mod options;
 mod report;
 mod request;
 mod sum;
+mod taylor;
 
 pub use dense::{DenseError, DenseStep};
 pub use error::{InputError, IntegrationError};
@@ -38,3 +40,4 @@ pub use fixed::{Gauss, GaussOrder, Rk4, Solver};
 pub use integrator::Integrator;
 pub use options::{Options, Tolerance};
 pub use report::{Report, Solution, StopReason};
+pub use taylor::Taylor;

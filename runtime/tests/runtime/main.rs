@@ -19,4 +19,5 @@ mod requests;
 mod sector_modes;
 mod spectrum;
 mod stability;
+mod taylor;
 mod variational;

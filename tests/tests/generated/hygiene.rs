@@ -29,7 +29,8 @@ mod hostile {
         core(mass = 1, com = 0.1, joint = 0.2, inertia = 0.01) [
             std(mass = 0.5, com = 0.1, inertia = 1e-3) * 2
         ],
-        emit(energies, momenta, modes, symmetric, transfer(angle = 1, amplitude = 2, exact)),
+        emit(energies, momenta, modes, symmetric, taylor,
+            transfer(angle = 1, amplitude = 2, exact)),
     )]
     pub(super) struct Hostile;
 
@@ -38,7 +39,7 @@ mod hostile {
         a(mass = parameters, com = theta, joint = omega, inertia = value) [
             b(mass = 0.5, com = 0.1, inertia = coupling_b_a, friction = alpha) * 3
         ],
-        emit(energies, transfer(exact), budget(canonical, parseval, matrix, amplitude = 2)),
+        emit(energies, taylor, transfer(exact), budget(canonical, parseval, matrix, amplitude = 2)),
     )]
     pub(super) struct Shadowed;
 
@@ -195,7 +196,7 @@ mod driven {
             x = pivot_acceleration_x * t^2 / 2,
             y = 0.1 * t - 3,
         ),
-        emit(energies, symmetric),
+        emit(energies, symmetric, taylor),
     )]
     pub(super) struct Driven;
 

@@ -16,4 +16,5 @@ mod reference;
 mod sectors;
 mod support;
 mod symmetric;
+mod taylor;
 mod transfer;

@@ -216,19 +216,26 @@ fn energy_and_transfer_at_phase_points() {
     worst.assert_below(1e-12, "phase points");
 }
 
-/// Largest error of angles and velocities at each of the times, of a run in
-/// absolute angles and of one in symmetric coordinates.
-fn trajectory_errors(problem: &str, times: &[f64]) -> Vec<[f64; 2]> {
-    let reference = &read("trajectories.json")["problems"][problem];
+/// The starting angles of a reference trajectory, and the angles and velocities
+/// at the times that it has.
+pub(crate) fn reference_state(problem: &str) -> ([f64; 3], impl Fn(f64) -> Vec<f64>) {
+    let reference = read("trajectories.json")["problems"][problem].clone();
     let theta: [f64; 3] = numbers(&reference["theta_0"])
         .try_into()
         .expect("three angles");
-    let model = Paper::new();
-    let method = Dop853::new(Options::with_tolerance(1e-13));
-    let expected = |time: f64| {
+    let expected = move |time: f64| {
         let state = &reference["t"][time.to_string()];
         [numbers(&state["theta"]), numbers(&state["omega"])].concat()
     };
+    (theta, expected)
+}
+
+/// Largest error of angles and velocities at each of the times, of a run in
+/// absolute angles and of one in symmetric coordinates.
+fn trajectory_errors(problem: &str, times: &[f64]) -> Vec<[f64; 2]> {
+    let (theta, expected) = reference_state(problem);
+    let model = Paper::new();
+    let method = Dop853::new(Options::with_tolerance(1e-13));
     let distance = |time: f64, found: &[f64]| -> f64 {
         let expected = expected(time);
         assert_eq!(expected.len(), found.len());

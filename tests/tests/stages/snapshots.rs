@@ -1,6 +1,6 @@
 //! One snapshot a stage and scene; the code of large scenes by function.
 
-use branched_pendulum_tests::source::scene;
+use branched_pendulum_tests::source::{scene, stages_of as stages_of_text};
 use proc_macro2::TokenStream;
 
 pub(super) fn pretty(tokens: TokenStream) -> String {
@@ -132,6 +132,21 @@ fn paper() {
             "transfer_exact_from_rates",
         ],
     );
+}
+
+/// The pendulum of one rod: one order of its Taylor coefficients.
+#[test]
+fn taylor() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(gravity = 9.80665, rod: rod(mass = 1, length = 1, friction = c), \
+         emit(taylor))] struct Rod;",
+    );
+    insta::assert_snapshot!("taylor_program", stages.program.to_string());
+    insta::assert_snapshot!(
+        "taylor_code_coefficients",
+        function(&stages.tokens, "taylor_coefficients")
+    );
+    operations("series");
 }
 
 #[test]

@@ -1,0 +1,205 @@
+//! The Taylor series method.
+
+mod memory;
+mod run;
+
+use core::ops::ControlFlow;
+
+use super::dense::DenseStep;
+use super::error::{InputError, IntegrationError};
+use super::integrator::Integrator;
+use super::options::{Options, Tolerance};
+use super::report::{Report, Solution, StopReason};
+use super::request::{check_start, check_times};
+use crate::scalar::Real;
+use crate::system::{State, TaylorOde};
+use run::Run;
+
+/// The Taylor series method: each step evaluates the Taylor polynomial of the
+/// solution about its start. For all tolerances, down to rounding.
+///
+/// Works on systems that give their Taylor coefficients, [`TaylorOde`]: models
+/// whose description says `emit(taylor)`, in [`AbsoluteAngles`].
+///
+/// *Order*: p = ⌈5 − ln(ε)/2⌉ for the smallest tolerance ε, unless
+/// [`with_order`](Self::with_order) sets one. Jorba and Zou (section 3) have 1 in the
+/// place of 5, which is cheapest where the cost of a step grows as p²; here each
+/// order has a cost of its own besides, so that somewhat longer steps of a
+/// somewhat higher order are cheaper. *Step*: so long that
+/// neither of the last two terms, orders p − 1 and p, exceeds the tolerance
+/// `absolute_i + relative_i |y_i|` in any component, times exp(−0.7/(p − 1)) to
+/// be on the safe side (their section 3). The terms left out are smaller than
+/// these by about e² for each order. No step is rejected.
+///
+/// *Dense output* is the polynomial itself, of the method's order and free of
+/// evaluations. Its coefficients belong to the start of the step: at its end it
+/// agrees with the state to the tolerance and to rounding.
+///
+/// *Cost*: a step computes p orders of the coefficients, each of which
+/// [`Report::evaluations`] counts as one; the sums of products in order k grow
+/// with k, so a step costs O(p²). Memory, allocated when a run starts: p + 6
+/// vectors of the state's length, and (p − 1) [`TaylorOde::factors`].
+///
+/// *Options*: [`Options::initial_step`] bounds the first step from above.
+/// [`Options::beta`] has no meaning here and must be zero. With
+/// [`Options::compensated`] the rounding errors of the state are carried along,
+/// and the energy of a long run at a tolerance near rounding makes a random
+/// walk (Brouwer's law) instead of a drift.
+///
+/// Same input, same machine, same bits. A run that was stopped continues from
+/// its last state with exactly the steps it would have made, unless sums are
+/// compensated, or a bound or the end cut a step short:
+/// a step depends on the state at its start and on nothing before.
+///
+/// Source: À. Jorba and M. Zou, *A software package for the numerical
+/// integration of ODEs by means of high-order Taylor methods*, Experimental
+/// Mathematics 14 (2005) 99–117.
+///
+/// [`AbsoluteAngles`]: crate::system::AbsoluteAngles
+/// [`Report::evaluations`]: super::Report::evaluations
+#[derive(Clone, Debug)]
+pub struct Taylor<T> {
+    options: Options<T>,
+    order: Option<usize>,
+}
+
+/// Orders that can be asked for: the step needs two terms beyond the first, and
+/// beyond the highest nothing is won in any precision of this crate.
+const ORDERS: core::ops::RangeInclusive<usize> = 3..=100;
+
+impl<T: Real> Taylor<T> {
+    /// The method with these options, which are checked when a run starts.
+    pub fn new(options: Options<T>) -> Self {
+        Self {
+            options,
+            order: None,
+        }
+    }
+
+    /// With polynomials of order `order`, 3 to 100, at any tolerance.
+    pub fn with_order(self, order: usize) -> Self {
+        Self {
+            order: Some(order),
+            ..self
+        }
+    }
+
+    /// The options of the method.
+    pub fn options(&self) -> &Options<T> {
+        &self.options
+    }
+
+    /// The order of the polynomials that a run uses.
+    ///
+    /// # Examples
+    /// ```
+    /// use branched_pendulum::prelude::*;
+    ///
+    /// assert_eq!(Taylor::<f64>::new(Options::with_tolerance(1e-16)).order(), 24);
+    /// assert_eq!(Taylor::<f64>::new(Options::with_tolerance(1e-3)).order(), 9);
+    /// ```
+    pub fn order(&self) -> usize {
+        self.order
+            .unwrap_or_else(|| order_for(smallest(&self.options)))
+    }
+}
+
+const E_SQUARED: f64 = core::f64::consts::E * core::f64::consts::E;
+
+/// p = ⌈5 − ln(ε)/2⌉, for tolerances above one as for one.
+fn order_for<T: Real>(tolerance: T) -> usize {
+    let mut order = 5;
+    // exp(2 (5 − p)) against ε: there is no logarithm without `std`.
+    let mut reached = 1.0;
+    while reached > tolerance.to_f64() && order < *ORDERS.end() {
+        order += 1;
+        reached /= E_SQUARED;
+    }
+    order
+}
+
+/// The smallest tolerance that is not zero: relative ones, or absolute ones if
+/// these are all zero.
+fn smallest<T: Real>(options: &Options<T>) -> T {
+    let least = |tolerance: &Tolerance<T>| {
+        let values = match tolerance {
+            Tolerance::Uniform(value) => core::slice::from_ref(value),
+            Tolerance::PerComponent(values) => values.as_slice(),
+        };
+        let positive = values.iter().copied().filter(|value| *value > T::ZERO);
+        positive.reduce(|least, value| least.min(value))
+    };
+    least(&options.relative)
+        .or_else(|| least(&options.absolute))
+        .unwrap_or(T::EPSILON)
+}
+
+impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for Taylor<T> {
+    fn integrate(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        end: T,
+        mut observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Solution<T>, IntegrationError<T>> {
+        check_start(ode, start)?;
+        check_times(start.time, &[end])?;
+        self.options.validate(start.values.len())?;
+        let order = self.order();
+        if !ORDERS.contains(&order) {
+            let (smallest, largest) = (*ORDERS.start(), *ORDERS.end());
+            return Err(InputError::Order {
+                order,
+                smallest,
+                largest,
+            }
+            .into());
+        }
+        if end == start.time {
+            return Ok(Solution {
+                state: start.clone(),
+                report: Report::new(),
+            });
+        }
+        let mut run = Run::new(ode, &self.options, order, start);
+        let direction = if end > start.time { T::ONE } else { -T::ONE };
+        let mut longest = self.options.initial_step;
+        loop {
+            run.expand()?;
+            let mut step = run.memory.step_length();
+            for bound in [longest.take(), self.options.max_step]
+                .into_iter()
+                .flatten()
+            {
+                step = step.min(bound);
+            }
+            run.report.next_step = step.min((end - run.time).abs());
+            // A step one per cent longer than planned is better than a sliver
+            // at the end.
+            let last = step * T::from_f64(1.01) >= (end - run.time).abs();
+            run.check_step(step, last)?;
+            let end_time = if last {
+                end
+            } else {
+                run.time + direction * step
+            };
+            // The difference of the rounded times, so that they add up.
+            let step = end_time - run.time;
+            run.make(step, end_time)?;
+            let flow = observer(&mut DenseStep::new(
+                &mut run.memory,
+                &mut run.report,
+                run.time,
+                end_time,
+            ));
+            run.memory.advance();
+            run.time = end_time;
+            if flow.is_break() {
+                return Ok(run.solution(StopReason::StoppedByObserver));
+            }
+            if last {
+                return Ok(run.solution(StopReason::EndReached));
+            }
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Systems that know the Taylor coefficients of their motion.
+
+use super::{AbsoluteAngles, Ode, Pendulum};
+use crate::scalar::Scalar;
+
+/// A pendulum whose motion is expanded in powers of the time: what emitted code
+/// implements where `emit(taylor)` asks for it.
+pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
+    /// Numbers that the recurrences keep of each order.
+    const FACTORS: usize;
+
+    /// Writes the Taylor coefficients of the motion that passes through the
+    /// angles `theta` (rad) and angular velocities `omega` (rad/s) at `time`
+    /// (s).
+    ///
+    /// Coefficient k of all angles (rad/sᵏ), then of all angular velocities
+    /// (rad/sᵏ⁺¹), is at k · 2 [`LINKS`](Pendulum::LINKS) of `coefficients`, for
+    /// as many orders as it has room for. The recurrences work in `factors`,
+    /// whatever stands there: [`FACTORS`](Self::FACTORS) numbers for each order
+    /// but the two highest. Where lengths do not fit, the coefficients are NaN.
+    fn taylor_coefficients_into(
+        &self,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        coefficients: &mut [T],
+        factors: &mut [T],
+    );
+}
+
+/// A first-order system y' = f(t, y) whose solution is expanded in powers of the
+/// time.
+///
+/// # Examples
+///
+/// y' = −y, with the coefficients (−1)ᵏ y₀ / k!:
+///
+/// ```
+/// use branched_pendulum::prelude::*;
+///
+/// struct Decay;
+///
+/// impl Ode<f64> for Decay {
+///     fn dimension(&self) -> usize {
+///         1
+///     }
+///     fn rates(&self, _time: f64, state: &[f64], rates: &mut [f64]) {
+///         rates[0] = -state[0];
+///     }
+/// }
+///
+/// impl TaylorOde<f64> for Decay {
+///     fn factors(&self) -> usize {
+///         0
+///     }
+///     fn taylor(&self, _time: f64, state: &[f64], coefficients: &mut [f64], _: &mut [f64]) {
+///         let mut coefficient = state[0];
+///         for (k, out) in coefficients.iter_mut().enumerate() {
+///             *out = coefficient;
+///             coefficient *= -1.0 / (k + 1) as f64;
+///         }
+///     }
+/// }
+///
+/// let method = Taylor::new(Options::with_tolerance(1e-15));
+/// let start = State::new(0.0, vec![1.0]);
+/// let end = method.integrate(&Decay, &start, 1.0, |_| core::ops::ControlFlow::Continue(()))?;
+/// assert!((end.state.values[0] - (-1.0_f64).exp()).abs() < 1e-15);
+/// # Ok::<(), IntegrationError<f64>>(())
+/// ```
+pub trait TaylorOde<T>: Ode<T> {
+    /// Numbers that the recurrences keep of each order.
+    fn factors(&self) -> usize;
+
+    /// Writes the Taylor coefficients of the solution through `state` at
+    /// `time`.
+    ///
+    /// Coefficient k of component i is at k · [`dimension`](Ode::dimension) + i
+    /// of `coefficients`, in units of the component per sᵏ, for as many orders
+    /// as it has room for. `factors` is room to work in, whatever stands there:
+    /// [`factors`](Self::factors) numbers for each order but the two highest.
+    ///
+    /// Where there is no answer, write NaN.
+    fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], factors: &mut [T]);
+}
+
+impl<T, O: TaylorOde<T> + ?Sized> TaylorOde<T> for &O {
+    fn factors(&self) -> usize {
+        (**self).factors()
+    }
+
+    #[inline]
+    fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], factors: &mut [T]) {
+        (**self).taylor(time, state, coefficients, factors);
+    }
+}
+
+impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<'_, P> {
+    fn factors(&self) -> usize {
+        P::FACTORS
+    }
+
+    #[inline]
+    fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], factors: &mut [T]) {
+        if state.len() != 2 * P::LINKS {
+            coefficients.fill(T::from_f64(f64::NAN));
+            return;
+        }
+        let (theta, omega) = state.split_at(P::LINKS);
+        self.0
+            .taylor_coefficients_into(time, theta, omega, coefficients, factors);
+    }
+}

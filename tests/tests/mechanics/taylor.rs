@@ -1,0 +1,301 @@
+//! Taylor coefficients of the motion and the method that uses them, against the
+//! equations themselves, reference trajectories and the energy.
+
+use std::ops::ControlFlow;
+
+use branched_pendulum::prelude::*;
+use branched_pendulum::scalar::Double;
+use branched_pendulum::taylor::Factors;
+use branched_pendulum_tests::random::Random;
+use branched_pendulum_tests::scenes::driven_series::{DrivenSeries, DrivenSeriesParameters};
+use branched_pendulum_tests::scenes::series::Series;
+
+use crate::reference::reference_state;
+
+/// The polynomials through order `order`, for which the equation's own
+/// accelerations differ from the second derivative by O(τ^order).
+struct Expansion<T> {
+    coefficients: Vec<[T; 6]>,
+}
+
+impl<T: Scalar> Expansion<T> {
+    fn new<const P: usize>(
+        order: u32,
+        expand: impl FnOnce(&mut [[T; 6]], &mut [Factors<T, P>]),
+    ) -> Self {
+        let (zero, order) = (T::from_f64(0.0), order as usize);
+        let mut coefficients = vec![[zero; 6]; order + 1];
+        // What stands in the workspace before does not count.
+        let nan = T::from_f64(f64::NAN);
+        let mut factors = vec![[[nan; P]; 2]; order - 1];
+        expand(&mut coefficients, &mut factors);
+        Self { coefficients }
+    }
+
+    fn state(&self, tau: T) -> ([T; 3], [T; 3]) {
+        let mut sum = [T::from_f64(0.0); 6];
+        for row in self.coefficients.iter().rev() {
+            for (sum, coefficient) in sum.iter_mut().zip(row) {
+                *sum = *sum * tau + *coefficient;
+            }
+        }
+        let [a, b, c, u, v, w] = sum;
+        ([a, b, c], [u, v, w])
+    }
+
+    /// dω/dτ of the polynomial.
+    fn derivative(&self, tau: T) -> [T; 3] {
+        let mut sum = [T::from_f64(0.0); 3];
+        for (k, row) in self.coefficients.iter().enumerate().skip(1).rev() {
+            for (sum, coefficient) in sum.iter_mut().zip(&row[3..]) {
+                *sum = *sum * tau + T::from_f64(k as f64) * *coefficient;
+            }
+        }
+        sum
+    }
+}
+
+fn doubles(values: [f64; 3]) -> [Double; 3] {
+    values.map(Double::from_f64)
+}
+
+/// Largest violation of the equation of motion by the polynomial at `tau`.
+fn violation(
+    expansion: &Expansion<Double>,
+    tau: f64,
+    accelerations: impl Fn(&[Double; 3], &[Double; 3]) -> [Double; 3],
+) -> f64 {
+    let tau = Double::from_f64(tau);
+    let (theta, omega) = expansion.state(tau);
+    let rates = expansion.derivative(tau);
+    let alpha = accelerations(&theta, &omega);
+    let differences = rates
+        .iter()
+        .zip(&alpha)
+        .map(|(a, b)| (*a - *b).to_f64().abs());
+    differences.fold(0.0, f64::max)
+}
+
+/// Through order p the polynomial solves the equation up to a term of order p:
+/// at half the distance, 2^−p of the violation in the mean over many states. A
+/// wrong coefficient of any order would show by a smaller power.
+/// `pace` is how fast the motion is, beside the free one.
+fn solves_the_equation(
+    pace: f64,
+    expand: impl Fn(u32, &[Double; 3], &[Double; 3]) -> Expansion<Double>,
+    accelerations: impl Fn(Double, &[Double; 3], &[Double; 3]) -> [Double; 3],
+) {
+    const STATES: usize = 40;
+    for (order, tau) in [(2, 1e-4), (3, 1e-4), (5, 5e-4), (8, 1e-3), (12, 5e-3)] {
+        let mut random = Random::new(11);
+        let mut mean = 0.0;
+        for _ in 0..STATES {
+            let theta = doubles(random.array(-3.0, 3.0));
+            let omega = doubles(random.array(-3.0, 3.0));
+            let expansion = expand(order, &theta, &omega);
+            let at = |tau: f64| {
+                violation(&expansion, tau, |q, v| {
+                    accelerations(Double::from_f64(tau), q, v)
+                })
+            };
+            let (far, near) = (at(tau / pace), at(tau / (2.0 * pace)));
+            // Rounding is some 1e-30.
+            assert!(near > 1e-27, "order {order}: nothing left to compare");
+            mean += (far / near).log2() / STATES as f64;
+        }
+        println!("order {order}: {mean}");
+        assert!(
+            (mean - f64::from(order)).abs() < 0.1,
+            "order {order}: {mean}"
+        );
+    }
+}
+
+#[test]
+fn polynomials_of_the_free_tree_solve_its_equation() {
+    let model = Series::<Double>::default();
+    solves_the_equation(
+        1.0,
+        |order, theta, omega| {
+            Expansion::new(order, |coefficients, factors| {
+                model.taylor_coefficients(theta, omega, coefficients, factors);
+            })
+        },
+        |_, theta, omega| model.accelerations(theta, omega),
+    );
+}
+
+const PARAMETERS: DrivenSeriesParameters<f64> = DrivenSeriesParameters {
+    inertia: 2e-3,
+    stiffness: 0.3,
+    push: 0.4,
+    pace: 5.0,
+};
+
+#[test]
+fn polynomials_of_the_driven_tree_solve_its_equation() {
+    let parameters = DrivenSeriesParameters {
+        inertia: Double::from_f64(PARAMETERS.inertia),
+        stiffness: Double::from_f64(PARAMETERS.stiffness),
+        push: Double::from_f64(PARAMETERS.push),
+        pace: Double::from_f64(PARAMETERS.pace),
+    };
+    let model = DrivenSeries::from_parameters(parameters);
+    let start = 0.75;
+    solves_the_equation(
+        2.5,
+        |order, theta, omega| {
+            Expansion::new(order, |coefficients, factors| {
+                let time = Double::from_f64(start);
+                model.taylor_coefficients(time, theta, omega, coefficients, factors);
+            })
+        },
+        |tau, theta, omega| model.accelerations(Double::from_f64(start) + tau, theta, omega),
+    );
+}
+
+/// Order 0 and 1 are the state, its velocities and its accelerations, to the
+/// bit; a workspace that is too short gives no number.
+#[test]
+fn low_orders_are_the_accelerations() {
+    let model = Series::new();
+    let mut random = Random::new(5);
+    for _ in 0..100 {
+        let (theta, omega): ([f64; 3], [f64; 3]) =
+            (random.array(-3.0, 3.0), random.array(-9.0, 9.0));
+        let mut coefficients = [[0.0; 6]; 4];
+        let mut factors = [[[0.0; 32]; 2]; 2];
+        model.taylor_coefficients(&theta, &omega, &mut coefficients, &mut factors);
+        let alpha = model.accelerations(&theta, &omega);
+        assert_eq!(coefficients[0][..3], theta);
+        assert_eq!(coefficients[0][3..], omega);
+        assert_eq!(coefficients[1][..3], omega);
+        assert_eq!(coefficients[1][3..], alpha);
+        assert_eq!(coefficients[2][..3], alpha.map(|alpha| alpha / 2.0));
+        let mut lower = [[0.0; 6]; 1];
+        model.taylor_coefficients(&theta, &omega, &mut lower, &mut []);
+        assert_eq!(lower[0], coefficients[0]);
+        model.taylor_coefficients(&theta, &omega, &mut coefficients, &mut factors[..1]);
+        assert!(coefficients.as_flattened().iter().all(|c| c.is_nan()));
+    }
+}
+
+fn method(tolerance: f64) -> Taylor<f64> {
+    Taylor::new(Options {
+        compensated: true,
+        ..Options::with_tolerance(tolerance)
+    })
+}
+
+/// Largest errors at the times, and the run's account.
+fn errors(problem: &str, times: &[f64], method: &Taylor<f64>) -> (Vec<f64>, Report<f64>) {
+    let model = Series::new();
+    let (theta, expected) = reference_state(problem);
+    let mut errors = Vec::new();
+    let solution = method
+        .sample(
+            &AbsoluteAngles(&model),
+            &State::at_rest(0.0, &theta),
+            times,
+            |time, state| {
+                let expected = expected(time);
+                let differences = expected.iter().zip(state).map(|(a, b)| (a - b).abs());
+                errors.push(differences.fold(0.0, f64::max));
+            },
+        )
+        .expect("the motion is smooth");
+    assert_eq!(errors.len(), times.len());
+    (errors, solution.report)
+}
+
+#[test]
+fn regular_trajectory() {
+    let times = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+    for tolerance in [1e-14, 1e-15, 1e-16] {
+        let (errors, report) = errors("regular", &times, &method(tolerance));
+        println!("regular, {tolerance:e}: {errors:?}; {report}");
+        // The first of them leaves something to the tolerance.
+        let limit = if tolerance < 1e-14 { 2e-14 } else { 5e-14 };
+        assert!(errors[3] < limit, "{tolerance:e}: {errors:?}");
+        assert!(errors[6] < 5e-13, "{tolerance:e}: {errors:?}");
+    }
+    let (errors, _) = errors("regular", &times, &method(1e-9));
+    assert!(errors[3] < 1e-8, "{errors:?}");
+}
+
+#[test]
+fn trajectory_near_the_threshold() {
+    let times = [1.0, 2.0, 5.0, 10.0];
+    for tolerance in [1e-13, 1e-15] {
+        let (errors, report) = errors("near-threshold", &times, &method(tolerance));
+        println!("near the threshold, {tolerance:e}: {errors:?}; {report}");
+        assert!(errors[3] < 1e-7, "{tolerance:e}: {errors:?}");
+    }
+}
+
+/// Relative to the energy above the hanging state, at the end of every step.
+#[test]
+fn energy_after_a_thousand_seconds() {
+    let model = Series::new();
+    let (theta, _) = reference_state("regular");
+    let energy = |state: &[f64]| {
+        let &[a, b, c, u, v, w] = state else {
+            panic!("{} values", state.len());
+        };
+        let (theta, omega) = ([a, b, c], [u, v, w]);
+        model.kinetic_energy(&theta, &omega) + model.potential_energy(&theta)
+    };
+    let start = State::at_rest(0.0, &theta);
+    let initial = energy(&start.values);
+    let mut worst = 0.0_f64;
+    let solution = method(1e-16)
+        .integrate(&AbsoluteAngles(&model), &start, 1000.0, |step| {
+            worst = worst.max((energy(step.end()) / initial - 1.0).abs());
+            ControlFlow::Continue(())
+        })
+        .expect("the motion is smooth");
+    println!("energy: {worst:e}; {}", solution.report);
+    assert!(worst < 1e-13, "{worst:e}");
+}
+
+/// The driven tree by another method, with the same equations.
+#[test]
+fn driven_trajectory() {
+    let model = DrivenSeries::new(PARAMETERS).expect("possible parameters");
+    let ode = AbsoluteAngles(&model);
+    let start = State::at_rest(0.5, &[0.3, -0.2, 0.1]);
+    let times = [1.0, 2.0];
+    let (mut series, mut pair) = (Vec::new(), Vec::new());
+    method(1e-15)
+        .sample(&ode, &start, &times, |_, state| {
+            series.extend_from_slice(state)
+        })
+        .expect("the motion is smooth");
+    Verner98::new(Options::with_tolerance(1e-14))
+        .sample(&ode, &start, &times, |_, state| {
+            pair.extend_from_slice(state)
+        })
+        .expect("the motion is smooth");
+    assert_eq!((series.len(), pair.len()), (12, 12));
+    for (a, b) in series.iter().zip(&pair) {
+        assert!((a - b).abs() < 1e-12, "{a} {b}");
+    }
+}
+
+/// There and back again.
+#[test]
+fn time_running_backwards() {
+    let model = Series::new();
+    let ode = AbsoluteAngles(&model);
+    let (theta, _) = reference_state("regular");
+    let start = State::at_rest(0.0, &theta);
+    let go = |from: &State<f64>, to: f64| {
+        let solution = method(1e-16).integrate(&ode, from, to, |_| ControlFlow::Continue(()));
+        solution.expect("the motion is smooth").state
+    };
+    let back = go(&go(&start, 10.0), 0.0);
+    assert_eq!(back.time, 0.0);
+    for (a, b) in back.values.iter().zip(&start.values) {
+        assert!((a - b).abs() < 1e-12, "{a} {b}");
+    }
+}
