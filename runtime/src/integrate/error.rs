@@ -59,6 +59,11 @@ pub enum InputError<T> {
         /// The beta given.
         value: T,
     },
+    /// Beta is given to a method whose steps it has no part in.
+    BetaUnused {
+        /// The beta given.
+        value: T,
+    },
     /// A Taylor method of an order that there is not.
     Order {
         /// The order given.
@@ -154,6 +159,10 @@ impl<T: Real> fmt::Display for InputError<T> {
                 )
             }
             Self::Beta { value } => write!(f, "beta is {value}: it must be between 0 and 0.2"),
+            Self::BetaUnused { value } => write!(
+                f,
+                "beta is {value}: this method has no use for it, leave it zero"
+            ),
             Self::Order {
                 order,
                 smallest,

@@ -325,3 +325,16 @@ fn requests_without_sense_are_refused() {
         .unwrap();
     assert_eq!((nothing.state, nothing.report.evaluations), (start, 0));
 }
+
+/// An option without effect is no option.
+#[test]
+fn a_controller_without_use_is_refused() {
+    let start = State::at_rest(0.0, &[1.0]);
+    let options = Options {
+        beta: 0.04,
+        ..Options::with_tolerance(1e-10)
+    };
+    let refused = Taylor::new(options).integrate(&Mathematical, &start, 1.0, go_on);
+    let expected = InputError::BetaUnused { value: 0.04 };
+    assert_eq!(refused.unwrap_err(), expected.into());
+}

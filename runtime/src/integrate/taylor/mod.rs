@@ -41,7 +41,7 @@ use run::Run;
 /// vectors of the state's length, and (p − 1) [`TaylorOde::factors`].
 ///
 /// *Options*: [`Options::initial_step`] bounds the first step from above.
-/// [`Options::beta`] has no meaning here and must be zero. With
+/// [`Options::beta`] has no part here: other values than zero are refused. With
 /// [`Options::compensated`] the rounding errors of the state are carried along,
 /// and the energy of a long run at a tolerance near rounding makes a random
 /// walk (Brouwer's law) instead of a drift.
@@ -145,6 +145,10 @@ impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for Taylor<T> {
         check_start(ode, start)?;
         check_times(start.time, &[end])?;
         self.options.validate(start.values.len())?;
+        if self.options.beta != T::ZERO {
+            let value = self.options.beta;
+            return Err(InputError::BetaUnused { value }.into());
+        }
         let order = self.order();
         if !ORDERS.contains(&order) {
             let (smallest, largest) = (*ORDERS.start(), *ORDERS.end());
