@@ -8,6 +8,7 @@ use branched_pendulum_examples::branched_double::{Failure, files, table};
 use branched_pendulum_examples::exit;
 use branched_pendulum_examples::transfer_orders::arguments::HELP;
 use branched_pendulum_examples::transfer_orders::error_curve::{AMPLITUDES, logarithmic};
+use branched_pendulum_examples::transfer_orders::nested;
 use branched_pendulum_examples::transfer_orders::output::{self, Curves};
 use branched_pendulum_examples::transfer_orders::phase_average::{phase_average, unit_states};
 use branched_pendulum_examples::transfer_orders::trajectories::along_trajectories;
@@ -35,8 +36,13 @@ fn run(arguments: &Arguments) -> Result<(), Failure> {
     let curves = Curves {
         phase_average: phase_average(&states, &logarithmic(AMPLITUDES, POINTS)),
         trajectories: along_trajectories(POINTS)?,
+        nested: nested::phase_average(
+            &nested::unit_states(arguments.states),
+            &logarithmic(AMPLITUDES, POINTS),
+        ),
     };
     print!("{}", output::table(&curves, &Costs::measure()));
+    print!("{}", output::nested_table(&curves.nested, &nested::costs()));
     let written = output::write(&arguments.output, &curves)?;
     print!("\n{}", table::file_list(&written));
     Ok(())

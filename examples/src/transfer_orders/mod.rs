@@ -10,12 +10,14 @@
 //! - [`phase_average`]: states with random phases, [`trajectories`]: states
 //!   along exact motions,
 //! - [`cost`]: time for one evaluation,
+//! - [`nested`]: phase average and cost for a tree of nested copies,
 //! - [`output`]: how it is shown.
 
 pub mod arguments;
 pub mod cost;
 pub mod error_curve;
 pub mod forms;
+pub mod nested;
 pub mod output;
 pub mod phase_average;
 pub(crate) mod random;

@@ -25,6 +25,8 @@ pub struct Curves {
     pub phase_average: Vec<Point>,
     /// Along exact motions.
     pub trajectories: Vec<Point>,
+    /// Over states of the nested tree with random phases.
+    pub nested: Vec<Point>,
 }
 
 /// The table that the program prints.
@@ -32,6 +34,7 @@ pub fn table(curves: &Curves, costs: &Costs) -> String {
     let Curves {
         phase_average,
         trajectories,
+        nested: _,
     } = curves;
     let states = phase_average.first().map_or(0, |point| point.states);
     let samples: u64 = trajectories.iter().map(|point| point.states).sum();
@@ -78,6 +81,29 @@ pub fn table(curves: &Curves, costs: &Costs) -> String {
     text
 }
 
+/// The table for the nested tree.
+pub fn nested_table(curve: &[Point], costs: &Costs) -> String {
+    let mut text = String::from(
+        "\nTwo arms with a hand each on a body: W into their antiphase sector, of two\n\
+         coordinates. Amplitude, rad, at which the error passes, phase average.\n\n",
+    );
+    push(&mut text, format_args!("{:20}", "form"));
+    for (level, _) in LEVELS {
+        push(&mut text, format_args!(" {level:>7}"));
+    }
+    text.push_str("     cost\n");
+    for ((form, name), ratio) in FORMS.iter().enumerate().zip(costs.ratios) {
+        push(&mut text, format_args!("{name:20}"));
+        for (_, level) in LEVELS {
+            let crossing = Crossing::of(curve, form, level);
+            let crossing = crossing.map_or("-".to_owned(), |crossing| crossing.to_string());
+            push(&mut text, format_args!(" {crossing:>7}"));
+        }
+        push(&mut text, format_args!("  {ratio:7.2}\n"));
+    }
+    text
+}
+
 fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
     // Writing to a string cannot fail.
     let _ = text.write_fmt(arguments);
@@ -93,12 +119,14 @@ pub fn write(folder: &Path, curves: &Curves) -> Result<Vec<PathBuf>, Failure> {
     let (svg, png) = (file("transfer-orders.svg"), file("transfer-orders.png"));
     let phase_average = file("phase-average.csv");
     let trajectories = file("trajectories.csv");
+    let nested = file("nested-phase-average.csv");
     write_csv(&phase_average, &curves.phase_average)?;
     write_csv(&trajectories, &curves.trajectories)?;
+    write_csv(&nested, &curves.nested)?;
     let chart = chart(curves);
     chart.write_svg(&svg)?;
     chart.write_png(&png)?;
-    Ok(vec![phase_average, trajectories, svg, png])
+    Ok(vec![phase_average, trajectories, nested, svg, png])
 }
 
 fn write_csv(path: &Path, curve: &[Point]) -> Result<(), Failure> {
@@ -133,7 +161,8 @@ fn chart(curves: &Curves) -> Chart {
     let [low, high] = AMPLITUDES;
     let axis = Axis::log("amplitude of the antiphase motion (rad)").range(low, high);
     Chart::new("Error of W relative to the exact W (rms over rms)", axis)
-        .size(900.0, 860.0)
+        .size(900.0, 1240.0)
         .panel(panel("phase average", &curves.phase_average))
         .panel(panel("along trajectories", &curves.trajectories))
+        .panel(panel("nested tree", &curves.nested))
 }
