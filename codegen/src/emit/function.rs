@@ -103,7 +103,7 @@ impl Emission<'_> {
             let lines = self.lines(&gathered, None, needed, locals);
             let parts = self.parts(entry, &lines, locals);
             let numbers = self.numbers_of_outputs(entry, &lines, locals);
-            let calls = parts.iter().map(|part| part.call(entry));
+            let calls = parts.calls(entry, &self.names_of_outputs(entry, locals));
             numbers.into_iter().chain(calls).collect()
         } else {
             lines.into_iter().map(|line| line.tokens).collect()

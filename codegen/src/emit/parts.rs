@@ -7,11 +7,18 @@ use super::names::Locals;
 use crate::program::{Entry, Op, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A function of more `let` lines than this is written in parts of at most as
 /// many.
 pub(super) const MOST_LINES: usize = 600;
+
+/// Parts that hand each other more names than this in all do it by an array:
+/// lists of thousands of arguments are as long as what they replace.
+const MOST_NAMES: usize = 10_000;
+
+/// Lines and values taken from the array, at most, in a part that uses one.
+const MOST_WITH_ARRAY: usize = 500;
 
 /// One `let` line.
 pub(super) struct Line {
@@ -20,6 +27,13 @@ pub(super) struct Line {
     /// Values that it is formed from, named or not.
     pub(super) reads: Vec<ValueId>,
     pub(super) tokens: TokenStream,
+}
+
+/// A long function in parts.
+pub(super) struct Parts {
+    parts: Vec<Part>,
+    /// Places of the values that parts hand each other in an array, if they do.
+    places: Option<BTreeMap<Ident, usize>>,
 }
 
 /// Some lines of a function, with what goes in and out.
@@ -36,7 +50,7 @@ impl Part {
     }
 
     /// The line that stands for the part in the whole.
-    pub(super) fn call(&self, entry: &Entry) -> TokenStream {
+    fn call(&self, entry: &Entry) -> TokenStream {
         let (name, receives, returns) = (self.name(entry), &self.receives, &self.returns);
         quote!(let [#(#returns),*] = self.#name([#(#receives),*]);)
     }
@@ -53,6 +67,83 @@ impl Part {
                 #(#lines)*
                 [#(#returns),*]
             }
+        }
+    }
+}
+
+impl Part {
+    /// The part as a function on the array.
+    fn on_array(&self, entry: &Entry, places: &BTreeMap<Ident, usize>) -> TokenStream {
+        let name = self.name(entry);
+        let docs = format!(
+            " Part {} of [`{1}`](Self::{1}), on the values that its parts share.",
+            self.number, entry.name
+        );
+        let size = Literal::usize_unsuffixed(places.len());
+        let taken = taken(&self.receives, places);
+        let given = given(&self.returns, places);
+        let lines = &self.lines;
+        quote! {
+            #[doc = #docs]
+            fn #name(&self, shared_values: &mut [T; #size]) {
+                #(#taken)*
+                #(#lines)*
+                #(#given)*
+            }
+        }
+    }
+}
+
+/// `let x = shared_values[3];`
+fn taken(names: &[Ident], places: &BTreeMap<Ident, usize>) -> Vec<TokenStream> {
+    let line = |name: &Ident| {
+        let place = Literal::usize_unsuffixed(places[name]);
+        quote!(let #name = shared_values[#place];)
+    };
+    names.iter().map(line).collect()
+}
+
+/// `shared_values[3] = x;`
+fn given(names: &[Ident], places: &BTreeMap<Ident, usize>) -> Vec<TokenStream> {
+    let line = |name: &Ident| {
+        let place = Literal::usize_unsuffixed(places[name]);
+        quote!(shared_values[#place] = #name;)
+    };
+    names.iter().map(line).collect()
+}
+
+impl Parts {
+    /// The lines that stand for the parts in the whole, after those of the
+    /// inputs and before the outputs, which are written in `outputs`.
+    pub(super) fn calls(&self, entry: &Entry, outputs: &[Ident]) -> Vec<TokenStream> {
+        let Some(places) = &self.places else {
+            return self.parts.iter().map(|part| part.call(entry)).collect();
+        };
+        let made: BTreeSet<&Ident> = self.parts.iter().flat_map(|part| &part.returns).collect();
+        let received: BTreeSet<&Ident> =
+            self.parts.iter().flat_map(|part| &part.receives).collect();
+        let inputs: Vec<Ident> = received.difference(&made).copied().cloned().collect();
+        let outputs: Vec<Ident> = outputs
+            .iter()
+            .filter(|name| made.contains(name))
+            .cloned()
+            .collect();
+        let size = Literal::usize_unsuffixed(places.len());
+        let mut lines = vec![quote!(let mut shared_values = [T::from_f64(0.0); #size];)];
+        lines.extend(given(&inputs, places));
+        lines.extend(self.parts.iter().map(|part| {
+            let name = part.name(entry);
+            quote!(self.#name(&mut shared_values);)
+        }));
+        lines.extend(taken(&outputs, places));
+        lines
+    }
+
+    fn functions(&self, entry: &Entry) -> Vec<TokenStream> {
+        let parts = self.parts.iter();
+        match &self.places {
+            Some(places) => parts.map(|part| part.on_array(entry, places)).collect(),
+            None => parts.map(|part| part.function(entry)).collect(),
         }
     }
 }
@@ -76,17 +167,77 @@ impl Emission<'_> {
 
     /// Cuts the lines of a function into parts of equal length. Numbers are
     /// written again in every part that uses them.
-    pub(super) fn parts(&self, entry: &Entry, lines: &[Line], locals: &Locals) -> Vec<Part> {
+    pub(super) fn parts(&self, entry: &Entry, lines: &[Line], locals: &Locals) -> Parts {
         let (numbers, lines): (Vec<&Line>, Vec<&Line>) =
             lines.iter().partition(|line| self.is_number(line));
         let count = lines.len().div_ceil(MOST_LINES);
         let length = lines.len().div_ceil(count);
+        let even: Vec<&[&Line]> = lines.chunks(length).collect();
+        let parts = self.cut(entry, &numbers, &even, locals);
+        let names: usize = parts
+            .iter()
+            .map(|part| part.receives.len() + part.returns.len())
+            .sum();
+        if names <= MOST_NAMES {
+            return Parts {
+                parts,
+                places: None,
+            };
+        }
+        let parts = self.cut(entry, &numbers, &self.short(&lines, locals), locals);
+        let shared = parts
+            .iter()
+            .flat_map(|part| part.receives.iter().chain(&part.returns));
+        let mut places = BTreeMap::new();
+        for name in shared {
+            let next = places.len();
+            places.entry(name.clone()).or_insert(next);
+        }
+        Parts {
+            parts,
+            places: Some(places),
+        }
+    }
+
+    /// Pieces of few lines and few values from outside.
+    fn short<'l>(&self, lines: &'l [&'l Line], locals: &Locals) -> Vec<&'l [&'l Line]> {
+        let mut pieces = Vec::new();
+        let mut start = 0;
+        let mut seen = BTreeSet::new();
+        for (index, line) in lines.iter().enumerate() {
+            for &id in &line.reads {
+                self.named_operands(id, locals, &mut seen);
+            }
+            seen.extend(&line.defines);
+            // Values count once, whether they come from outside or are made.
+            if seen.len() > MOST_WITH_ARRAY && index > start {
+                pieces.push(&lines[start..index]);
+                start = index;
+                seen.clear();
+                for &id in &line.reads {
+                    self.named_operands(id, locals, &mut seen);
+                }
+                seen.extend(&line.defines);
+            }
+        }
+        pieces.push(&lines[start..]);
+        pieces
+    }
+
+    /// The given pieces as parts.
+    fn cut(
+        &self,
+        entry: &Entry,
+        numbers: &[&Line],
+        pieces: &[&[&Line]],
+        locals: &Locals,
+    ) -> Vec<Part> {
         let mut wanted = BTreeSet::new();
         for &output in &entry.outputs {
             self.named_operands(output, locals, &mut wanted);
         }
         let mut parts = Vec::new();
-        for (number, lines) in lines.chunks(length).enumerate().rev() {
+        for (number, &lines) in pieces.iter().enumerate().rev() {
             let mut read = BTreeSet::new();
             for line in lines {
                 for &id in &line.reads {
@@ -149,6 +300,15 @@ impl Emission<'_> {
             .collect()
     }
 
+    /// The names that the outputs are written in.
+    pub(super) fn names_of_outputs(&self, entry: &Entry, locals: &Locals) -> Vec<Ident> {
+        let mut wanted = BTreeSet::new();
+        for &output in &entry.outputs {
+            self.named_operands(output, locals, &mut wanted);
+        }
+        wanted.iter().map(|id| ident(&locals.names[id])).collect()
+    }
+
     /// The functions behind a long one; nothing for others.
     pub(super) fn part_functions(
         &self,
@@ -168,8 +328,7 @@ impl Emission<'_> {
         if lines.len() <= MOST_LINES {
             return TokenStream::new();
         }
-        let parts = self.parts(entry, &lines, locals);
-        let functions = parts.iter().map(|part| part.function(entry));
+        let functions = self.parts(entry, &lines, locals).functions(entry);
         quote!(#(#functions)*)
     }
 }
