@@ -69,9 +69,7 @@ impl Part {
             }
         }
     }
-}
 
-impl Part {
     /// The part as a function on the array.
     fn on_array(&self, entry: &Entry, places: &BTreeMap<Ident, usize>) -> TokenStream {
         let name = self.name(entry);
@@ -114,7 +112,7 @@ fn given(names: &[Ident], places: &BTreeMap<Ident, usize>) -> Vec<TokenStream> {
 
 impl Parts {
     /// The lines that stand for the parts in the whole, after those of the
-    /// inputs and before the outputs, which are written in `outputs`.
+    /// inputs; `outputs` names what the lines after them read.
     pub(super) fn calls(&self, entry: &Entry, outputs: &[Ident]) -> Vec<TokenStream> {
         let Some(places) = &self.places else {
             return self.parts.iter().map(|part| part.call(entry)).collect();
@@ -158,6 +156,15 @@ impl Emission<'_> {
         for operand in self.program.definition(id).op.operands() {
             self.named_operands(operand, locals, found);
         }
+    }
+
+    /// The named values that the outputs are written in.
+    fn behind_outputs(&self, entry: &Entry, locals: &Locals) -> BTreeSet<ValueId> {
+        let mut wanted = BTreeSet::new();
+        for &output in &entry.outputs {
+            self.named_operands(output, locals, &mut wanted);
+        }
+        wanted
     }
 
     fn is_number(&self, line: &Line) -> bool {
@@ -232,10 +239,7 @@ impl Emission<'_> {
         pieces: &[&[&Line]],
         locals: &Locals,
     ) -> Vec<Part> {
-        let mut wanted = BTreeSet::new();
-        for &output in &entry.outputs {
-            self.named_operands(output, locals, &mut wanted);
-        }
+        let mut wanted = self.behind_outputs(entry, locals);
         let mut parts = Vec::new();
         for (number, &lines) in pieces.iter().enumerate().rev() {
             let mut read = BTreeSet::new();
@@ -288,10 +292,7 @@ impl Emission<'_> {
         lines: &[Line],
         locals: &Locals,
     ) -> Vec<TokenStream> {
-        let mut wanted = BTreeSet::new();
-        for &output in &entry.outputs {
-            self.named_operands(output, locals, &mut wanted);
-        }
+        let wanted = self.behind_outputs(entry, locals);
         lines
             .iter()
             .filter(|line| self.is_number(line))
@@ -302,10 +303,7 @@ impl Emission<'_> {
 
     /// The names that the outputs are written in.
     pub(super) fn names_of_outputs(&self, entry: &Entry, locals: &Locals) -> Vec<Ident> {
-        let mut wanted = BTreeSet::new();
-        for &output in &entry.outputs {
-            self.named_operands(output, locals, &mut wanted);
-        }
+        let wanted = self.behind_outputs(entry, locals);
         wanted.iter().map(|id| ident(&locals.names[id])).collect()
     }
 

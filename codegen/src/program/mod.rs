@@ -11,6 +11,7 @@ mod copies;
 mod count;
 mod drive;
 mod entries;
+mod handed;
 mod interpret;
 mod lower;
 mod named;

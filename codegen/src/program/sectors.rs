@@ -1,31 +1,12 @@
 //! Entry points that work on means and differences: the motion of nested trees
 //! in symmetric coordinates, and the budgets of sectors.
 
-use super::copies::{
-    Copies, CouplingValues, Fields, Graded, Motion, OrbitValues, Pose, Series, Share, Values,
-    Which, orbits,
-};
+use super::copies::{Copies, Field, Fields, Motion, Series, Share, Values, Which, orbits};
 use super::entries::EntryList;
-use super::lower::{Door, Lowering};
+use super::handed::{self, CANONICAL, State, copies, motion, values};
 use super::{Argument, EnergyDefinition, Purpose, Shape, ValueId};
-use crate::mechanics::expression::Expr;
 use crate::mechanics::{Counting, Mechanics, Sectors};
-use crate::scene::{BudgetRequest, LinkId, Scene};
-
-/// How a state is handed over.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum State {
-    /// Absolute angles and angular velocities.
-    Absolute,
-    /// Symmetric coordinates and their velocities.
-    Rates,
-    /// Symmetric coordinates and their momenta; where differences are small,
-    /// the momenta are or are not.
-    Momenta(Counting),
-}
-
-/// Without a truncation nothing is counted.
-const CANONICAL: State = State::Momenta(Counting::Amplitude);
+use crate::scene::{BudgetRequest, Scene};
 
 impl EntryList<'_, '_> {
     /// What [`EntryList::symmetric`] gives for flat trees.
@@ -43,7 +24,7 @@ impl EntryList<'_, '_> {
         let momenta = by_coordinate(&mut copies, mechanics, &motion.momenta, Copies::projected);
         let requests = &scene.requests;
         let canonical = requests.momenta.then(|| {
-            let motion = self::motion(&mut copies, scene, mechanics, &values, CANONICAL);
+            let motion = handed::motion(&mut copies, scene, mechanics, &values, CANONICAL);
             let hamiltonian = requests.energies.then(|| {
                 let energy = copies.hamiltonian(&values, &motion);
                 copies.graded.total(&energy)
@@ -249,150 +230,12 @@ impl EntryList<'_, '_> {
     }
 }
 
-fn copies<'b>(
-    lowering: &'b mut Lowering<'_>,
-    orbits: &'b [super::copies::Orbit],
-    truncation: Option<usize>,
-) -> Copies<'b> {
-    let builder = &mut lowering.builder;
-    Copies {
-        graded: Graded {
-            builder,
-            truncation,
-        },
-        orbits,
-    }
-}
-
-/// The constants as values of the program.
-fn values(lowering: &mut Lowering<'_>, sectors: &Sectors) -> Values {
-    let mut door = Door::new(
-        &lowering.mechanics.absolute,
-        Argument::Theta,
-        Some(Argument::Omega),
-        None,
-    );
-    let mut series = |expr: &Expr| {
-        let value = lowering.expr(&mut door, expr);
-        if lowering.builder.is(value, 0) {
-            Series::default()
-        } else {
-            Series::of_order(0, value)
-        }
-    };
-    let orbits = sectors
-        .orbits
-        .iter()
-        .map(|orbit| OrbitValues {
-            mass: series(&orbit.mass),
-            inertia: series(&orbit.inertia),
-            com: [series(&orbit.com[0]), series(&orbit.com[1])],
-            pivot: [series(&orbit.pivot[0]), series(&orbit.pivot[1])],
-            moment: series(&orbit.moment),
-            gravity: series(&orbit.gravity),
-            lateral_gravity: series(&orbit.lateral_gravity),
-            spring: series(&orbit.spring),
-            friction: series(&orbit.friction),
-            drag: series(&orbit.drag),
-            drive: [0, 1, 2].map(|part| series(&orbit.drive[part])),
-        })
-        .collect();
-    let couplings = sectors
-        .couplings
-        .iter()
-        .map(|coupling| CouplingValues {
-            row: coupling.row,
-            column: coupling.column,
-            cosine: series(&coupling.cosine),
-            sine: series(&coupling.sine),
-        })
-        .collect();
-    Values { orbits, couplings }
-}
-
-/// The state that an entry point is handed, and what follows from it.
-fn motion(
-    copies: &mut Copies<'_>,
-    scene: &Scene,
-    mechanics: &Mechanics,
-    values: &Values,
-    state: State,
-) -> Motion {
-    let handed = |copies: &mut Copies<'_>, argument| -> Fields {
-        let whole = argument == Argument::Momenta && state == State::Momenta(Counting::Angle);
-        let budget = scene.requests.budget.as_ref();
-        let chosen = budget.map_or(&[][..], |budget| budget.small.as_slice());
-        let is_small =
-            |place: &(usize, usize)| !whole && (chosen.is_empty() || chosen.contains(place));
-        match state {
-            State::Absolute => scene
-                .orbits
-                .iter()
-                .enumerate()
-                .map(|(orbit, links)| {
-                    let links: Vec<ValueId> = links
-                        .links
-                        .iter()
-                        .map(|&LinkId(link)| copies.graded.builder.input(argument, link))
-                        .collect();
-                    let field = copies.analysed(orbit, &links);
-                    copies.named(&field, argument.letter());
-                    field
-                })
-                .collect(),
-            State::Rates | State::Momenta(_) => {
-                let mut fields = copies.zeros();
-                for (index, coordinate) in mechanics.coordinates.iter().enumerate() {
-                    let value = copies.graded.builder.input(argument, index);
-                    let (orbit, which) = coordinate.kind.place();
-                    let field = &mut fields[orbit];
-                    match which {
-                        None => field.mean = copies.graded.value(value),
-                        Some(place) if is_small(&place) => {
-                            field.put(place, copies.graded.small(value));
-                        }
-                        Some(place) => field.put(place, copies.graded.value(value)),
-                    }
-                }
-                fields
-            }
-        }
-    };
-    let [positions, motions] = match state {
-        State::Absolute => [Argument::Theta, Argument::Omega],
-        State::Rates => [Argument::Coordinates, Argument::Rates],
-        State::Momenta(_) => [Argument::Coordinates, Argument::Momenta],
-    };
-    let angles = handed(copies, positions);
-    let pose: Pose = copies.pose(values, angles);
-    let handed = handed(copies, motions);
-    let (rates, momenta) = if let State::Momenta(_) = state {
-        let momenta = copies.per_link(&handed);
-        let factors = copies.factors(values, &pose);
-        (copies.solve(&factors, &momenta), momenta)
-    } else {
-        let momenta = copies.momenta(values, &pose, &handed);
-        (handed, momenta)
-    };
-    for (rate, momentum) in rates.iter().zip(&momenta) {
-        copies.named(rate, "omega");
-        copies.named(momentum, "momentum");
-    }
-    let forces = copies.other_forces(values, &pose, &rates);
-    Motion {
-        pose,
-        rates,
-        momenta,
-        forces,
-    }
-}
-
 /// One output for each symmetric coordinate.
 fn by_coordinate<'b>(
     copies: &mut Copies<'b>,
     mechanics: &Mechanics,
     fields: &Fields,
-    component: fn(&mut Copies<'b>, &super::copies::Field, Which) -> Series,
+    component: fn(&mut Copies<'b>, &Field, Which) -> Series,
 ) -> Vec<ValueId> {
     mechanics
         .coordinates

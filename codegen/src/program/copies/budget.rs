@@ -67,15 +67,6 @@ impl Copies<'_> {
         self.graded.neg(&change)
     }
 
-    fn potential_rate(&mut self, values: &Values, motion: &Motion, which: Which) -> Series {
-        let weight = self.sector_weight_rate(values, &motion.pose, &motion.rates, which);
-        let springs = self.spring_gradient(values, &motion.pose);
-        let springs = self.projections(&springs, which);
-        let rates = self.components(&motion.rates, which);
-        let springs = self.inner(&rates, &springs);
-        self.graded.add(&weight, &springs)
-    }
-
     /// ½ p_sᵀ B_s⁻¹ p_s + V_s with the block at the configuration (definition
     /// A1) or at rest (A0).
     pub(in crate::program) fn canonical_share(
@@ -100,7 +91,7 @@ impl Copies<'_> {
             let change = self.by_change_of_block(motion, which, &velocities);
             transfer = self.graded.add(&transfer, &change);
         }
-        let stored = self.potential_rate(values, motion, which);
+        let stored = self.sector_potential_rate(values, &motion.pose, &motion.rates, which);
         let forces = self.projections(&motion.forces, which);
         Share {
             energy: self.graded.add(&kinetic, &potential),
@@ -166,7 +157,7 @@ impl Copies<'_> {
         let change = self.quadratic(&change, &rates);
         let change = self.graded.mul(&half, &change);
         transfer = self.graded.add(&transfer, &change);
-        let stored = self.potential_rate(values, motion, which);
+        let stored = self.sector_potential_rate(values, &motion.pose, &motion.rates, which);
         let other = self.components(other, which);
         Share {
             energy: self.graded.add(&kinetic, &potential),

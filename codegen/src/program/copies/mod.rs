@@ -14,8 +14,10 @@ mod field;
 mod motion;
 mod parseval;
 mod potential;
+mod reciprocal;
 mod sector;
 mod series;
+mod solve;
 mod tree;
 mod turn;
 

@@ -163,12 +163,7 @@ impl Copies<'_> {
                 let kinetic = self.graded.mul(&half, &twice);
                 let potential = self.sector_potential(values, &motion.pose, which);
                 let work = product(self, &accelerations, conservative);
-                let stored = self.sector_weight_rate(values, &motion.pose, &motion.rates, which);
-                let springs = self.spring_gradient(values, &motion.pose);
-                let springs = self.projections(&springs, which);
-                let rates = self.components(&motion.rates, which);
-                let springs = self.inner(&rates, &springs);
-                let stored = self.graded.add(&stored, &springs);
+                let stored = self.sector_potential_rate(values, &motion.pose, &motion.rates, which);
                 Share {
                     energy: self.graded.add(&kinetic, &potential),
                     transfer: self.graded.add(&work, &stored),
@@ -184,7 +179,7 @@ impl Copies<'_> {
         values: &Values,
         motion: &Motion,
         kinematics: &Kinematics,
-        factors: &super::motion::Factors,
+        factors: &super::solve::Factors,
         which: Which,
     ) -> Slopes {
         let orbits = 0..self.orbits.len();

@@ -96,6 +96,22 @@ impl Copies<'_> {
         sum
     }
 
+    /// dV_s/dt at these angular velocities, of gravity and springs.
+    pub(super) fn sector_potential_rate(
+        &mut self,
+        values: &Values,
+        pose: &Pose,
+        rates: &Fields,
+        which: Which,
+    ) -> Series {
+        let weight = self.sector_weight_rate(values, pose, rates, which);
+        let springs = self.spring_gradient(values, pose);
+        let springs = self.projections(&springs, which);
+        let rates = self.components(rates, which);
+        let springs = self.inner(&rates, &springs);
+        self.graded.add(&weight, &springs)
+    }
+
     /// ∂V_s/∂q for the sector's own coordinates, of gravity alone.
     pub(super) fn sector_weight_gradient(
         &mut self,
@@ -136,10 +152,7 @@ impl Copies<'_> {
             let [x, y] = self.chord(pose, orbit, which);
             let part = |value: Series| {
                 let mut field = Field::zero(orbit);
-                match which {
-                    None => field.mean = value,
-                    Some(place) => field.put(place, value),
-                }
+                field.set(which, value);
                 field
             };
             let across = self.mul(&part(y), &direction.cos);

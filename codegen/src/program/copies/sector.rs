@@ -22,13 +22,18 @@ impl Field {
         }
     }
 
+    /// Sets the component in a sector.
+    pub(in crate::program) fn set(&mut self, which: Which, value: Series) {
+        match which {
+            None => self.mean = value,
+            Some(place) => self.put(place, value),
+        }
+    }
+
     /// What of the field lies in a sector.
     pub(super) fn restricted(&self, which: Which) -> Self {
         let mut part = Self::zero(self.orbit);
-        match which {
-            None => part.mean = self.mean.clone(),
-            Some(place) => part.put(place, self.at(place)),
-        }
+        part.set(which, self.component(which));
         part
     }
 }
@@ -86,10 +91,7 @@ impl<'b> Copies<'b> {
                 let norm = self.sector_norm(orbit, which);
                 let share = self.graded.reciprocal(&norm);
                 let value = self.graded.mul(&share, &momentum.component(which));
-                match which {
-                    None => fields[orbit].mean = value,
-                    Some(place) => fields[orbit].put(place, value),
-                }
+                fields[orbit].set(which, value);
             }
         }
         fields

@@ -1,0 +1,85 @@
+//! Linear systems with the mass matrix, all copies of an orbit at once.
+
+use super::field::{Copies, Field};
+use super::motion::{Fields, Pose, Values};
+use std::collections::BTreeMap;
+
+/// Lower triangle of a symmetric matrix by orbits. The entry (row, column)
+/// belongs to the links of orbit `row` and their ancestors in `column`.
+type OrbitMatrix = BTreeMap<(usize, usize), Field>;
+
+/// Factors L and D of the mass matrix, LᵀDL, over the tree without fill-in.
+pub(in crate::program) struct Factors {
+    inverses: Vec<Field>,
+    /// Descendant, ancestor, multiplier.
+    ratios: Vec<(usize, usize, Field)>,
+}
+
+impl Copies<'_> {
+    fn mass_matrix(&mut self, values: &Values, pose: &Pose) -> OrbitMatrix {
+        let mut matrix = OrbitMatrix::new();
+        for (orbit, constants) in values.orbits.iter().enumerate() {
+            matrix.insert(
+                (orbit, orbit),
+                Field::uniform(orbit, constants.moment.clone()),
+            );
+        }
+        for entry in &pose.entries {
+            matrix.insert((entry.row, entry.column), entry.value.clone());
+        }
+        matrix
+    }
+
+    /// Eliminates from the leaves to the root (Featherstone, Rigid Body
+    /// Dynamics Algorithms, 2008, §6.5), all copies of an orbit at once.
+    pub(in crate::program) fn factors(&mut self, values: &Values, pose: &Pose) -> Factors {
+        let mut matrix = self.mass_matrix(values, pose);
+        let mut inverses = Vec::new();
+        let mut ratios = Vec::new();
+        for orbit in (0..self.orbits.len()).rev() {
+            let pivot = matrix[&(orbit, orbit)].clone();
+            self.named(&pivot, "pivot");
+            let inverse = self.reciprocal(&pivot);
+            self.named(&inverse, "inverse_pivot");
+            let row: Vec<(usize, Field)> = (0..orbit)
+                .filter_map(|above| Some((above, matrix.get(&(orbit, above))?.clone())))
+                .collect();
+            for (above, value) in &row {
+                let ratio = self.mul(value, &inverse);
+                let name = format!("ratio_{}", self.orbits[*above].name(None));
+                self.named(&ratio, &name);
+                for (other, entry) in row.iter().filter(|(other, _)| other <= above) {
+                    let product = self.mul(&ratio, entry);
+                    let product = self.gather(&product, *above);
+                    let old = matrix.remove(&(*above, *other));
+                    let old = old.unwrap_or_else(|| Field::zero(*above));
+                    let new = self.sub(&old, &product);
+                    matrix.insert((*above, *other), new);
+                }
+                ratios.push((orbit, *above, ratio));
+            }
+            inverses.push(inverse);
+        }
+        inverses.reverse();
+        Factors { inverses, ratios }
+    }
+
+    /// x with M x = right.
+    pub(in crate::program) fn solve(&mut self, factors: &Factors, right: &Fields) -> Fields {
+        let mut solution = right.clone();
+        for (orbit, above, ratio) in &factors.ratios {
+            let product = self.mul(ratio, &solution[*orbit]);
+            let product = self.gather(&product, *above);
+            solution[*above] = self.sub(&solution[*above], &product);
+        }
+        for (orbit, inverse) in factors.inverses.iter().enumerate() {
+            solution[orbit] = self.mul(&solution[orbit], inverse);
+            for (_, above, ratio) in factors.ratios.iter().filter(|(o, ..)| *o == orbit) {
+                let above = self.lift(&solution[*above], orbit);
+                let product = self.mul(ratio, &above);
+                solution[orbit] = self.sub(&solution[orbit], &product);
+            }
+        }
+        solution
+    }
+}
