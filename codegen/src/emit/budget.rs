@@ -62,25 +62,29 @@ impl Emission<'_> {
     }
 
     pub(super) fn budget_meaning(&self, definition: EnergyDefinition) -> Vec<String> {
-        let (kinetic, formula, closes) = match definition {
+        let (kinetic, formula, latex, closes) = match definition {
             EnergyDefinition::Rest => (
                 "from its momenta and its block of the mass matrix at rest",
                 "E_s = ½ p_sᵀ B_s(0)⁻¹ p_s + V_s",
+                "E_s = \\tfrac12 p_s^{\\mathsf T} B_s(0)^{-1} p_s + V_s",
                 "The energies leave out an interaction energy H − Σ E_s.",
             ),
             EnergyDefinition::Canonical => (
                 "from its momenta and its block of the mass matrix at the configuration",
                 "E_s = ½ p_sᵀ B_s(θ)⁻¹ p_s + V_s",
+                "E_s = \\tfrac12 p_s^{\\mathsf T} B_s(\\theta)^{-1} p_s + V_s",
                 "The energies leave out an interaction energy H − Σ E_s.",
             ),
             EnergyDefinition::Parseval => (
                 "by Parseval from the velocities of the centres of mass",
                 "E_s = Σ (m |[v]_s|² + I [ω]_s²)/2 + V_s",
+                "E_s = \\tfrac12 \\sum (m\\,|[v]_s|^2 + I\\,[\\omega]_s^2) + V_s",
                 "The energies sum to H, the transfers to zero, the powers to what friction and drive do to H.",
             ),
             EnergyDefinition::Velocity => (
                 "from its velocities and its block of the mass matrix at the configuration",
                 "E_s = ½ ω_sᵀ B_s(θ) ω_s + V_s",
+                "E_s = \\tfrac12 \\omega_s^{\\mathsf T} B_s(\\theta)\\,\\omega_s + V_s",
                 "The energies leave out an interaction energy H − Σ E_s.",
             ),
         };
@@ -93,6 +97,14 @@ impl Emission<'_> {
             formula.into(),
             "V_s = Σ G |[1 − e^{iθ}]_s|²/2 + springs".into(),
             "```".into(),
+            String::new(),
+            "<details><summary>LaTeX</summary>".into(),
+            String::new(),
+            "```latex".into(),
+            latex.into(),
+            "V_s = \\tfrac12 \\sum G\\,|[1-e^{i\\theta}]_s|^2 + \\text{springs}".into(),
+            "```".into(),
+            "</details>".into(),
             String::new(),
             format!(
                 "[x]_s is the part of x in the symmetric coordinates of the sector, links summed; V_s sums to U and has the period 2π in every angle, springs aside. {closes}"
