@@ -332,13 +332,21 @@ impl Emission<'_> {
     }
 }
 
-/// `T::from_f64(2.0)`.
+/// `T::from_f64(2.0)`, or `T::from_parts(0.1, -5.551115123125783e-18)` for a
+/// number that no `f64` is.
 pub(super) fn number_tokens(number: &Rational) -> TokenStream {
-    let value = number.to_f64();
-    let size = Literal::f64_unsuffixed(value.abs());
-    if value.is_sign_negative() {
-        quote!(T::from_f64(-#size))
-    } else {
-        quote!(T::from_f64(#size))
+    let signed = |value: f64, size: Literal| match value.is_sign_negative() {
+        true => quote!(-#size),
+        false => quote!(#size),
+    };
+    let (high, low) = number.to_parts();
+    let decimal = signed(high, Literal::f64_unsuffixed(high.abs()));
+    if low == 0.0 {
+        return quote!(T::from_f64(#decimal));
     }
+    // Some eighteen zeros lead it.
+    let size = low.abs();
+    let short = format!("{size:e}").parse();
+    let rest = signed(low, short.unwrap_or_else(|_| Literal::f64_unsuffixed(size)));
+    quote!(T::from_parts(#decimal, #rest))
 }
