@@ -11,6 +11,7 @@ mod copies;
 mod count;
 mod drive;
 mod entries;
+mod formed;
 mod handed;
 mod interpret;
 mod lower;

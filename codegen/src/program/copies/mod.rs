@@ -26,4 +26,5 @@ pub(super) use field::{Copies, Field};
 pub(super) use motion::{CouplingValues, Fields, OrbitValues, Pose, Values};
 pub(super) use sector::Which;
 pub(super) use series::{Graded, Series};
+pub(super) use solve::Factors;
 pub(super) use tree::{Orbit, orbits};

@@ -138,7 +138,11 @@ impl Copies<'_> {
     }
 
     /// ∂U/∂θ of gravity and springs.
-    pub(super) fn potential_gradient(&mut self, values: &Values, pose: &Pose) -> Fields {
+    pub(in crate::program) fn potential_gradient(
+        &mut self,
+        values: &Values,
+        pose: &Pose,
+    ) -> Fields {
         let mut gradient = self.zeros();
         for (orbit, constants) in values.orbits.iter().enumerate() {
             let direction = &pose.directions[orbit];
@@ -196,13 +200,28 @@ impl Copies<'_> {
         pose: &Pose,
         rates: &Fields,
     ) -> Fields {
+        let mut forces = self.friction_forces(values, rates);
+        self.drive(&mut forces, values, pose);
+        forces
+    }
+
+    /// Generalized forces of friction and drag, Q = −∂R/∂ω.
+    pub(in crate::program) fn friction_forces(
+        &mut self,
+        values: &Values,
+        rates: &Fields,
+    ) -> Fields {
         let mut losses = self.zeros();
         self.in_joints(&mut losses, rates, values, |constants| &constants.friction);
         for (constants, rate) in values.orbits.iter().zip(rates) {
             let drag = self.scale(&constants.drag, rate);
             self.accumulate(&mut losses, &drag);
         }
-        let mut forces: Fields = losses.iter().map(|loss| self.neg(loss)).collect();
+        losses.iter().map(|loss| self.neg(loss)).collect()
+    }
+
+    /// Adds the generalized forces of the drive.
+    pub(in crate::program) fn drive(&mut self, forces: &mut Fields, values: &Values, pose: &Pose) {
         for (orbit, constants) in values.orbits.iter().enumerate() {
             let [c, s, torque] = &constants.drive;
             let direction = &pose.directions[orbit];
@@ -210,14 +229,13 @@ impl Copies<'_> {
             let across = self.scale(c, &direction.sin);
             let pushed = self.sub(&along, &across);
             let turned = Field::uniform(orbit, torque.clone());
-            self.accumulate(&mut forces, &pushed);
-            self.accumulate(&mut forces, &turned);
+            self.accumulate(forces, &pushed);
+            self.accumulate(forces, &turned);
         }
-        forces
     }
 
     /// ∂K/∂θ at fixed velocities.
-    pub(super) fn kinetic_gradient(&mut self, pose: &Pose, rates: &Fields) -> Fields {
+    pub(in crate::program) fn kinetic_gradient(&mut self, pose: &Pose, rates: &Fields) -> Fields {
         let mut gradient = self.zeros();
         for entry in &pose.entries {
             let above = self.lift(&rates[entry.column], entry.row);
@@ -225,6 +243,22 @@ impl Copies<'_> {
             self.turn_both(&mut gradient, entry, &product);
         }
         gradient
+    }
+
+    /// Ṁ v.
+    pub(in crate::program) fn mass_changes(&mut self, pose: &Pose, rates: &Fields) -> Fields {
+        let mut changes = self.zeros();
+        for entry in &pose.entries {
+            let above = self.lift(&rates[entry.column], entry.row);
+            let relative = self.sub(&rates[entry.row], &above);
+            let change = self.mul(&entry.slope, &relative);
+            let down = self.mul(&change, &above);
+            self.accumulate(&mut changes, &down);
+            let up = self.mul(&change, &rates[entry.row]);
+            let up = self.gather(&up, entry.column);
+            self.accumulate(&mut changes, &up);
+        }
+        changes
     }
 
     /// ∂(aᵀ M b)/∂θ.
@@ -280,7 +314,7 @@ impl Copies<'_> {
         self.subtract(&motion, &gradient)
     }
 
-    pub(super) fn subtract(&mut self, a: &Fields, b: &Fields) -> Fields {
+    pub(in crate::program) fn subtract(&mut self, a: &Fields, b: &Fields) -> Fields {
         a.iter().zip(b).map(|(a, b)| self.sub(a, b)).collect()
     }
 
