@@ -62,7 +62,10 @@ impl Emission<'_> {
                 (Op::Number(_), _) => None,
                 (Op::Sin(_) | Op::Cos(_), Some(name)) => Some(name.clone()),
                 (_, Some(name)) => Some(name.clone()),
-                (_, None) if several => self.describe(id, &locals),
+                (_, None) if several => {
+                    let hint = definition.hint.clone();
+                    hint.or_else(|| self.describe(id, &locals))
+                }
                 (_, None) => {
                     depths.insert(id, depth);
                     continue;

@@ -50,7 +50,7 @@ impl Copies<'_> {
             self.block(values, &motion.pose, which)
         };
         let momenta = self.projections(&motion.momenta, which);
-        self.solve_block(&block, &momenta)
+        self.solve_block(&block, &momenta, which)
     }
 
     /// −½ uᵀ Ḃ u: what the change of the sector's block does to ½ pᵀ B⁻¹ p.

@@ -12,6 +12,7 @@
 mod budget;
 mod field;
 mod motion;
+mod named;
 mod parseval;
 mod potential;
 mod reciprocal;
