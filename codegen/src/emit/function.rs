@@ -1,6 +1,7 @@
 //! One function for each entry point.
 
 use super::Emission;
+use super::gather::Gathered;
 use super::names::Locals;
 use super::parts::{self, Line};
 use crate::exact::Rational;
@@ -92,14 +93,15 @@ impl Emission<'_> {
     /// The body of a function, and the parts behind it if it is long.
     fn body(&self, entry: &Entry, needed: &[ValueId]) -> (TokenStream, TokenStream) {
         let mut locals = self.locals(entry, needed);
-        let (gathered, whole) = self.gathered(entry, needed);
-        let lines = self.lines(&gathered, whole, needed, &locals);
+        let gathered = self.gathered(entry, needed);
+        let whole = gathered.whole;
+        let lines = self.lines(&gathered, needed, &locals);
         if parts::long(&lines) {
             self.name_outputs(entry, &mut locals);
-            let lines = self.lines(&gathered, whole, needed, &locals);
+            let lines = self.lines(&gathered, needed, &locals);
             return self.in_parts(entry, &lines, &locals);
         }
-        let read = self.read(entry, needed, whole.is_some().then_some(&gathered));
+        let read = self.read(entry, needed, whole.is_some().then_some(&gathered.inputs));
         let inputs = entry
             .arguments
             .iter()
@@ -118,45 +120,36 @@ impl Emission<'_> {
     }
 
     /// The `let` lines of a function; first the sines and cosines that are
-    /// asked for at once, of an argument as a `whole` or of single angles.
+    /// asked for at once, and what their angles are formed of.
     pub(super) fn lines(
         &self,
-        gathered: &[ValueId],
-        whole: Option<Argument>,
+        gathered: &Gathered,
         needed: &[ValueId],
         locals: &Locals,
     ) -> Vec<Line> {
+        let Gathered {
+            inputs,
+            whole,
+            formed,
+        } = gathered;
         let mut lines = Vec::new();
-        let mut paired = gathered.to_vec();
-        if !gathered.is_empty() {
-            let of_gathered = needed.iter().copied().filter(|&id| {
-                matches!(*self.op(id), Op::Sin(angle) | Op::Cos(angle) if gathered.contains(&angle))
-            });
-            lines.push(Line {
-                defines: of_gathered.collect(),
-                reads: match whole {
-                    Some(_) => Vec::new(),
-                    None => gathered.to_vec(),
-                },
-                whole,
-                tokens: self.sin_cos_each(gathered, whole, needed, locals),
-            });
+        if !inputs.is_empty() {
+            lines.push(self.gathered_line(inputs, *whole, needed, locals));
         }
+        let first = self.program.needed(formed);
+        for &id in &first {
+            lines.extend(self.line(id, locals));
+        }
+        if !formed.is_empty() {
+            lines.push(self.gathered_line(formed, None, needed, locals));
+        }
+        let mut paired: Vec<ValueId> = inputs.iter().chain(formed).copied().collect();
         for &id in needed {
             let angle = match *self.op(id) {
                 Op::Sin(angle) | Op::Cos(angle) => angle,
-                Op::Input(..) | Op::Constant(_) => continue,
+                _ if first.binary_search(&id).is_ok() => continue,
                 _ => {
-                    if let Some(name) = locals.names.get(&id) {
-                        let name = ident(name);
-                        let (value, _) = self.definition(id, locals);
-                        lines.push(Line {
-                            defines: vec![id],
-                            reads: self.program.definition(id).op.operands().collect(),
-                            whole: None,
-                            tokens: quote!(let #name = #value;),
-                        });
-                    }
+                    lines.extend(self.line(id, locals));
                     continue;
                 }
             };
@@ -176,6 +169,42 @@ impl Emission<'_> {
             }
         }
         lines
+    }
+
+    /// The line of a value with a name, unless it is handed over.
+    fn line(&self, id: ValueId, locals: &Locals) -> Option<Line> {
+        if let Op::Input(..) | Op::Constant(_) = self.op(id) {
+            return None;
+        }
+        let name = ident(locals.names.get(&id)?);
+        let (value, _) = self.definition(id, locals);
+        Some(Line {
+            defines: vec![id],
+            reads: self.op(id).operands().collect(),
+            whole: None,
+            tokens: quote!(let #name = #value;),
+        })
+    }
+
+    fn gathered_line(
+        &self,
+        angles: &[ValueId],
+        whole: Option<Argument>,
+        needed: &[ValueId],
+        locals: &Locals,
+    ) -> Line {
+        let of_angles = needed.iter().copied().filter(
+            |&id| matches!(*self.op(id), Op::Sin(angle) | Op::Cos(angle) if angles.contains(&angle)),
+        );
+        Line {
+            defines: of_angles.collect(),
+            reads: match whole {
+                Some(_) => Vec::new(),
+                None => angles.to_vec(),
+            },
+            whole,
+            tokens: self.sin_cos_each(angles, whole, needed, locals),
+        }
     }
 
     /// `let [theta_parent, _, theta_child_2] = *theta;`, the elements that are
