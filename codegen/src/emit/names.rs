@@ -15,6 +15,9 @@ const DEEPEST: usize = 16;
 pub(super) struct Locals {
     pub(super) names: BTreeMap<ValueId, String>,
     used: BTreeSet<String>,
+    /// The number after the last one given to each wanted name; no lower one is
+    /// free.
+    numbers: BTreeMap<String, usize>,
 }
 
 impl Emission<'_> {
@@ -37,6 +40,7 @@ impl Emission<'_> {
                 .iter()
                 .map(|argument| argument.name().to_owned())
                 .collect(),
+            numbers: BTreeMap::new(),
         };
         let mut depths: BTreeMap<ValueId, usize> = BTreeMap::new();
         for &id in needed {
@@ -58,7 +62,10 @@ impl Emission<'_> {
                 (Op::Number(_), _) => None,
                 (Op::Sin(_) | Op::Cos(_), Some(name)) => Some(name.clone()),
                 (_, Some(name)) => Some(name.clone()),
-                (_, None) if several => self.describe(id, &locals),
+                (_, None) if several => {
+                    let hint = definition.hint.clone();
+                    hint.or_else(|| self.describe(id, &locals))
+                }
                 (_, None) => {
                     depths.insert(id, depth);
                     continue;
@@ -152,10 +159,10 @@ impl Locals {
             wanted
         };
         let mut name = wanted.clone();
-        let mut number = 2;
         while !self.used.insert(name.clone()) {
+            let number = self.numbers.entry(wanted.clone()).or_insert(2);
             name = format!("{wanted}_{number}");
-            number += 1;
+            *number += 1;
         }
         name
     }

@@ -2,5 +2,6 @@
 //! that it says the same each time.
 
 mod determinism;
+mod lengths;
 mod pages;
 mod snapshots;
