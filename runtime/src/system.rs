@@ -7,6 +7,7 @@
 //! [`SymmetricCoordinates`] turn one into the other.
 
 mod canonical;
+mod first_integral;
 mod taylor;
 
 use alloc::vec::Vec;
@@ -15,6 +16,7 @@ use core::fmt;
 use crate::scalar::Scalar;
 
 pub use canonical::{Canonical, CanonicalVariables};
+pub use first_integral::{CanonicalEnergy, FirstIntegral};
 pub use taylor::{TaylorOde, TaylorPendulum};
 
 /// Equations of motion in absolute angles.

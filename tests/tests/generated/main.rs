@@ -6,3 +6,4 @@ mod machine_code;
 mod scalars;
 mod sectors;
 mod toolchain;
+mod transfer_forms;
