@@ -51,13 +51,11 @@ use crate::scalar::dispatch::{self, RegisterKernel};
 use crate::scalar::register::Register;
 use crate::scalar::{InstructionSet, Lane};
 use crate::system::Rescale;
-
-/// Room for the widest register.
-const MOST_LANES: usize = 16;
+use crate::system::rescale;
 
 /// Evaluates a pendulum for any number of states, a register at a time.
 ///
-/// Room for one block is allocated when it is built, and nothing later. Each
+/// Room for one state is allocated when it is built, and nothing later. Each
 /// state gets the bits that
 /// [`accelerations_into`](crate::Pendulum::accelerations_into) gives it alone,
 /// whatever its place in the batch.
@@ -65,8 +63,8 @@ const MOST_LANES: usize = 16;
 pub struct Batch<'m, P, T> {
     pendulum: &'m P,
     instructions: InstructionSet,
-    /// A last block that is not full: angles, velocities, accelerations.
-    rest: [Vec<T>; 3],
+    /// One state: angles, velocities, accelerations.
+    alone: [Vec<T>; 3],
 }
 
 impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
@@ -80,7 +78,7 @@ impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
         Self {
             pendulum,
             instructions: InstructionSet::widest(),
-            rest: core::array::from_fn(|_| alloc::vec![T::from_f64(0.0); P::LINKS * MOST_LANES]),
+            alone: core::array::from_fn(|_| alloc::vec![T::from_f64(0.0); P::LINKS]),
         }
     }
 
@@ -123,11 +121,10 @@ impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
         let outputs = alpha.len();
         let lengths = alpha.iter_mut().map(|s| s.as_mut().len());
         check(P::LINKS, count, "alpha", outputs, lengths)?;
-        dispatch::run_in_registers(
+        let done = dispatch::run_in_registers(
             self.instructions,
             Blocks {
                 pendulum: self.pendulum,
-                rest: &mut self.rest,
                 time,
                 count,
                 theta,
@@ -135,7 +132,38 @@ impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
                 alpha,
             },
         );
+        for state in done..count {
+            self.one_by_one(time, state, theta, omega, alpha);
+        }
         Ok(())
+    }
+}
+
+impl<P: Rescale<T>, T: Lane> Batch<'_, P, T> {
+    /// Where there are too few states for a register.
+    fn one_by_one(
+        &mut self,
+        time: T,
+        state: usize,
+        theta: &[impl AsRef<[T]>],
+        omega: &[impl AsRef<[T]>],
+        alpha: &mut [impl AsMut<[T]>],
+    ) {
+        let [own_theta, own_omega, own_alpha] = &mut self.alone;
+        for (own, slice) in own_theta.iter_mut().zip(theta) {
+            *own = rescale::at(slice.as_ref(), state);
+        }
+        for (own, slice) in own_omega.iter_mut().zip(omega) {
+            *own = rescale::at(slice.as_ref(), state);
+        }
+        if self.instructions == InstructionSet::Build {
+            rescale::straight(self.pendulum, time, own_theta, own_omega, own_alpha);
+        } else {
+            T::accelerate(self.pendulum, time, own_theta, own_omega, own_alpha);
+        }
+        for (own, slice) in own_alpha.iter().zip(alpha) {
+            rescale::put(slice.as_mut(), state, *own);
+        }
     }
 }
 
@@ -166,10 +194,9 @@ fn check(
     Ok(())
 }
 
-/// The whole evaluation, lengths checked.
+/// All states, if they are enough for one register; lengths checked.
 struct Blocks<'a, P, T, In, On, Out> {
     pendulum: &'a P,
-    rest: &'a mut [Vec<T>; 3],
     time: T,
     count: usize,
     theta: &'a [In],
@@ -185,77 +212,55 @@ where
     On: AsRef<[T]>,
     Out: AsMut<[T]>,
 {
-    type Output = ();
+    /// How many states it has done.
+    type Output = usize;
 
     #[inline(always)]
-    fn run<R: Register<Lane = T>>(self) {
+    fn run<R: Register<Lane = T>>(self) -> usize {
+        // Links as many as the compiler knows them to be.
+        let (Some(theta), Some(omega), Some(alpha)) = (
+            self.theta.get(..P::LINKS),
+            self.omega.get(..P::LINKS),
+            self.alpha.get_mut(..P::LINKS),
+        ) else {
+            return 0;
+        };
+        let Some(last) = self.count.checked_sub(R::LANES) else {
+            return 0;
+        };
         let pendulum = self.pendulum.rescale(R::splat);
-        let [rest_theta, rest_omega, rest_alpha] = self.rest;
-        let mut start = 0;
-        while start < self.count {
-            let full = self.count - start >= R::LANES;
-            if !full {
-                fill::<R>(rest_theta, self.theta, start);
-                fill::<R>(rest_omega, self.omega, start);
-            }
-            // One body serves both kinds of blocks: they differ in where the
-            // numbers lie.
+        let time = R::splat(self.time);
+        let mut next = 0;
+        while next < self.count {
+            // The last block overlaps the one before, where it would not be full:
+            // some states are computed twice.
+            let start = next.min(last);
             pendulum.evaluate(
-                R::splat(self.time),
-                |link| load(self.theta, rest_theta, link, start, full),
-                |link| load(self.omega, rest_omega, link, start, full),
+                time,
+                |link| load(theta, link, start),
+                |link| load(omega, link, start),
                 |link, value: R| {
-                    let block = match self.alpha.get_mut(link) {
-                        Some(slice) if full => slice.as_mut().get_mut(start..),
-                        _ => rest_alpha.get_mut(link * R::LANES..),
-                    };
-                    value.store(block.unwrap_or_default());
+                    if let Some(slice) = alpha.get_mut(link) {
+                        value.store(slice.as_mut().get_mut(start..).unwrap_or_default());
+                    }
                 },
             );
-            if !full {
-                for (link, slice) in self.alpha.iter_mut().enumerate() {
-                    let from = rest_alpha.get(link * R::LANES..).unwrap_or_default();
-                    let to = slice.as_mut().get_mut(start..).unwrap_or_default();
-                    for (to, from) in to.iter_mut().zip(from) {
-                        *to = *from;
-                    }
-                }
-            }
-            start += R::LANES;
+            next = start + R::LANES;
         }
+        self.count
     }
 }
 
 /// One register of one link.
 #[inline(always)]
-fn load<R: Register>(
-    slices: &[impl AsRef<[R::Lane]>],
-    rest: &[R::Lane],
-    link: usize,
-    start: usize,
-    full: bool,
-) -> R {
-    let block = match slices.get(link) {
-        Some(slice) if full => slice.as_ref().get(start..),
-        _ => rest.get(link * R::LANES..),
-    };
+fn load<R: Register>(slices: &[impl AsRef<[R::Lane]>], link: usize, start: usize) -> R {
+    let block = slices
+        .get(link)
+        .and_then(|slice| slice.as_ref().get(start..));
     match R::load(block.unwrap_or_default()) {
         Some(register) => register,
         // Lengths have been checked.
         None => R::from_f64(f64::NAN),
-    }
-}
-
-/// The last states, a register a link. Past the end they repeat the last state,
-/// which costs nothing beside it, while a number made up might be slow.
-fn fill<R: Register>(rest: &mut [R::Lane], slices: &[impl AsRef<[R::Lane]>], start: usize) {
-    for (block, slice) in rest.chunks_exact_mut(R::LANES).zip(slices) {
-        let states = slice.as_ref().get(start..).unwrap_or_default();
-        if let Some(&last) = states.last() {
-            for (i, number) in block.iter_mut().enumerate() {
-                *number = states.get(i).copied().unwrap_or(last);
-            }
-        }
     }
 }
 

@@ -52,20 +52,63 @@ impl Part {
     /// The line that stands for the part in the whole.
     fn call(&self, entry: &Entry) -> TokenStream {
         let (name, receives, returns) = (self.name(entry), &self.receives, &self.returns);
-        let call = outlined(entry, quote!(self.#name([#(#receives),*])));
-        quote!(let [#(#returns),*] = #call;)
+        let receives = quote!([#(#receives),*]);
+        if entry.purpose == Purpose::Accelerations {
+            let number = Literal::usize_unsuffixed(self.number);
+            return quote!(let [#(#returns),*] = T::outlined::<#number, _, _>(self, #receives););
+        }
+        quote!(let [#(#returns),*] = self.#name(#receives);)
+    }
+
+    /// A part of the accelerations: compiled for the instructions that the scalar
+    /// stands for, which a plain function would not be.
+    fn implementation(
+        &self,
+        name: &Ident,
+        runtime: &TokenStream,
+        places: Option<&BTreeMap<Ident, usize>>,
+    ) -> TokenStream {
+        let number = Literal::usize_unsuffixed(self.number);
+        let (receives, returns, lines) = (&self.receives, &self.returns, &self.lines);
+        if let Some(places) = places {
+            let size = Literal::usize_unsuffixed(places.len());
+            let (taken, given) = (taken(receives, places), given(returns, places));
+            return quote! {
+                impl<T: #runtime::Scalar> #runtime::model::Part<#number, &mut [T; #size]> for #name<T> {
+                    type Output = ();
+
+                    #[inline(always)]
+                    fn part(&self, shared_values: &mut [T; #size]) {
+                        #(#taken)*
+                        #(#lines)*
+                        #(#given)*
+                    }
+                }
+            };
+        }
+        let taken = Literal::usize_unsuffixed(receives.len());
+        let given = Literal::usize_unsuffixed(returns.len());
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::model::Part<#number, [T; #taken]> for #name<T> {
+                type Output = [T; #given];
+
+                #[inline(always)]
+                fn part(&self, [#(#receives),*]: [T; #taken]) -> [T; #given] {
+                    #(#lines)*
+                    [#(#returns),*]
+                }
+            }
+        }
     }
 
     fn function(&self, entry: &Entry) -> TokenStream {
         let name = self.name(entry);
         let docs = format!(" Part {} of [`{1}`](Self::{1}).", self.number, entry.name);
         let (receives, returns, lines) = (&self.receives, &self.returns, &self.lines);
-        let inline = inlined(entry);
         let taken = Literal::usize_unsuffixed(receives.len());
         let given = Literal::usize_unsuffixed(returns.len());
         quote! {
             #[doc = #docs]
-            #inline
             fn #name(&self, [#(#receives),*]: [T; #taken]) -> [T; #given] {
                 #(#lines)*
                 [#(#returns),*]
@@ -81,13 +124,11 @@ impl Part {
             self.number, entry.name
         );
         let size = Literal::usize_unsuffixed(places.len());
-        let inline = inlined(entry);
         let taken = taken(&self.receives, places);
         let given = given(&self.returns, places);
         let lines = &self.lines;
         quote! {
             #[doc = #docs]
-            #inline
             fn #name(&self, shared_values: &mut [T; #size]) {
                 #(#taken)*
                 #(#lines)*
@@ -95,21 +136,6 @@ impl Part {
             }
         }
     }
-}
-
-/// A call of a part. Those of the accelerations are functions of the instructions
-/// that the scalar stands for.
-fn outlined(entry: &Entry, call: TokenStream) -> TokenStream {
-    if entry.purpose == Purpose::Accelerations {
-        quote!(T::outlined(|| #call))
-    } else {
-        call
-    }
-}
-
-/// What makes [`outlined`] possible.
-fn inlined(entry: &Entry) -> Option<TokenStream> {
-    (entry.purpose == Purpose::Accelerations).then(|| quote!(#[inline(always)]))
 }
 
 /// `let x = shared_values[3];`
@@ -151,11 +177,21 @@ impl Parts {
         lines.extend(given(&inputs, places));
         lines.extend(self.parts.iter().map(|part| {
             let name = part.name(entry);
-            let call = outlined(entry, quote!(self.#name(&mut shared_values)));
-            quote!(#call;)
+            if entry.purpose == Purpose::Accelerations {
+                let number = Literal::usize_unsuffixed(part.number);
+                return quote!(T::outlined::<#number, _, _>(self, &mut shared_values););
+            }
+            quote!(self.#name(&mut shared_values);)
         }));
         lines.extend(taken(&outputs, places));
         lines
+    }
+
+    fn implementations(&self, name: &Ident, runtime: &TokenStream) -> Vec<TokenStream> {
+        let parts = self.parts.iter();
+        parts
+            .map(|part| part.implementation(name, runtime, self.places.as_ref()))
+            .collect()
     }
 
     fn functions(&self, entry: &Entry) -> Vec<TokenStream> {
@@ -328,26 +364,48 @@ impl Emission<'_> {
         wanted.iter().map(|id| ident(&locals.names[id])).collect()
     }
 
-    /// The functions behind a long one; nothing for others.
+    /// The functions behind a long one, which stand beside it; nothing for others.
     pub(super) fn part_functions(
         &self,
         entry: &Entry,
         needed: &[ValueId],
         locals: &Locals,
     ) -> TokenStream {
+        if entry.purpose == Purpose::Accelerations {
+            return TokenStream::new();
+        }
+        let functions = self.divided(entry, needed, locals);
+        let functions = functions.iter().flat_map(|parts| parts.functions(entry));
+        quote!(#(#functions)*)
+    }
+
+    /// The same behind the accelerations, as implementations of a trait.
+    pub(super) fn part_implementations(&self) -> TokenStream {
+        let mut entries = self.program.entries.iter();
+        let Some(entry) = entries.find(|entry| entry.purpose == Purpose::Accelerations) else {
+            return TokenStream::new();
+        };
+        let needed = self.program.needed(&entry.outputs);
+        let locals = self.locals(entry, &needed);
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let parts = self.divided(entry, &needed, &locals);
+        let parts = parts
+            .iter()
+            .flat_map(|parts| parts.implementations(name, &runtime));
+        quote!(#(#parts)*)
+    }
+
+    /// The parts of a long function.
+    fn divided(&self, entry: &Entry, needed: &[ValueId], locals: &Locals) -> Option<Parts> {
         // Most functions have too few values for it, and are not written twice.
         let values = needed
             .iter()
             .filter(|&&id| !matches!(self.op(id), Op::Input(..)));
         if values.count() <= MOST_LINES {
-            return TokenStream::new();
+            return None;
         }
         let (gathered, _) = self.gathered(entry, needed);
         let lines = self.lines(&gathered, None, needed, locals);
-        if lines.len() <= MOST_LINES {
-            return TokenStream::new();
-        }
-        let functions = self.parts(entry, &lines, locals).functions(entry);
-        quote!(#(#functions)*)
+        (lines.len() > MOST_LINES).then(|| self.parts(entry, &lines, locals))
     }
 }

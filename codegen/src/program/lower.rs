@@ -331,6 +331,9 @@ impl<'a> Lowering<'a> {
     /// A term's sign and size: constants first, then what is multiplied, then
     /// one quotient.
     fn term(&mut self, door: &mut Door<'_>, term: &Expr) -> (bool, ValueId) {
+        if let Some(value) = self.centrifugal(door, term) {
+            return value;
+        }
         let mut negative = false;
         let mut constant = self.builder.integer(1);
         let mut above: Option<ValueId> = None;
@@ -382,6 +385,53 @@ impl<'a> Lowering<'a> {
             value = self.builder.div(value_or_one, divisor);
         }
         (negative, value)
+    }
+
+    /// ±μ sin ω² as (μ sin) · ω²: a pair of links shares the first factor, all
+    /// pairs of a link the second.
+    fn centrifugal(&mut self, door: &mut Door<'_>, term: &Expr) -> Option<(bool, ValueId)> {
+        let mechanics = self.mechanics;
+        let role = |symbol: &SymbolId| mechanics.symbols.get(*symbol).role;
+        let mut negative = false;
+        let (mut constants, mut sine, mut velocity) = (Vec::new(), None, None);
+        for factor in term.factors() {
+            match factor {
+                Expr::Number(number) => {
+                    negative ^= number.is_negative();
+                    let size = if number.is_negative() {
+                        -number
+                    } else {
+                        number.clone()
+                    };
+                    constants.push(self.builder.number(size));
+                }
+                Expr::Symbol(symbol) if role(symbol) == Role::Constant => {
+                    constants.push(self.symbol(door, *symbol));
+                }
+                Expr::Symbol(symbol) if role(symbol) == Role::Trigonometric && sine.is_none() => {
+                    sine = Some(*symbol);
+                }
+                Expr::Power(base, 2) => match base.as_ref() {
+                    Expr::Symbol(symbol)
+                        if role(symbol) == Role::Velocity && velocity.is_none() =>
+                    {
+                        velocity = Some(*symbol);
+                    }
+                    _ => return None,
+                },
+                _ => return None,
+            }
+        }
+        let (sine, velocity) = (sine?, velocity?);
+        let mut scaled = self.symbol(door, sine);
+        for constant in constants {
+            scaled = self.builder.mul(constant, scaled);
+        }
+        let code = &mechanics.symbols.get(sine).code;
+        self.builder.name(scaled, &format!("coupled_{code}"));
+        let velocity = self.symbol(door, velocity);
+        let square = self.builder.mul(velocity, velocity);
+        Some((negative, self.builder.mul(scaled, square)))
     }
 
     fn is_constant(&self, value: ValueId) -> bool {

@@ -82,29 +82,18 @@ pub(crate) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
     machine::run_fused(kernel)
 }
 
-/// `part` in a function of its own with AVX2 and FMA, if the machine has them.
+/// Runs `kernel` in a function of its own with AVX2 and FMA, if the machine has
+/// them.
 #[inline(always)]
-pub(crate) fn outlined_avx2<R>(part: impl FnOnce() -> R) -> R {
-    machine::outlined_avx2(part)
+pub(crate) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
+    machine::outlined_avx2(kernel)
 }
 
 /// The same with AVX-512.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub(crate) fn outlined_avx512<R>(part: impl FnOnce() -> R) -> R {
-    machine::outlined_avx512(part)
-}
-
-/// A closure as a kernel.
-struct Part<F>(F);
-
-impl<R, F: FnOnce() -> R> Kernel for Part<F> {
-    type Output = R;
-
-    #[inline(always)]
-    fn run(self) -> R {
-        (self.0)()
-    }
+pub(crate) fn outlined_avx512<K: Kernel>(kernel: K) -> K::Output {
+    machine::outlined_avx512(kernel)
 }
 
 /// A computation in registers.
@@ -144,7 +133,7 @@ mod machine {
     use core::marker::PhantomData;
     use core::sync::atomic::{AtomicU8, Ordering};
 
-    use super::{Chosen, InstructionSet, Kernel, Part, RegisterKernel, Sealed};
+    use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed};
 
     /// 0 before the first question, then 1 + the answer.
     static WIDEST: AtomicU8 = AtomicU8::new(0);
@@ -211,21 +200,21 @@ mod machine {
     }
 
     #[inline(always)]
-    pub(super) fn outlined_avx2<R>(part: impl FnOnce() -> R) -> R {
+    pub(super) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
         match widest() {
             // Never: a type that asks for this was made where the machine has it.
-            InstructionSet::Build => build(Part(part)),
+            InstructionSet::Build => build(kernel),
             // SAFETY: `widest` has asked for AVX2 and FMA.
-            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { avx2(Part(part)) },
+            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { avx2(kernel) },
         }
     }
 
     #[inline(always)]
-    pub(super) fn outlined_avx512<R>(part: impl FnOnce() -> R) -> R {
+    pub(super) fn outlined_avx512<K: Kernel>(kernel: K) -> K::Output {
         match widest() {
             // SAFETY: `widest` has asked for AVX-512.
-            InstructionSet::Avx512 => unsafe { avx512(Part(part)) },
-            _ => build(Part(part)),
+            InstructionSet::Avx512 => unsafe { avx512(kernel) },
+            _ => build(kernel),
         }
     }
 
@@ -292,13 +281,13 @@ mod machine {
     }
 
     #[inline(always)]
-    pub(super) fn outlined_avx2<R>(part: impl FnOnce() -> R) -> R {
-        super::Part(part).run()
+    pub(super) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
     }
 
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    pub(super) fn outlined_avx512<R>(part: impl FnOnce() -> R) -> R {
-        super::Part(part).run()
+    pub(super) fn outlined_avx512<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run()
     }
 }

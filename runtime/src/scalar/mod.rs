@@ -35,6 +35,7 @@ pub use wide::Double;
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
+use crate::model::Part;
 use crate::system::rescale::{self, Rescale};
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
@@ -105,13 +106,12 @@ pub trait Scalar:
         self * factor + addend
     }
 
-    /// Calls `part` in a function of its own, which is compiled for the
-    /// instructions that the type stands for: a part of emitted code that is too
-    /// long to be inlined.
+    /// Computes a part of a long emitted function in a function of its own, which
+    /// is compiled for the instructions that the type stands for.
     #[doc(hidden)]
     #[inline(never)]
-    fn outlined<R>(part: impl FnOnce() -> R) -> R {
-        part()
+    fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(model: &M, arguments: A) -> M::Output {
+        model.part(arguments)
     }
 
     /// What [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into)

@@ -6,6 +6,7 @@ use super::super::Scalar;
 use super::super::dispatch;
 use super::super::sincos::fused;
 use super::Register;
+use crate::model::{Part, PartOf};
 
 /// A plain number whose [`Scalar::mul_add`] is fused: what a lane of the wide
 /// registers computes, for one state.
@@ -62,8 +63,11 @@ macro_rules! fused {
             }
 
             #[inline(always)]
-            fn outlined<R>(part: impl FnOnce() -> R) -> R {
-                dispatch::outlined_avx2(part)
+            fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(
+                model: &M,
+                arguments: A,
+            ) -> M::Output {
+                dispatch::outlined_avx2(PartOf { model, arguments })
             }
         }
 

@@ -8,6 +8,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use super::super::sincos::{double, fused, sin_cos_f32};
 use super::super::{Scalar, dispatch};
 use super::Register;
+use crate::model::{Part, PartOf};
 
 // SAFETY, for all calls of instructions below: those of SSE2 belong to every
 // x86-64 machine. Values of the wider types arise in computations started by
@@ -167,8 +168,11 @@ macro_rules! fused {
             }
 
             #[inline(always)]
-            fn outlined<R>(part: impl FnOnce() -> R) -> R {
-                dispatch::$outlined(part)
+            fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(
+                model: &M,
+                arguments: A,
+            ) -> M::Output {
+                dispatch::$outlined(PartOf { model, arguments })
             }
         }
     };

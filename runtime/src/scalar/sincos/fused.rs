@@ -196,7 +196,8 @@ pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; 
         // Copies for this block alone: were angles and results themselves lent
         // out, they would live in memory on the common path too.
         let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
-        beyond(black_box(angles), &mut far_sines, &mut far_cosines);
+        let angles = black_box(*angles);
+        beyond(&angles, &mut far_sines, &mut far_cosines);
         for i in 0..N {
             (sines[i], cosines[i]) = (far_sines[i], far_cosines[i]);
         }
@@ -276,7 +277,8 @@ where
     }
     if !all_common {
         let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
-        beyond(black_box(angles), &mut far_sines, &mut far_cosines);
+        let angles = black_box(*angles);
+        beyond(&angles, &mut far_sines, &mut far_cosines);
         for i in 0..N {
             (sines[i], cosines[i]) = (far_sines[i], far_cosines[i]);
         }
