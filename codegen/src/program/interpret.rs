@@ -16,7 +16,7 @@ impl Setup {
                 (Some(exact), _) => exact.to_f64(),
                 (None, ConstantOp::Number(number)) => number.to_f64(),
                 (None, &ConstantOp::Parameter(index)) => parameters[index],
-                (None, &ConstantOp::Named(_, a)) => at(a),
+                (None, &ConstantOp::Named(_, a) | &ConstantOp::Called(a)) => at(a),
                 (None, ConstantOp::Product(number, powers)) => product(number, powers, at),
                 (None, &ConstantOp::Add(a, b)) => at(a) + at(b),
                 (None, &ConstantOp::Sub(a, b)) => at(a) - at(b),

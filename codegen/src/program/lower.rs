@@ -17,6 +17,7 @@ use crate::mechanics::{
 use std::collections::BTreeMap;
 
 /// Lowering in progress.
+#[derive(Clone)]
 pub(super) struct Lowering<'a> {
     pub(super) mechanics: &'a Mechanics,
     pub(super) builder: Builder,
@@ -25,6 +26,7 @@ pub(super) struct Lowering<'a> {
 
 /// How symbols of one frame are supplied: handed over by the caller, or formed
 /// on demand.
+#[derive(Clone)]
 pub(super) struct Door<'a> {
     pub(super) frame: &'a Frame,
     /// Argument that holds the coordinates.
@@ -171,22 +173,22 @@ impl<'a> Lowering<'a> {
     }
 
     fn sines_and_cosines(&mut self, door: &mut Door<'_>, a: SymbolId, b: SymbolId) -> [ValueId; 4] {
-        let mechanics = self.mechanics;
-        let find = |wanted: Trigonometric| match mechanics
-            .trigonometry
-            .iter()
-            .find(|(_, t)| **t == wanted)
-        {
+        [
+            Trigonometric::Cos(a),
+            Trigonometric::Sin(a),
+            Trigonometric::Cos(b),
+            Trigonometric::Sin(b),
+        ]
+        .map(|wanted| self.trigonometric_symbol(wanted))
+        .map(|symbol| self.symbol(door, symbol))
+    }
+
+    pub(super) fn trigonometric_symbol(&self, wanted: Trigonometric) -> SymbolId {
+        let mut table = self.mechanics.trigonometry.iter();
+        match table.find(|(_, meaning)| **meaning == wanted) {
             Some((&symbol, _)) => symbol,
             None => unreachable!("every coordinate has a sine and a cosine"),
-        };
-        [
-            find(Trigonometric::Cos(a)),
-            find(Trigonometric::Sin(a)),
-            find(Trigonometric::Cos(b)),
-            find(Trigonometric::Sin(b)),
-        ]
-        .map(|symbol| self.symbol(door, symbol))
+        }
     }
 
     /// q̇ with M q̇ = p.
