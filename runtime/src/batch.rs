@@ -1,75 +1,90 @@
 //! Accelerations of many states at once.
 //!
 //! States lie as a structure of arrays: for each link a slice with its angle in
-//! every state. [`Batch`] takes them `N` at a time through the emitted code, in
-//! [`Lanes`], with the widest vector instructions that the machine has.
+//! every state. [`Batch`] takes as many at a time as fit into the widest vector
+//! registers that the machine has. The states are read and written where they
+//! lie.
 //!
 //! ```
-//! # use branched_pendulum::{Pendulum, Scalar};
+//! # use branched_pendulum::{Pendulum, Rescale, Scalar};
 //! use branched_pendulum::batch::Batch;
-//! use branched_pendulum::scalar::Lanes;
 //! # struct Rod<T>(T);
 //! # impl<T: Scalar> Pendulum<T> for Rod<T> {
 //! #     const LINKS: usize = 1;
 //! #     const LINK_NAMES: &'static [&'static str] = &["rod"];
-//! #     #[inline(always)]
-//! #     fn accelerations_into(&self, _time: T, theta: &[T], _omega: &[T], alpha: &mut [T]) {
-//! #         for (alpha, theta) in alpha.iter_mut().zip(theta) {
-//! #             *alpha = -(self.0 * theta.sin_cos().0);
-//! #         }
+//! #     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+//! #         T::accelerate(self, time, theta, omega, alpha);
+//! #     }
+//! # }
+//! # impl<T: Scalar> Rescale<T> for Rod<T> {
+//! #     type Of<S: Scalar> = Rod<S>;
+//! #     fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
+//! #         Rod(convert(self.0))
+//! #     }
+//! #     fn evaluate(
+//! #         &self,
+//! #         _time: T,
+//! #         theta: impl Fn(usize) -> T,
+//! #         _omega: impl Fn(usize) -> T,
+//! #         mut alpha: impl FnMut(usize, T),
+//! #     ) {
+//! #         alpha(0, -(self.0 * theta(0).sin_cos().0));
 //! #     }
 //! # }
 //!
-//! // A pendulum of one link, in eight lanes; emitted models have `default()`.
-//! let model = Rod(Lanes::<f64, 8>::splat(9.80665));
+//! // A pendulum of one link, or any model that the attribute writes.
+//! let model = Rod(9.80665);
 //! let theta = [vec![0.1; 1001]];
 //! let omega = [vec![0.0; 1001]];
 //! let mut alpha = [vec![0.0; 1001]];
 //! Batch::new(&model).accelerations(0.0, &theta, &omega, &mut alpha)?;
-//! assert_eq!(alpha[0][1000], -9.80665 * Scalar::sin_cos(0.1_f64).0);
+//! let mut alone = [0.0];
+//! model.accelerations_into(0.0, &[0.1], &[0.0], &mut alone);
+//! assert_eq!(alpha[0][1000], alone[0]);
 //! # Ok::<(), branched_pendulum::batch::BatchError>(())
 //! ```
 
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::scalar::dispatch::{self, Kernel};
-use crate::scalar::{InstructionSet, Lane, Lanes};
-use crate::system::Pendulum;
+use crate::scalar::dispatch::{self, RegisterKernel};
+use crate::scalar::register::Register;
+use crate::scalar::{InstructionSet, Lane};
+use crate::system::Rescale;
+use crate::system::rescale;
 
-/// Evaluates a pendulum for any number of states, `N` at a time.
+/// Evaluates a pendulum for any number of states, a register at a time.
 ///
-/// Room for one block is allocated when it is built, and nothing later. Each
-/// state gets the bits that the same model gives it alone, whatever its place
-/// in the batch and whatever the instruction set.
-#[derive(Debug)]
-pub struct Batch<'m, P, T, const N: usize> {
-    model: &'m P,
+/// Room for one state is allocated when it is built, and nothing later. Each
+/// state gets the bits that
+/// [`accelerations_into`](crate::Pendulum::accelerations_into) gives it alone,
+/// whatever its place in the batch.
+#[derive(Clone, Debug)]
+pub struct Batch<'m, P, T> {
+    pendulum: &'m P,
     instructions: InstructionSet,
-    theta: Vec<Lanes<T, N>>,
-    omega: Vec<Lanes<T, N>>,
-    alpha: Vec<Lanes<T, N>>,
+    /// One state: angles, velocities, accelerations.
+    alone: [Vec<T>; 3],
 }
 
-impl<'m, P: Pendulum<Lanes<T, N>>, T: Lane, const N: usize> Batch<'m, P, T, N> {
-    /// For a `model` whose constants are in lanes. Uses the widest instructions
-    /// that the machine has.
+impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
+    /// For a `pendulum` in `f64` or `f32`. Uses the widest registers that the
+    /// machine has.
     ///
     /// # Examples
     /// See the [module](self).
     #[must_use]
-    pub fn new(model: &'m P) -> Self {
-        let zeros = || alloc::vec![Lanes::splat(T::from_f64(0.0)); P::LINKS];
+    pub fn new(pendulum: &'m P) -> Self {
         Self {
-            model,
+            pendulum,
             instructions: InstructionSet::widest(),
-            theta: zeros(),
-            omega: zeros(),
-            alpha: zeros(),
+            alone: core::array::from_fn(|_| alloc::vec![T::from_f64(0.0); P::LINKS]),
         }
     }
 
-    /// Uses instructions that are no wider than `instructions`, for comparison.
+    /// Uses instructions that are no wider than `instructions`. With
+    /// [`InstructionSet::Build`] nothing is fused, and the results have the same
+    /// bits on every machine.
     #[must_use]
     pub fn no_wider_than(mut self, instructions: InstructionSet) -> Self {
         self.instructions = instructions.min(InstructionSet::widest());
@@ -99,40 +114,56 @@ impl<'m, P: Pendulum<Lanes<T, N>>, T: Lane, const N: usize> Batch<'m, P, T, N> {
         alpha: &mut [impl AsMut<[T]>],
     ) -> Result<(), BatchError> {
         let count = theta.first().map_or(0, |angles| angles.as_ref().len());
-        check(
-            P::LINKS,
-            count,
-            "theta",
-            theta.len(),
-            theta.iter().map(|s| s.as_ref().len()),
-        )?;
-        check(
-            P::LINKS,
-            count,
-            "omega",
-            omega.len(),
-            omega.iter().map(|s| s.as_ref().len()),
-        )?;
+        let lengths = theta.iter().map(|s| s.as_ref().len());
+        check(P::LINKS, count, "theta", theta.len(), lengths)?;
+        let lengths = omega.iter().map(|s| s.as_ref().len());
+        check(P::LINKS, count, "omega", omega.len(), lengths)?;
         let outputs = alpha.len();
-        check(
-            P::LINKS,
-            count,
-            "alpha",
-            outputs,
-            alpha.iter_mut().map(|s| s.as_mut().len()),
-        )?;
-        dispatch::run(
+        let lengths = alpha.iter_mut().map(|s| s.as_mut().len());
+        check(P::LINKS, count, "alpha", outputs, lengths)?;
+        let done = dispatch::run_in_registers(
             self.instructions,
             Blocks {
-                batch: self,
-                time: Lanes::splat(time),
+                pendulum: self.pendulum,
+                time,
                 count,
                 theta,
                 omega,
                 alpha,
             },
         );
+        for state in done..count {
+            self.one_by_one(time, state, theta, omega, alpha);
+        }
         Ok(())
+    }
+}
+
+impl<P: Rescale<T>, T: Lane> Batch<'_, P, T> {
+    /// Where there are too few states for a register.
+    fn one_by_one(
+        &mut self,
+        time: T,
+        state: usize,
+        theta: &[impl AsRef<[T]>],
+        omega: &[impl AsRef<[T]>],
+        alpha: &mut [impl AsMut<[T]>],
+    ) {
+        let [own_theta, own_omega, own_alpha] = &mut self.alone;
+        for (own, slice) in own_theta.iter_mut().zip(theta) {
+            *own = rescale::at(slice.as_ref(), state);
+        }
+        for (own, slice) in own_omega.iter_mut().zip(omega) {
+            *own = rescale::at(slice.as_ref(), state);
+        }
+        if self.instructions == InstructionSet::Build {
+            rescale::straight(self.pendulum, time, own_theta, own_omega, own_alpha);
+        } else {
+            T::accelerate(self.pendulum, time, own_theta, own_omega, own_alpha);
+        }
+        for (own, slice) in own_alpha.iter().zip(alpha) {
+            rescale::put(slice.as_mut(), state, *own);
+        }
     }
 }
 
@@ -163,80 +194,73 @@ fn check(
     Ok(())
 }
 
-/// The whole evaluation, lengths checked.
-struct Blocks<'a, 'm, P, T, const N: usize, In, On, Out> {
-    batch: &'a mut Batch<'m, P, T, N>,
-    time: Lanes<T, N>,
+/// All states, if they are enough for one register; lengths checked.
+struct Blocks<'a, P, T, In, On, Out> {
+    pendulum: &'a P,
+    time: T,
     count: usize,
     theta: &'a [In],
     omega: &'a [On],
     alpha: &'a mut [Out],
 }
 
-impl<P, T, const N: usize, In, On, Out> Kernel for Blocks<'_, '_, P, T, N, In, On, Out>
+impl<P, T, In, On, Out> RegisterKernel<T> for Blocks<'_, P, T, In, On, Out>
 where
-    P: Pendulum<Lanes<T, N>>,
+    P: Rescale<T>,
     T: Lane,
     In: AsRef<[T]>,
     On: AsRef<[T]>,
     Out: AsMut<[T]>,
 {
-    type Output = ();
+    /// How many states it has done.
+    type Output = usize;
 
     #[inline(always)]
-    fn run(self) {
-        let Batch {
-            model,
-            instructions: _,
-            theta,
-            omega,
-            alpha,
-        } = self.batch;
-        let mut start = 0;
-        while start < self.count {
-            load(theta, self.theta, start);
-            load(omega, self.omega, start);
-            model.accelerations_into(self.time, theta, omega, alpha);
-            store(alpha, self.alpha, start);
-            start += N;
+    fn run<R: Register<Lane = T>>(self) -> usize {
+        // Links as many as the compiler knows them to be.
+        let (Some(theta), Some(omega), Some(alpha)) = (
+            self.theta.get(..P::LINKS),
+            self.omega.get(..P::LINKS),
+            self.alpha.get_mut(..P::LINKS),
+        ) else {
+            return 0;
+        };
+        let Some(last) = self.count.checked_sub(R::LANES) else {
+            return 0;
+        };
+        let pendulum = self.pendulum.rescale(R::splat);
+        let time = R::splat(self.time);
+        let mut next = 0;
+        while next < self.count {
+            // The last block overlaps the one before, where it would not be full:
+            // some states are computed twice.
+            let start = next.min(last);
+            pendulum.evaluate(
+                time,
+                |link| load(theta, link, start),
+                |link| load(omega, link, start),
+                |link, value: R| {
+                    if let Some(slice) = alpha.get_mut(link) {
+                        value.store(slice.as_mut().get_mut(start..).unwrap_or_default());
+                    }
+                },
+            );
+            next = start + R::LANES;
         }
+        self.count
     }
 }
 
-/// Fills lanes from `start` on. Past the end they repeat the last state, which
-/// costs nothing beside it, while a number made up might be slow.
+/// One register of one link.
 #[inline(always)]
-fn load<T: Lane, const N: usize>(
-    lanes: &mut [Lanes<T, N>],
-    slices: &[impl AsRef<[T]>],
-    start: usize,
-) {
-    for (lanes, slice) in lanes.iter_mut().zip(slices) {
-        let rest = slice.as_ref().get(start..).unwrap_or_default();
-        if let Some(whole) = rest.first_chunk() {
-            lanes.0 = *whole;
-        } else if let Some((&last, _)) = rest.split_last() {
-            lanes.0 = core::array::from_fn(|i| rest.get(i).copied().unwrap_or(last));
-        }
-    }
-}
-
-/// Writes lanes from `start` on, as many as there are states.
-#[inline(always)]
-fn store<T: Lane, const N: usize>(
-    lanes: &[Lanes<T, N>],
-    slices: &mut [impl AsMut<[T]>],
-    start: usize,
-) {
-    for (lanes, slice) in lanes.iter().zip(slices) {
-        let rest = slice.as_mut().get_mut(start..).unwrap_or_default();
-        if let Some(whole) = rest.first_chunk_mut() {
-            *whole = lanes.0;
-        } else {
-            for (out, value) in rest.iter_mut().zip(lanes.0) {
-                *out = value;
-            }
-        }
+fn load<R: Register>(slices: &[impl AsRef<[R::Lane]>], link: usize, start: usize) -> R {
+    let block = slices
+        .get(link)
+        .and_then(|slice| slice.as_ref().get(start..));
+    match R::load(block.unwrap_or_default()) {
+        Some(register) => register,
+        // Lengths have been checked.
+        None => R::from_f64(f64::NAN),
     }
 }
 

@@ -8,6 +8,7 @@
 
 mod canonical;
 mod first_integral;
+pub(crate) mod rescale;
 mod taylor;
 
 use alloc::vec::Vec;
@@ -17,6 +18,7 @@ use crate::scalar::Scalar;
 
 pub use canonical::{Canonical, CanonicalVariables};
 pub use first_integral::{CanonicalEnergy, FirstIntegral};
+pub use rescale::Rescale;
 pub use taylor::{TaylorOde, TaylorPendulum};
 
 /// Equations of motion in absolute angles.

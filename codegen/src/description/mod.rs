@@ -4,6 +4,7 @@
 //! attribute   = [ entry { "," entry } [ "," ] ]
 //! entry       = "crate" "=" path
 //!             | "gravity" "=" expression
+//!             | "solve" "=" name
 //!             | "emit" "(" [ request { "," request } [ "," ] ] ")"
 //!             | "drive" "(" [ property { "," property } [ "," ] ] ")"
 //!             | "observe" "(" [ observable { "," observable } [ "," ] ] ")"
@@ -55,6 +56,8 @@ pub struct Description {
     pub crate_path: Option<syn::Path>,
     /// `gravity = ...`, m/s².
     pub gravity: Option<Property>,
+    /// `solve = ...`: the two names.
+    pub solve: Option<(Ident, Ident)>,
     /// `drive(...)`.
     pub drive: Option<Drive>,
     /// The links at the top level; a right description has one.

@@ -46,6 +46,7 @@ pub fn parse(
         item: parse_item(item, report)?,
         crate_path: None,
         gravity: None,
+        solve: None,
         drive: None,
         roots: Vec::new(),
         requests: Vec::new(),
@@ -64,6 +65,12 @@ pub fn parse(
                 let span = property.name.span();
                 let message = Message::duplicate_property(&property.name);
                 if description.gravity.replace(property).is_some() {
+                    report.error(span, message);
+                }
+            }
+            Entry::Solve(name, value) => {
+                let (span, message) = (name.span(), Message::duplicate_property(&name));
+                if description.solve.replace((name, value)).is_some() {
                     report.error(span, message);
                 }
             }
@@ -159,6 +166,7 @@ fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
 enum Entry {
     Crate(Ident, syn::Path),
     Gravity(Property),
+    Solve(Ident, Ident),
     Drive(Drive),
     Emit(Ident, Vec<Request>),
     Observe(Ident, Vec<Observable>),
@@ -201,7 +209,7 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
     node(name, input, report).map(Entry::Link)
 }
 
-/// `crate = path` or `gravity = value`, after the name.
+/// `crate = path`, `gravity = value` or `solve = name`, after the name.
 fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Entry, Fault> {
     if name == "crate" {
         take::<Token![=]>(input, "`=`")?;
@@ -211,6 +219,11 @@ fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Entry, Fault> {
     }
     if name == "gravity" {
         return property_value(name, input).map(Entry::Gravity);
+    }
+    if name == "solve" {
+        take::<Token![=]>(input, "`=`")?;
+        let value = identifier(input, "`factorization` or `recursion`")?;
+        return Ok(Entry::Solve(name, value));
     }
     let message = Message::unknown_entry(name.to_string());
     Err(Diagnostic::new(name.span(), message).into())

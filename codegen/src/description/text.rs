@@ -17,6 +17,9 @@ impl Display for Description {
         if let Some(gravity) = &self.gravity {
             writeln!(f, "{gravity}")?;
         }
+        if let Some((name, value)) = &self.solve {
+            writeln!(f, "{name} = {value}")?;
+        }
         if let Some(drive) = &self.drive {
             write!(f, "{}(", drive.name)?;
             separated(&drive.parts, f)?;

@@ -7,6 +7,7 @@ use crate::mechanics::Counting;
 use crate::mechanics::coordinates::Kind;
 use crate::mechanics::expression::Expr;
 use crate::program::{Entry, Purpose};
+use crate::scene::Solve;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -63,10 +64,17 @@ impl Emission<'_> {
         let formulas = self.formulas(entry.purpose);
         self.show(&formulas, &mut lines);
         lines.push(String::new());
-        lines.push(format!(
-            "Cost: {}.",
-            self.program.operations(&entry.outputs)
-        ));
+        let fused = match self.program.fused(entry).len() {
+            0 => String::new(),
+            count => format!("; {count} of the ± take a × along where the scalar fuses"),
+        };
+        let operations = self.program.operations(&entry.outputs);
+        let mut cost = format!("Cost: {operations}{fused}.");
+        let choice = &self.program.choice;
+        if entry.purpose == Purpose::Accelerations && choice.solve == Solve::Recursion {
+            cost += &format!(" By elimination: {}.", choice.factorization);
+        }
+        lines.push(cost);
         doc_lines(&lines)
     }
 
@@ -91,7 +99,10 @@ impl Emission<'_> {
             Purpose::Accelerations => vec![
                 format!("Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s).", self.at_time()),
                 String::new(),
-                format!("Solves the Euler–Lagrange equations M(θ) θ̈ + b(θ, ω{}) = 0 by elimination along the tree (Featherstone, Rigid Body Dynamics Algorithms, 2008, §6.5).", self.and_time()),
+                format!("Solves the Euler–Lagrange equations M(θ) θ̈ + b(θ, ω{}) = 0 by {}.", self.and_time(), match self.program.choice.solve {
+                    Solve::Factorization => "elimination along the tree (Featherstone, Rigid Body Dynamics Algorithms, 2008, §6.5)",
+                    Solve::Recursion => "articulated recursion, from the leaves to the root and back (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 7), in O(n) operations",
+                }),
             ],
             Purpose::TaylorCoefficients => vec![
                 format!("Taylor coefficients of the motion that passes through the angles `theta` (in rad) with the angular velocities `omega` (in rad/s){}.", match self.mechanics.drive {

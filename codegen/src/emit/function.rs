@@ -5,7 +5,7 @@ use super::gather::Gathered;
 use super::names::Locals;
 use super::parts::{self, Line};
 use crate::exact::Rational;
-use crate::program::{Argument, Entry, Op, Purpose, Shape, ValueId};
+use crate::program::{Argument, Entry, Fused, Op, Purpose, Shape, ValueId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
@@ -20,6 +20,15 @@ pub(super) enum Binding {
     Product,
     Prefix,
     Atom,
+}
+
+/// A function before it is put together.
+pub(super) struct Written {
+    pub(super) lines: Vec<Line>,
+    pub(super) locals: Locals,
+    gathered: Gathered,
+    /// Whether it is to be written in parts.
+    pub(super) long: bool,
 }
 
 impl Emission<'_> {
@@ -51,12 +60,16 @@ impl Emission<'_> {
 
     /// `theta: &[T; 3]`.
     pub(super) fn parameter(&self, argument: Argument) -> TokenStream {
-        let name = ident(argument.name());
+        let (name, kind) = (ident(argument.name()), self.argument_type(argument));
+        quote!(#name: #kind)
+    }
+
+    pub(super) fn argument_type(&self, argument: Argument) -> TokenStream {
         if argument == Argument::Time {
-            return quote!(#name: T);
+            return quote!(T);
         }
         let size = self.argument_size(argument);
-        quote!(#name: &[T; #size])
+        quote!(&[T; #size])
     }
 
     /// Links and coordinates are equally many.
@@ -92,15 +105,17 @@ impl Emission<'_> {
 
     /// The body of a function, and the parts behind it if it is long.
     fn body(&self, entry: &Entry, needed: &[ValueId]) -> (TokenStream, TokenStream) {
-        let mut locals = self.locals(entry, needed);
-        let gathered = self.gathered(entry, needed);
-        let whole = gathered.whole;
-        let lines = self.lines(&gathered, needed, &locals);
-        if parts::long(&lines) {
-            self.name_outputs(entry, &mut locals);
-            let lines = self.lines(&gathered, needed, &locals);
-            return self.in_parts(entry, &lines, &locals);
+        let written = self.written(entry, needed);
+        if written.long {
+            return self.in_parts(entry, &written.lines, &written.locals);
         }
+        let Written {
+            lines,
+            locals,
+            gathered,
+            ..
+        } = written;
+        let whole = gathered.whole;
         let read = self.read(entry, needed, whole.is_some().then_some(&gathered.inputs));
         let inputs = entry
             .arguments
@@ -117,6 +132,24 @@ impl Emission<'_> {
             #outputs
         };
         (body, TokenStream::new())
+    }
+
+    /// A function's lines; the outputs of a long one have names too.
+    pub(super) fn written(&self, entry: &Entry, needed: &[ValueId]) -> Written {
+        let mut locals = self.locals(entry, needed);
+        let gathered = self.gathered(entry, needed);
+        let mut lines = self.lines(&gathered, needed, &locals);
+        let long = parts::long(&lines);
+        if long {
+            self.name_outputs(entry, &mut locals);
+            lines = self.lines(&gathered, needed, &locals);
+        }
+        Written {
+            lines,
+            locals,
+            gathered,
+            long,
+        }
     }
 
     /// The `let` lines of a function; first the sines and cosines that are
@@ -323,9 +356,33 @@ impl Emission<'_> {
         }
     }
 
+    /// `x.mul_add(y, z)`, which is x y + z.
+    fn fused(&self, fused: &Fused, locals: &Locals) -> TokenStream {
+        let Op::Mul(x, y) = *self.op(fused.product) else {
+            unreachable!("products alone are fused");
+        };
+        let x = if fused.minus_product {
+            let x = self.bound(x, locals, Binding::Atom);
+            quote!((-#x))
+        } else {
+            self.bound(x, locals, Binding::Atom)
+        };
+        let y = self.bound(y, locals, Binding::Sum);
+        let z = if fused.minus_addend {
+            let z = self.bound(fused.addend, locals, Binding::Atom);
+            quote!(-#z)
+        } else {
+            self.bound(fused.addend, locals, Binding::Sum)
+        };
+        quote!(#x.mul_add(#y, #z))
+    }
+
     /// A value's definition. Sums and products associate to the left, so that
     /// only right operands need parentheses.
     fn definition(&self, id: ValueId, locals: &Locals) -> (TokenStream, Binding) {
+        if let Some(fused) = locals.fused.get(&id) {
+            return (self.fused(fused, locals), Binding::Atom);
+        }
         let at = |id: ValueId, place: Binding| self.bound(id, locals, place);
         match *self.op(id) {
             Op::Constant(constant) => {

@@ -55,6 +55,7 @@ pub fn emit(
         Purpose::TaylorCoefficients => emission.taylor_coefficients(entry),
         _ => emission.function(entry),
     });
+    let parts = emission.part_implementations();
     let accessors = emission.accessors();
     let traits = emission.traits();
     let runtime = emission.runtime();
@@ -69,6 +70,8 @@ pub fn emit(
             #accessors
             #(#functions)*
         }
+
+        #parts
 
         #traits
     }

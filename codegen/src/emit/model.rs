@@ -103,7 +103,7 @@ impl Emission<'_> {
                 let name = format_ident!("{}", self.scene.parameters[index].name);
                 quote!(parameters.#name)
             }
-            ConstantOp::Named(_, formed) => match known.get(&formed) {
+            ConstantOp::Named(_, formed) | ConstantOp::Called(formed) => match known.get(&formed) {
                 Some(name) => quote!(#name),
                 None => self.constant_value(formed, known),
             },

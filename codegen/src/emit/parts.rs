@@ -6,7 +6,7 @@
 //! one that it held.
 
 use super::Emission;
-use super::function::{Binding, ident, number_tokens};
+use super::function::{Binding, Written, ident, number_tokens};
 use super::names::Locals;
 use crate::program::{Argument, Entry, Op, Purpose, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -144,9 +144,15 @@ impl Emission<'_> {
         let unused = unused.map(|argument| ident(argument.name()));
         let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
         let calls = parts.parts.iter().map(|part| {
-            let (name, arguments) = (part.name(entry), part.arguments.iter());
+            let arguments = part.arguments.iter();
             let arguments = arguments.map(|argument| ident(argument.name()));
-            quote!(self.#name(#(#arguments,)* &mut #shared);)
+            if entry.purpose == Purpose::Accelerations {
+                let number = Literal::usize_unsuffixed(part.number);
+                quote!(T::outlined::<#number, _, _>(self, (#(#arguments,)* &mut #shared));)
+            } else {
+                let name = part.name(entry);
+                quote!(self.#name(#(#arguments,)* &mut #shared);)
+            }
         });
         let values = entry.outputs.iter().map(|&id| match *self.op(id) {
             Op::Input(Argument::Time, _) => self.bound(id, locals, Binding::Sum),
@@ -165,34 +171,75 @@ impl Emission<'_> {
             #(#calls)*
             #outputs
         };
-        // A batch compiles the accelerations for wider registers than the rest
-        // of the build uses, which only inlining allows.
-        let inlined = entry.purpose == Purpose::Accelerations || height(lines) <= MOST_INLINED;
+        if entry.purpose == Purpose::Accelerations {
+            return (body, TokenStream::new());
+        }
+        let inlined = height(lines) <= MOST_INLINED;
         let inline = inlined.then(|| quote!(#[inline(always)]));
         let functions = parts.parts.iter().map(|part| {
-            let function = self.part_function(entry, part, &parts, locals);
+            let name = part.name(entry);
             let docs = format!(
                 " Part {} of [`{1}`](Self::{1}), on the values that its parts share.",
                 part.number, entry.name
             );
-            quote!(#[doc = #docs] #inline #function)
+            let parameters = part.arguments.iter();
+            let parameters = parameters.map(|&argument| self.parameter(argument));
+            let body = self.part_body(part, &parts, locals);
+            quote! {
+                #[doc = #docs]
+                #inline
+                fn #name(&self, #(#parameters,)* #shared: &mut [T; #size]) {
+                    #body
+                }
+            }
         });
         (body, functions.collect())
     }
 
-    fn part_function(
-        &self,
-        entry: &Entry,
-        part: &Part,
-        parts: &Parts,
-        locals: &Locals,
-    ) -> TokenStream {
-        let name = part.name(entry);
+    /// The parts of the accelerations, if these are long. As implementations of
+    /// a trait they are compiled for the instructions that the scalar stands
+    /// for, which plain functions would not be.
+    pub(super) fn part_implementations(&self) -> TokenStream {
+        let mut entries = self.program.entries.iter();
+        let Some(entry) = entries.find(|entry| entry.purpose == Purpose::Accelerations) else {
+            return TokenStream::new();
+        };
+        let needed = self.program.needed(&entry.outputs);
+        let Written {
+            lines,
+            locals,
+            long: true,
+            ..
+        } = self.written(entry, &needed)
+        else {
+            return TokenStream::new();
+        };
+        let parts = self.parts(entry, &lines, &locals);
+        let (name, runtime) = (&self.item.ident, self.runtime());
         let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
-        let arguments = part
-            .arguments
-            .iter()
-            .map(|&argument| self.parameter(argument));
+        let implementations = parts.parts.iter().map(|part| {
+            let number = Literal::usize_unsuffixed(part.number);
+            let arguments = part.arguments.iter();
+            let names: Vec<Ident> = arguments.clone().map(|a| ident(a.name())).collect();
+            let types: Vec<TokenStream> = arguments.map(|&a| self.argument_type(a)).collect();
+            let body = self.part_body(part, &parts, &locals);
+            quote! {
+                impl<T: #runtime::Scalar>
+                    #runtime::model::Part<#number, (#(#types,)* &mut [T; #size])> for #name<T>
+                {
+                    type Output = ();
+
+                    #[inline(always)]
+                    fn part(&self, (#(#names,)* #shared): (#(#types,)* &mut [T; #size])) {
+                        #body
+                    }
+                }
+            }
+        });
+        implementations.collect()
+    }
+
+    fn part_body(&self, part: &Part, parts: &Parts, locals: &Locals) -> TokenStream {
         let elements = part.arguments.iter();
         let elements = elements.filter(|argument| self.reads(**argument, &part.inputs));
         let elements = elements.map(|&argument| self.take_apart(argument, &part.inputs, locals));
@@ -203,12 +250,10 @@ impl Emission<'_> {
         let given = given.map(|(name, place)| quote!(#place = #name;));
         let lines = &part.lines;
         quote! {
-            fn #name(&self, #(#arguments,)* #shared: &mut [T; #size]) {
-                #(#elements)*
-                #(#taken)*
-                #(#lines)*
-                #(#given)*
-            }
+            #(#elements)*
+            #(#taken)*
+            #(#lines)*
+            #(#given)*
         }
     }
 

@@ -26,6 +26,7 @@ impl Derivation<'_> {
             constants: Vec::new(),
             drive: self.plain_drive(&absolute),
             absolute: self.frame(&absolute),
+            articulation: self.articulation(&absolute),
             coordinates: Vec::new(),
             symmetric: None,
             sectors: None,

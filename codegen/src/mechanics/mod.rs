@@ -5,6 +5,7 @@
 //! Symbolica's (behind [`algebra`]); what leaves is plain data.
 
 pub mod algebra;
+mod articulation;
 mod bracket;
 pub mod coordinates;
 mod derivation;
@@ -27,6 +28,7 @@ mod symmetric;
 mod transfer;
 
 pub use algebra::AlgebraError;
+pub use articulation::{Articulation, Joint};
 pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{Drive, PivotMotion, Temporal};
@@ -216,6 +218,8 @@ pub struct Mechanics {
     pub drive: Option<Drive>,
     /// The mechanics in absolute angles.
     pub absolute: Frame,
+    /// The joints, from which their accelerations can be formed as well.
+    pub articulation: Articulation,
     /// The symmetric coordinates, if asked for.
     pub coordinates: Vec<Coordinate>,
     /// The mechanics in symmetric coordinates, if asked for. On nested trees its

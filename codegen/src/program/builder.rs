@@ -1,24 +1,26 @@
 //! Builds a program value by value. Equal operations become one value, and
 //! operations that change nothing are not recorded.
 
-use super::{ConstantId, ConstantOp, Definition, Entry, Op, Program, Setup, ValueId};
+use super::{Choice, ConstantId, ConstantOp, Definition, Entry, Op, Program, Setup, ValueId};
 use crate::exact::Rational;
+use crate::scene::Scene;
 use std::collections::BTreeMap;
 
 /// A program in the making.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Builder {
-    definitions: Vec<Definition>,
+    pub(super) definitions: Vec<Definition>,
     known: BTreeMap<Op, ValueId>,
     pub(super) setup: Setup,
 }
 
 impl Builder {
-    pub(super) fn finish(self, entries: Vec<Entry>) -> Program {
+    pub(super) fn finish(self, entries: Vec<Entry>, choice: Choice) -> Program {
         Program {
             definitions: self.definitions,
             entries,
             setup: self.setup,
+            choice,
         }
     }
 
@@ -261,4 +263,35 @@ impl Builder {
 
 fn is_leaf(op: &Op) -> bool {
     matches!(op, Op::Input(..) | Op::Constant(_) | Op::Number(_))
+}
+
+/// Constants of the setup as values.
+impl Builder {
+    /// A constant under a name of its own, unless it is a whole number that
+    /// operations drop or fold.
+    pub(super) fn called(&mut self, value: ValueId, name: &str) -> ValueId {
+        if [-1, 0, 1].iter().any(|&number| self.is(value, number)) {
+            return value;
+        }
+        match self.as_constant(value) {
+            Some(formed) => {
+                let called = self.setup.called(formed, name);
+                self.constant(called)
+            }
+            None => value,
+        }
+    }
+
+    /// Whether a constant can be divided by, whatever the parameters of the
+    /// scene.
+    pub(super) fn is_never_zero(&self, value: ValueId, scene: &Scene) -> bool {
+        match self.op(value) {
+            Op::Number(number) => !number.is_zero(),
+            Op::Constant(id) => match &self.setup.get(*id).exact {
+                Some(exact) => !exact.is_zero(),
+                None => self.setup.is_positive(*id, scene),
+            },
+            _ => false,
+        }
+    }
 }

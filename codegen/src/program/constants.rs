@@ -4,6 +4,7 @@
 
 use super::spelling;
 use crate::exact::Rational;
+use crate::scene::{Scene, Sign};
 use std::collections::BTreeMap;
 
 /// Index of a constant in [`Setup`].
@@ -20,6 +21,9 @@ pub enum ConstantOp {
     /// A constant that the mechanics names, by its index there, formed as the
     /// other constant says.
     Named(usize, ConstantId),
+    /// A constant under a name of the program's own, formed as the other
+    /// constant says.
+    Called(ConstantId),
     /// A number times integer powers of other constants, which are ordered and
     /// neither numbers nor products: one spelling for each product.
     Product(Rational, Vec<(ConstantId, i32)>),
@@ -34,7 +38,7 @@ impl ConstantOp {
     pub fn operands(&self) -> Vec<ConstantId> {
         match self {
             Self::Number(_) | Self::Parameter(_) => Vec::new(),
-            Self::Named(_, a) => vec![*a],
+            Self::Named(_, a) | Self::Called(a) => vec![*a],
             Self::Product(_, powers) => powers.iter().map(|(id, _)| *id).collect(),
             Self::Add(a, b) | Self::Sub(a, b) => vec![*a, *b],
         }
@@ -89,6 +93,11 @@ impl Setup {
     /// A constant of the mechanics.
     pub(super) fn named(&mut self, index: usize, formed: ConstantId, name: &str) -> ConstantId {
         self.intern(ConstantOp::Named(index, formed), Some(name))
+    }
+
+    /// A constant that is read under a name of its own.
+    pub(super) fn called(&mut self, formed: ConstantId, name: &str) -> ConstantId {
+        self.intern(ConstantOp::Called(formed), Some(name))
     }
 
     /// a + b.
@@ -155,6 +164,24 @@ impl Setup {
         }
     }
 
+    /// Whether the signs that the scene demands of its parameters make a
+    /// constant positive.
+    pub(super) fn is_positive(&self, id: ConstantId, scene: &Scene) -> bool {
+        let positive = |id: &ConstantId| self.is_positive(*id, scene);
+        match &self.get(id).op {
+            ConstantOp::Number(number) => !number.is_negative() && !number.is_zero(),
+            ConstantOp::Parameter(index) => scene.parameters[*index].sign == Sign::Positive,
+            ConstantOp::Named(_, a) | ConstantOp::Called(a) => positive(a),
+            ConstantOp::Product(number, powers) => {
+                !number.is_negative()
+                    && !number.is_zero()
+                    && powers.iter().all(|(base, _)| positive(base))
+            }
+            ConstantOp::Add(a, b) => positive(a) && positive(b),
+            ConstantOp::Sub(..) => false,
+        }
+    }
+
     fn as_number(&self, id: ConstantId) -> Option<Rational> {
         match &self.get(id).op {
             ConstantOp::Number(number) => Some(number.clone()),
@@ -196,7 +223,7 @@ impl Setup {
         match op {
             ConstantOp::Number(number) => Some(number.clone()),
             ConstantOp::Parameter(_) => None,
-            ConstantOp::Named(_, a) => exact(*a),
+            ConstantOp::Named(_, a) | ConstantOp::Called(a) => exact(*a),
             ConstantOp::Product(number, powers) => powers
                 .iter()
                 .try_fold(number.clone(), |product, (id, power)| {

@@ -1,6 +1,6 @@
 //! What an entry point costs.
 
-use super::{Op, Program, ValueId};
+use super::{Definition, Op, Program, ValueId};
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -24,24 +24,29 @@ pub struct Operations {
 impl Program {
     /// The operations that `outputs` take.
     pub fn operations(&self, outputs: &[ValueId]) -> Operations {
-        let mut count = Operations::default();
-        let mut angles = BTreeSet::new();
-        for id in self.needed(outputs) {
-            match self.definition(id).op {
-                Op::Input(..) | Op::Constant(_) | Op::Number(_) => {}
-                Op::Sin(angle) | Op::Cos(angle) => {
-                    angles.insert(angle);
-                }
-                Op::Sqrt(_) => count.roots += 1,
-                Op::Neg(_) => count.negations += 1,
-                Op::Add(..) | Op::Sub(..) => count.additions += 1,
-                Op::Mul(..) => count.multiplications += 1,
-                Op::Div(..) => count.divisions += 1,
-            }
-        }
-        count.sin_cos = angles.len();
-        count
+        operations(&self.definitions, outputs)
     }
+}
+
+/// See [`Program::operations`].
+pub(super) fn operations(definitions: &[Definition], outputs: &[ValueId]) -> Operations {
+    let mut count = Operations::default();
+    let mut angles = BTreeSet::new();
+    for id in super::needed(definitions, outputs) {
+        match definitions[id.0 as usize].op {
+            Op::Input(..) | Op::Constant(_) | Op::Number(_) => {}
+            Op::Sin(angle) | Op::Cos(angle) => {
+                angles.insert(angle);
+            }
+            Op::Sqrt(_) => count.roots += 1,
+            Op::Neg(_) => count.negations += 1,
+            Op::Add(..) | Op::Sub(..) => count.additions += 1,
+            Op::Mul(..) => count.multiplications += 1,
+            Op::Div(..) => count.divisions += 1,
+        }
+    }
+    count.sin_cos = angles.len();
+    count
 }
 
 impl fmt::Display for Operations {

@@ -1,19 +1,19 @@
 //! The entry points that a scene's requests lead to.
 
 use super::lower::{Door, Lowering};
-use super::{Argument, Entry, Purpose, Shape, ValueId};
+use super::{Argument, Choice, Entry, Purpose, Shape, ValueId};
 use crate::mechanics::coordinates::Kind;
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{Counting, Entry as MatrixEntry, Frame, Mechanics, Parts, Transfer};
 use crate::scene::{LinkId, Scene};
 
-pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Vec<Entry> {
+pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> (Vec<Entry>, Choice) {
     let mechanics = lowering.mechanics;
     let mut list = EntryList {
         lowering,
         entries: Vec::new(),
     };
-    list.absolute(mechanics);
+    let choice = list.absolute(scene, mechanics);
     if let Some(symmetric) = &mechanics.symmetric {
         list.transforms(scene, mechanics);
         match &mechanics.sectors {
@@ -34,7 +34,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Vec<Entry> 
     if scene.requests.taylor {
         list.taylor();
     }
-    list.entries
+    (list.entries, choice)
 }
 
 pub(super) struct EntryList<'l, 'm> {
@@ -67,36 +67,11 @@ impl EntryList<'_, '_> {
             .collect()
     }
 
-    /// q̈ with M q̈ = −bias.
-    fn accelerations(&mut self, door: &mut Door<'_>, prefix: &str) -> Vec<ValueId> {
-        let frame = door.frame;
-        let names = self.lowering.coordinate_names(frame);
-        let mass = self.lowering.mass_matrix(door);
-        let mut right = Vec::new();
-        for (bias, name) in frame.bias.iter().zip(&names) {
-            let value = self.lowering.expr(door, bias);
-            self.lowering.builder.name(value, &format!("bias_{name}"));
-            let torque = self.lowering.builder.neg(value);
-            right.push(
-                self.lowering
-                    .builder
-                    .name(torque, &format!("torque_{name}")),
-            );
-        }
-        let solution = self.lowering.builder.solve(mass, right, &names);
-        for (&value, name) in solution.iter().zip(&names) {
-            self.lowering
-                .builder
-                .name(value, &format!("{prefix}_{name}"));
-        }
-        solution
-    }
-
-    fn absolute(&mut self, mechanics: &Mechanics) {
+    fn absolute(&mut self, scene: &Scene, mechanics: &Mechanics) -> Choice {
         use Argument::{AbsoluteMomenta, Omega, Theta};
         let frame = &mechanics.absolute;
         let mut motion = Door::new(frame, Theta, Some(Omega), None);
-        let alpha = self.accelerations(&mut motion, "alpha");
+        let (alpha, choice) = self.lowering.accelerations(scene, &mut motion);
         let both = [Theta, Omega];
         self.push(
             "accelerations",
@@ -170,6 +145,7 @@ impl EntryList<'_, '_> {
                 self.push(name, purpose, &[Theta], dense, Shape::Matrix(size));
             }
         }
+        choice
     }
 
     fn dense(&mut self, door: &mut Door<'_>, entries: &[MatrixEntry], size: usize) -> Vec<ValueId> {
@@ -230,7 +206,7 @@ impl EntryList<'_, '_> {
     fn symmetric(&mut self, frame: &Frame) {
         use Argument::{Coordinates, Momenta, Rates};
         let mut motion = Door::new(frame, Coordinates, Some(Rates), None);
-        let accelerations = self.accelerations(&mut motion, "alpha");
+        let accelerations = self.lowering.factorization(&mut motion);
         self.push(
             "symmetric_accelerations",
             Purpose::SymmetricAccelerations,

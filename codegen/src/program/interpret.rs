@@ -16,7 +16,7 @@ impl Setup {
                 (Some(exact), _) => exact.to_f64(),
                 (None, ConstantOp::Number(number)) => number.to_f64(),
                 (None, &ConstantOp::Parameter(index)) => parameters[index],
-                (None, &ConstantOp::Named(_, a)) => at(a),
+                (None, &ConstantOp::Named(_, a) | &ConstantOp::Called(a)) => at(a),
                 (None, ConstantOp::Product(number, powers)) => product(number, powers, at),
                 (None, &ConstantOp::Add(a, b)) => at(a) + at(b),
                 (None, &ConstantOp::Sub(a, b)) => at(a) - at(b),
@@ -56,11 +56,35 @@ impl Program {
         parameters: &[f64],
         input: impl Fn(Argument, usize) -> f64,
     ) -> Option<Vec<f64>> {
+        let unfused = |x: f64, y: f64, z: f64| x * y + z;
+        self.evaluate_fused(sin_cos, unfused, entry, parameters, input)
+    }
+
+    /// The same with a fused multiply-add `x * y + z` of the caller's, wherever
+    /// emitted code has one.
+    pub fn evaluate_fused(
+        &self,
+        sin_cos: impl Fn(f64) -> (f64, f64),
+        mul_add: impl Fn(f64, f64, f64) -> f64,
+        entry: &str,
+        parameters: &[f64],
+        input: impl Fn(Argument, usize) -> f64,
+    ) -> Option<Vec<f64>> {
         let entry = self.entry(entry)?;
+        let fused = self.fused(entry);
         let constants = self.setup.evaluate(parameters);
         let mut values: Vec<f64> = vec![0.0; self.definitions.len()];
         for id in self.needed(&entry.outputs) {
             let at = |id: ValueId| values[id.0 as usize];
+            if let Some(sum) = fused.get(&id)
+                && let Op::Mul(x, y) = self.definition(sum.product).op
+            {
+                let signed = |value: f64, minus: bool| if minus { -value } else { value };
+                let x = signed(at(x), sum.minus_product);
+                let addend = signed(at(sum.addend), sum.minus_addend);
+                values[id.0 as usize] = mul_add(x, at(y), addend);
+                continue;
+            }
             let value = match self.definition(id).op {
                 Op::Input(argument, index) => input(argument, index),
                 Op::Constant(constant) => constants[constant.0 as usize],

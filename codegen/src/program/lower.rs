@@ -17,6 +17,7 @@ use crate::mechanics::{
 use std::collections::BTreeMap;
 
 /// Lowering in progress.
+#[derive(Clone)]
 pub(super) struct Lowering<'a> {
     pub(super) mechanics: &'a Mechanics,
     pub(super) builder: Builder,
@@ -25,6 +26,7 @@ pub(super) struct Lowering<'a> {
 
 /// How symbols of one frame are supplied: handed over by the caller, or formed
 /// on demand.
+#[derive(Clone)]
 pub(super) struct Door<'a> {
     pub(super) frame: &'a Frame,
     /// Argument that holds the coordinates.
@@ -171,22 +173,22 @@ impl<'a> Lowering<'a> {
     }
 
     fn sines_and_cosines(&mut self, door: &mut Door<'_>, a: SymbolId, b: SymbolId) -> [ValueId; 4] {
-        let mechanics = self.mechanics;
-        let find = |wanted: Trigonometric| match mechanics
-            .trigonometry
-            .iter()
-            .find(|(_, t)| **t == wanted)
-        {
+        [
+            Trigonometric::Cos(a),
+            Trigonometric::Sin(a),
+            Trigonometric::Cos(b),
+            Trigonometric::Sin(b),
+        ]
+        .map(|wanted| self.trigonometric_symbol(wanted))
+        .map(|symbol| self.symbol(door, symbol))
+    }
+
+    pub(super) fn trigonometric_symbol(&self, wanted: Trigonometric) -> SymbolId {
+        let mut table = self.mechanics.trigonometry.iter();
+        match table.find(|(_, meaning)| **meaning == wanted) {
             Some((&symbol, _)) => symbol,
             None => unreachable!("every coordinate has a sine and a cosine"),
-        };
-        [
-            find(Trigonometric::Cos(a)),
-            find(Trigonometric::Sin(a)),
-            find(Trigonometric::Cos(b)),
-            find(Trigonometric::Sin(b)),
-        ]
-        .map(|symbol| self.symbol(door, symbol))
+        }
     }
 
     /// q̇ with M q̇ = p.
@@ -331,6 +333,9 @@ impl<'a> Lowering<'a> {
     /// A term's sign and size: constants first, then what is multiplied, then
     /// one quotient.
     fn term(&mut self, door: &mut Door<'_>, term: &Expr) -> (bool, ValueId) {
+        if let Some(value) = self.centrifugal(door, term) {
+            return value;
+        }
         let mut negative = false;
         let mut constant = self.builder.integer(1);
         let mut above: Option<ValueId> = None;
@@ -382,6 +387,53 @@ impl<'a> Lowering<'a> {
             value = self.builder.div(value_or_one, divisor);
         }
         (negative, value)
+    }
+
+    /// ±μ sin ω² as (μ sin) · ω²: a pair of links shares the first factor, all
+    /// pairs of a link the second.
+    fn centrifugal(&mut self, door: &mut Door<'_>, term: &Expr) -> Option<(bool, ValueId)> {
+        let mechanics = self.mechanics;
+        let role = |symbol: &SymbolId| mechanics.symbols.get(*symbol).role;
+        let mut negative = false;
+        let (mut constants, mut sine, mut velocity) = (Vec::new(), None, None);
+        for factor in term.factors() {
+            match factor {
+                Expr::Number(number) => {
+                    negative ^= number.is_negative();
+                    let size = if number.is_negative() {
+                        -number
+                    } else {
+                        number.clone()
+                    };
+                    constants.push(self.builder.number(size));
+                }
+                Expr::Symbol(symbol) if role(symbol) == Role::Constant => {
+                    constants.push(self.symbol(door, *symbol));
+                }
+                Expr::Symbol(symbol) if role(symbol) == Role::Trigonometric && sine.is_none() => {
+                    sine = Some(*symbol);
+                }
+                Expr::Power(base, 2) => match base.as_ref() {
+                    Expr::Symbol(symbol)
+                        if role(symbol) == Role::Velocity && velocity.is_none() =>
+                    {
+                        velocity = Some(*symbol);
+                    }
+                    _ => return None,
+                },
+                _ => return None,
+            }
+        }
+        let (sine, velocity) = (sine?, velocity?);
+        let mut scaled = self.symbol(door, sine);
+        for constant in constants {
+            scaled = self.builder.mul(constant, scaled);
+        }
+        let code = &mechanics.symbols.get(sine).code;
+        self.builder.name(scaled, &format!("coupled_{code}"));
+        let velocity = self.symbol(door, velocity);
+        let square = self.builder.mul(velocity, velocity);
+        Some((negative, self.builder.mul(scaled, square)))
     }
 
     fn is_constant(&self, value: ValueId) -> bool {

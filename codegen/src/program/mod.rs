@@ -6,18 +6,22 @@
 //! list of the same kind ([`Setup`]), evaluated once.
 
 mod builder;
+mod choice;
 mod constants;
 mod copies;
 mod count;
 mod drive;
 mod entries;
 mod formed;
+mod fuse;
 mod handed;
 mod interpret;
 mod lower;
 mod named;
 mod observables;
+mod pair;
 mod rebuild;
+mod recursion;
 mod sectors;
 mod solve;
 mod spelling;
@@ -26,8 +30,10 @@ mod text;
 mod turns;
 mod verify;
 
+pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
+pub use fuse::Fused;
 pub use rebuild::Rebuilt;
 pub use verify::Fault;
 
@@ -40,8 +46,8 @@ use crate::scene::Scene;
 /// Linear in the size of the mechanics, times a logarithm.
 pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
     let mut lowering = lower::Lowering::new(mechanics);
-    let entries = entries::entries(scene, &mut lowering);
-    lowering.builder.finish(entries)
+    let (entries, choice) = entries::entries(scene, &mut lowering);
+    lowering.builder.finish(entries, choice)
 }
 
 /// Index of a value in [`Program::definitions`].
@@ -261,6 +267,8 @@ pub struct Program {
     pub entries: Vec<Entry>,
     /// The model's constants.
     pub setup: Setup,
+    /// How the accelerations are solved for.
+    pub choice: Choice,
 }
 
 impl Program {

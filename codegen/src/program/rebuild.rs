@@ -94,6 +94,7 @@ impl<'a> Rebuilt<'a> {
             ConstantOp::Named(index, _) => {
                 Expr::Symbol(self.mechanics.constants.get(index)?.symbol)
             }
+            ConstantOp::Called(a) => self.constant(a)?,
             ConstantOp::Product(ref number, ref powers) => {
                 let mut factors = vec![Expr::Number(number.clone())];
                 for &(id, power) in powers {

@@ -9,7 +9,7 @@ pub(super) fn constant(setup: &Setup, op: &ConstantOp) -> String {
     match op {
         ConstantOp::Number(number) => number_name(number),
         ConstantOp::Parameter(index) => format!("parameter_{index}"),
-        ConstantOp::Named(_, a) => name(*a),
+        ConstantOp::Named(_, a) | ConstantOp::Called(a) => name(*a),
         ConstantOp::Add(a, b) => format!("{}_plus_{}", name(*a), name(*b)),
         ConstantOp::Sub(a, b) => format!("{}_minus_{}", name(*a), name(*b)),
         ConstantOp::Product(number, powers) => product(setup, number, powers),

@@ -40,7 +40,7 @@ impl fmt::Display for Program {
             match &definition.op {
                 ConstantOp::Number(number) => write!(f, "{number}")?,
                 ConstantOp::Parameter(parameter) => write!(f, "parameter {parameter}")?,
-                ConstantOp::Named(_, a) => write!(f, "{}", at(*a))?,
+                ConstantOp::Named(_, a) | ConstantOp::Called(a) => write!(f, "{}", at(*a))?,
                 ConstantOp::Product(number, powers) => {
                     write!(f, "{number}")?;
                     for (id, power) in powers {

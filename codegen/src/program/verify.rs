@@ -48,6 +48,17 @@ fn is_unrepresentable(number: &Rational) -> bool {
     !value.is_finite() || (value == 0.0 && !number.is_zero())
 }
 
+impl super::Setup {
+    /// Whether every constant has a value that an `f64` can hold, where no
+    /// parameter is involved.
+    pub(super) fn is_representable(&self) -> bool {
+        self.definitions.iter().all(|definition| {
+            let exact = definition.exact.as_ref();
+            exact.is_none_or(|exact| !is_unrepresentable(exact))
+        })
+    }
+}
+
 impl Program {
     /// The name of a constant, or the number, that some entry point needs and
     /// that no `f64` can hold: rounded, it would be infinite, or zero without being zero.

@@ -202,6 +202,13 @@ pub enum Message {
         /// The known one that is spelt most alike.
         nearest: Option<&'static str>,
     },
+    /// A way to solve that does not exist.
+    UnknownSolve {
+        /// As written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<&'static str>,
+    },
     /// An output asked for twice.
     DuplicateRequest {
         /// The output or form.
@@ -321,7 +328,10 @@ impl Message {
 
     /// An unknown setting of the scene.
     pub fn unknown_entry(name: String) -> Self {
-        let nearest = nearest(&name, &["gravity", "crate", "drive", "emit", "observe"]);
+        let nearest = nearest(
+            &name,
+            &["gravity", "crate", "solve", "drive", "emit", "observe"],
+        );
         Self::UnknownEntry { name, nearest }
     }
 }

@@ -50,8 +50,8 @@ impl Message {
                 "not a setting of the scene",
                 suggest(
                     nearest,
-                    "settings are `gravity = ...`, `crate = ...`, `drive(...)`, `emit(...)`, \
-                     `observe(...)`",
+                    "settings are `gravity = ...`, `crate = ...`, `solve = ...`, `drive(...)`, \
+                     `emit(...)`, `observe(...)`",
                 ),
             ),
             M::MissingGravity => problem(
@@ -263,6 +263,14 @@ impl Message {
                     nearest,
                     "outputs are `energies`, `momenta`, `modes`, `symmetric`, `transfer(...)`, \
                      `budget(...)`, `taylor`; accelerations are always there",
+                ),
+            ),
+            M::UnknownSolve { name, nearest } => problem(
+                format!("unknown way to solve `{name}`"),
+                "no way to solve for the accelerations",
+                suggest(
+                    nearest,
+                    "`factorization` or `recursion`; without `solve` the one of fewer operations",
                 ),
             ),
             M::DuplicateRequest { name } => problem(

@@ -201,9 +201,34 @@ pub struct Requirement {
     pub sign: Sign,
 }
 
+/// How the accelerations in absolute angles are solved for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Solve {
+    /// The mass matrix factorised along the tree, M = LᵀDL.
+    Factorization,
+    /// Articulated recursion from the leaves to the root and back.
+    Recursion,
+}
+
+impl Solve {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Factorization, Self::Recursion];
+
+    /// Its name in the attribute.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Factorization => "factorization",
+            Self::Recursion => "recursion",
+        }
+    }
+}
+
 /// What is asked for beside the accelerations.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Requests {
+    /// How accelerations are to be solved for; the one of fewer operations if
+    /// nothing is said.
+    pub solve: Option<Solve>,
     /// Kinetic and potential energy.
     pub energies: bool,
     /// Generalized momenta and the velocities that belong to them.

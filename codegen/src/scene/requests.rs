@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use proc_macro2::{Ident, Span};
 
 use super::expand::Expansion;
-use super::{BudgetRequest, LinkId, Requests, Scene, TransferRequest};
+use super::{BudgetRequest, LinkId, Requests, Scene, Solve, TransferRequest};
 use crate::description::{Form, Request};
 use crate::mechanics::coordinates::symmetric_coordinates;
 use crate::mechanics::sectors::sectors;
@@ -117,6 +117,21 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         wanted.momenta = true;
     }
     resolved
+}
+
+/// Reads `solve = ...`.
+pub(super) fn resolve_solve(
+    written: Option<&(Ident, Ident)>,
+    report: &mut Report,
+) -> Option<Solve> {
+    let (_, value) = written?;
+    let name = value.to_string();
+    let found = Solve::ALL.into_iter().find(|solve| solve.name() == name);
+    if found.is_none() {
+        let nearest = nearest(&name, &Solve::ALL.map(Solve::name));
+        report.error(value.span(), Message::UnknownSolve { name, nearest });
+    }
+    found
 }
 
 /// Reads the forms of the budget; all exact ones if none is named.

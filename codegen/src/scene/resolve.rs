@@ -3,7 +3,7 @@
 use super::drive::resolve_drive;
 use super::expand::{check_names, check_size, expand};
 use super::observables::resolve_observables;
-use super::requests::{check_symmetry, resolve_requests, resolve_small};
+use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_solve};
 use super::singular::check_regular;
 use super::template::Builder;
 use super::values::{Usage, Values};
@@ -24,7 +24,8 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     }
     let drive = resolve_drive(description.drive.as_ref(), &mut builder.values, report);
     let Builder { templates, values } = builder;
-    let resolved = resolve_requests(&description.requests, report);
+    let mut resolved = resolve_requests(&description.requests, report);
+    resolved.requests.solve = resolve_solve(description.solve.as_ref(), report);
     if description.roots.len() > 1 || !check_size(&templates, report) {
         return None;
     }

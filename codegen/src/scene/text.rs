@@ -142,6 +142,7 @@ impl Display for Sign {
 impl Display for Requests {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self {
+            solve,
             energies,
             momenta,
             modes,
@@ -151,6 +152,9 @@ impl Display for Requests {
             taylor,
         } = self;
         write!(f, "accelerations")?;
+        if let Some(solve) = solve {
+            write!(f, " by {}", solve.name())?;
+        }
         let named = [
             (energies, "energies"),
             (momenta, "momenta"),

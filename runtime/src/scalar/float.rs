@@ -1,10 +1,16 @@
 //! The machine's own numbers.
 
+#[cfg(not(target_arch = "x86_64"))]
+use super::Lanes;
 use super::lanes::{Lane, Sealed};
+#[cfg(target_arch = "x86_64")]
+use super::register;
 use super::{Real, Scalar, sincos};
+use crate::system::rescale::{self, Rescale};
 
 macro_rules! implement_scalar {
-    ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident) => {
+    ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
+     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident) => {
         impl Scalar for $float {
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
@@ -30,6 +36,17 @@ macro_rules! implement_scalar {
                 #[cfg(all(feature = "libm", not(feature = "std")))]
                 return libm::$sqrt(self);
             }
+
+            #[inline(always)]
+            fn accelerate<P: Rescale<Self>>(
+                pendulum: &P,
+                time: Self,
+                theta: &[Self],
+                omega: &[Self],
+                alpha: &mut [Self],
+            ) {
+                rescale::fused(pendulum, time, theta, omega, alpha);
+            }
         }
 
         impl Lane for $float {
@@ -39,7 +56,16 @@ macro_rules! implement_scalar {
             }
         }
 
-        impl Sealed for $float {}
+        impl Sealed for $float {
+            #[cfg(target_arch = "x86_64")]
+            type Build = register::$build;
+            #[cfg(target_arch = "x86_64")]
+            type Avx2 = register::$avx2;
+            #[cfg(target_arch = "x86_64")]
+            type Avx512 = register::$avx512;
+            #[cfg(not(target_arch = "x86_64"))]
+            type Build = Lanes<$float, $lanes>;
+        }
 
         impl Real for $float {
             const ZERO: Self = 0.0;
@@ -73,8 +99,28 @@ macro_rules! implement_scalar {
     };
 }
 
-implement_scalar!(f64, sincos::sin_cos_f64, sincos::several_f64, sqrt, pow);
-implement_scalar!(f32, sincos::sin_cos_f32, sincos::several_f32, sqrtf, powf);
+implement_scalar!(
+    f64,
+    sincos::sin_cos_f64,
+    sincos::several_f64,
+    sqrt,
+    pow,
+    4,
+    F64x2,
+    F64x4,
+    F64x8
+);
+implement_scalar!(
+    f32,
+    sincos::sin_cos_f32,
+    sincos::several_f32,
+    sqrtf,
+    powf,
+    8,
+    F32x4,
+    F32x8,
+    F32x16
+);
 
 #[cfg(test)]
 mod tests {

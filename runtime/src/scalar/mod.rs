@@ -23,6 +23,7 @@ mod float;
 mod lanes;
 #[cfg(test)]
 mod reference;
+pub(crate) mod register;
 mod sincos;
 mod wide;
 
@@ -33,6 +34,9 @@ pub use wide::Double;
 
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+use crate::model::Part;
+use crate::system::rescale::{self, Rescale};
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
@@ -97,6 +101,41 @@ pub trait Scalar:
 
     /// Square root.
     fn sqrt(self) -> Self;
+
+    /// `self * factor + addend`, fused where the type says so: rounded once then,
+    /// and twice by default.
+    ///
+    /// `f64`, `f32` and [`Lanes`] do not fuse, so that they have the same bits on
+    /// every machine. What [`Pendulum`](crate::Pendulum) and
+    /// [`Batch`](crate::batch::Batch) compute with, where the machine has wider
+    /// registers, does.
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        self * factor + addend
+    }
+
+    /// Computes a part of a long emitted function in a function of its own, which
+    /// is compiled for the instructions that the type stands for.
+    #[doc(hidden)]
+    #[inline(never)]
+    fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(model: &M, arguments: A) -> M::Output {
+        model.part(arguments)
+    }
+
+    /// What [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into)
+    /// of emitted models does: their arithmetic in these numbers, or in those of
+    /// the machine that are sooner done.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn accelerate<P: Rescale<Self>>(
+        pendulum: &P,
+        time: Self,
+        theta: &[Self],
+        omega: &[Self],
+        alpha: &mut [Self],
+    ) {
+        rescale::straight(pendulum, time, theta, omega, alpha);
+    }
 }
 
 /// A real number with an order: what step-size control needs besides

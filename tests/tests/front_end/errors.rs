@@ -262,6 +262,14 @@ const CASES: &[(&str, &str)] = &[
         "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), emit(energy, plots))] struct Pendulum;",
     ),
     (
+        "unknown_solve",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), solve = recursive)] struct Pendulum;",
+    ),
+    (
+        "duplicate_solve",
+        "#[branched_pendulum(gravity = 1, solve = recursion, a: rod(mass = 1, length = 1), solve = factorization)] struct Pendulum;",
+    ),
+    (
         "duplicate_request",
         "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
     emit(energies, energies, transfer(exact, exact)))] struct Pendulum;",

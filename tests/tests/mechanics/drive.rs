@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum_codegen::mechanics::coordinates::Kind;
+use branched_pendulum_codegen::scene::Solve;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::constrained;
 use branched_pendulum_tests::oracle::drive::{Jet, Push, Signal};
@@ -36,7 +37,13 @@ impl Case {
             .zip(&drive)
             .filter_map(|(name, signal)| Some(format!("{name} = {}", signal.as_ref()?)))
             .collect();
-        let text = format!("{}, drive({})", sample.text, parts.join(", "));
+        // Either solve, in turn.
+        let solve = Solve::ALL[seed as usize % 2].name();
+        let text = format!(
+            "{}, drive({}), solve = {solve}",
+            sample.text,
+            parts.join(", ")
+        );
         let compiled = compile(&text);
         Self {
             sample,

@@ -15,6 +15,7 @@ mod random_trees;
 mod rebuilt;
 mod reference;
 mod sectors;
+mod solves;
 mod support;
 mod symmetric;
 mod taylor;

@@ -1,0 +1,78 @@
+//! The tree's joints as the articulated recursion sees them (physics §10):
+//! the constants of each orbit, read off the positions.
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::expression::Expr;
+use super::frame::Frame;
+use crate::scene::LinkId;
+
+/// Constants of the links of one orbit; each is an expression in named
+/// constants, parameters and numbers, zero where the scene has no such thing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Diagonal entry M of the mass matrix.
+    pub inertia: Expr,
+    /// First moment (h, e) of the mass that the link carries, about its pivot,
+    /// along and across.
+    pub moment: [Expr; 2],
+    /// The link's pivot (ℓ, w) from its parent's, along and across.
+    pub pivot: [Expr; 2],
+    /// Viscous friction in the pivot.
+    pub friction: Expr,
+    /// Viscous drag against the ground.
+    pub drag: Expr,
+    /// Stiffness of the torsion spring in the pivot.
+    pub spring: Expr,
+}
+
+/// What the articulated recursion is formed from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Articulation {
+    /// Gravitational acceleration.
+    pub gravity: Expr,
+    /// The joints of each orbit of the scene, in its order; one link stands for
+    /// all of its orbit.
+    pub joints: Vec<Joint>,
+}
+
+impl Derivation<'_> {
+    pub(super) fn articulation(&self, frame: &Frame) -> Articulation {
+        let scene = self.scene;
+        let expr = |formula: Formula| formula.to_expr(&self.symbols);
+        // Σ m_l (height of l) = Σ e_i sin θ_i − h_i cos θ_i.
+        let heights = self.heights(&frame.coordinates, |derivation, link| {
+            derivation.quantity(&link.mass)
+        });
+        let joints = scene.orbits.iter().map(|orbit| {
+            let LinkId(index) = orbit.links[0];
+            let link = &scene.links[index];
+            let angle = frame.coordinates[index];
+            let named = |letter: &str| match self.symbols.find(&format!("{letter}_{}", orbit.name))
+            {
+                Some(symbol) => Expr::Symbol(symbol),
+                None => Expr::zero(),
+            };
+            let optional = |value: &Option<_>, letter| match value {
+                Some(_) => named(letter),
+                None => Expr::zero(),
+            };
+            Joint {
+                inertia: expr(frame.mass.get(index, index)),
+                moment: [
+                    expr((-heights.derivative(self.cos(angle))).expand()),
+                    expr(heights.derivative(self.sin(angle)).expand()),
+                ],
+                pivot: [&link.pivot.along, &link.pivot.lateral]
+                    .map(|component| expr(self.quantity(component).expand())),
+                friction: optional(&link.friction, "c"),
+                drag: optional(&link.drag, "k"),
+                spring: optional(&link.spring, "κ"),
+            }
+        });
+        Articulation {
+            gravity: expr(self.quantity(&scene.gravity).expand()),
+            joints: joints.collect(),
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Which solve the accelerations take: both are derived, and the cheaper one
+//! stays.
+
+use super::ValueId;
+use super::count::{Operations, operations};
+use super::lower::{Door, Lowering};
+use crate::scene::{Scene, Solve};
+
+/// How the accelerations in absolute angles are solved for, and what the other
+/// way would cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// What is emitted.
+    pub solve: Solve,
+    /// Operations of the factorisation.
+    pub factorization: Operations,
+    /// Operations of the recursion.
+    pub recursion: Operations,
+}
+
+/// What a division costs in products and sums. On current processors one takes
+/// as long as 4 to 8 of these at full width; both solves have one for each link
+/// with children, so that little depends on it.
+const DIVISION: usize = 6;
+
+/// Cost by which solves are compared: products, sums and six times the
+/// divisions. Sines and cosines are the same in all.
+pub fn cost(operations: &Operations) -> usize {
+    operations.multiplications + operations.additions + DIVISION * operations.divisions
+}
+
+impl Lowering<'_> {
+    /// θ̈ in absolute angles, solved for as the scene asks, or else at the lower
+    /// [`cost`]. What is not chosen leaves no trace in the program.
+    pub(super) fn accelerations(
+        &mut self,
+        scene: &Scene,
+        door: &mut Door<'_>,
+    ) -> (Vec<ValueId>, Choice) {
+        let (mut other, mut other_door) = (self.clone(), door.clone());
+        let recursion = other.recursion(scene, &mut other_door);
+        let recursion_cost = operations(&other.builder.definitions, &recursion);
+        let factorization = self.factorization(door);
+        let factorization_cost = operations(&self.builder.definitions, &factorization);
+        let cheaper = cost(&recursion_cost) < cost(&factorization_cost)
+            && other.builder.setup.is_representable();
+        let solve = scene.requests.solve.unwrap_or(match cheaper {
+            true => Solve::Recursion,
+            false => Solve::Factorization,
+        });
+        let choice = Choice {
+            solve,
+            factorization: factorization_cost,
+            recursion: recursion_cost,
+        };
+        match solve {
+            Solve::Factorization => (factorization, choice),
+            Solve::Recursion => {
+                *self = other;
+                *door = other_door;
+                (recursion, choice)
+            }
+        }
+    }
+
+    /// q̈ with M q̈ = −bias, by elimination.
+    pub(super) fn factorization(&mut self, door: &mut Door<'_>) -> Vec<ValueId> {
+        let frame = door.frame;
+        let names = self.coordinate_names(frame);
+        let mass = self.mass_matrix(door);
+        let mut right = Vec::new();
+        for (bias, name) in frame.bias.iter().zip(&names) {
+            let value = self.expr(door, bias);
+            self.builder.name(value, &format!("bias_{name}"));
+            let torque = self.builder.neg(value);
+            right.push(self.builder.name(torque, &format!("torque_{name}")));
+        }
+        let solution = self.builder.solve(mass, right, &names);
+        for (&value, name) in solution.iter().zip(&names) {
+            self.builder.name(value, &format!("alpha_{name}"));
+        }
+        solution
+    }
+}
