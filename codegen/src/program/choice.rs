@@ -1,9 +1,9 @@
 //! Which solve the accelerations take: both are derived, and the cheaper one
 //! stays.
 
+use super::ValueId;
 use super::count::{Operations, operations};
 use super::lower::{Door, Lowering};
-use super::ValueId;
 use crate::scene::{Scene, Solve};
 
 /// How the accelerations in absolute angles are solved for, and what the other

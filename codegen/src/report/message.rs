@@ -328,7 +328,10 @@ impl Message {
 
     /// An unknown setting of the scene.
     pub fn unknown_entry(name: String) -> Self {
-        let nearest = nearest(&name, &["gravity", "crate", "solve", "drive", "emit", "observe"]);
+        let nearest = nearest(
+            &name,
+            &["gravity", "crate", "solve", "drive", "emit", "observe"],
+        );
         Self::UnknownEntry { name, nearest }
     }
 }

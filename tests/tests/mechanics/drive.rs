@@ -39,7 +39,11 @@ impl Case {
             .collect();
         // Either solve, in turn.
         let solve = Solve::ALL[seed as usize % 2].name();
-        let text = format!("{}, drive({}), solve = {solve}", sample.text, parts.join(", "));
+        let text = format!(
+            "{}, drive({}), solve = {solve}",
+            sample.text,
+            parts.join(", ")
+        );
         let compiled = compile(&text);
         Self {
             sample,

@@ -99,7 +99,10 @@ fn parameters_of_either_sign() {
                 DVector::from_vec(found)
             });
             assert!(a.iter().all(|value| value.is_finite()));
-            assert!((&a - &b).amax() < 1e-12 * a.amax(), "{parameters:?}: {a} {b}");
+            assert!(
+                (&a - &b).amax() < 1e-12 * a.amax(),
+                "{parameters:?}: {a} {b}"
+            );
         }
     }
 }

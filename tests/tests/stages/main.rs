@@ -2,5 +2,6 @@
 //! that it says the same each time.
 
 mod determinism;
+mod ladder;
 mod pages;
 mod snapshots;

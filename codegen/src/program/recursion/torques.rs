@@ -31,7 +31,10 @@ impl Lowering<'_> {
             let mut sums: Vec<(&str, ValueId, ValueId)> = Vec::new();
             for link in children(scene, parent) {
                 let unit = &units.links[scene.links[link].orbit.0];
-                let joint = [("slip", unit.friction, omega), ("twist", unit.spring, &theta)];
+                let joint = [
+                    ("slip", unit.friction, omega),
+                    ("twist", unit.spring, &theta),
+                ];
                 for (what, coefficient, state) in joint {
                     if builder.is(coefficient, 0) {
                         continue;

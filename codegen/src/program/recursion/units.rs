@@ -76,9 +76,7 @@ impl Lowering<'_> {
             .map(|(number, (orbit, given))| {
                 let own = lengths[number];
                 let parent = scene.links[orbit.links[0].0].parent;
-                let carrier = parent.map_or(one, |LinkId(link)| {
-                    lengths[scene.links[link].orbit.0]
-                });
+                let carrier = parent.map_or(one, |LinkId(link)| lengths[scene.links[link].orbit.0]);
                 let first = builder.mul(own, mass);
                 let second = builder.mul(own, first);
                 let torque = builder.mul(first, tree_length);
@@ -131,9 +129,9 @@ fn own_length(
     if pivots.is_empty() {
         return oscillation(builder, scene, &given[orbit]);
     }
-    let usable = pivots.into_iter().filter(|(pivot, _)| {
-        builder.is(pivot[1], 0) && builder.is_never_zero(pivot[0], scene)
-    });
+    let usable = pivots
+        .into_iter()
+        .filter(|(pivot, _)| builder.is(pivot[1], 0) && builder.is_never_zero(pivot[0], scene));
     let commonest = usable.max_by_key(|(_, count)| *count);
     commonest.map(|(pivot, _)| pivot[0])
 }
