@@ -177,6 +177,14 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             fn symmetric_accelerations_into(&self, _: T, _: &[T], _: &[T], _: &mut [T]) {}
         }
 
+        impl<T: #runtime::Scalar> #runtime::TransferForms<T> for #name<T> {
+            const TRANSFER_FORMS: &'static [#runtime::TransferForm] = &[];
+            const RECEIVERS: &'static [&'static str] = &[];
+            const SMALL_SECTORS: &'static [#runtime::transfer_forms::SmallSector] = &[];
+            fn transfers_into(&self, _: usize, _: &[T], _: &[T], _: &mut [#runtime::Transfer<T>]) {}
+            fn symmetric_momenta_into(&self, _: &[T], _: &[T], _: &mut [T]) {}
+        }
+
         impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
             fn kinetic_energy_of(&self, _: &[T], _: &[T]) -> T { ::core::unimplemented!() }
             fn potential_energy_of(&self, _: &[T]) -> T { ::core::unimplemented!() }
