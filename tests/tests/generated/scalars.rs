@@ -3,7 +3,7 @@
 
 use branched_pendulum::batch::{Batch, BatchError};
 use branched_pendulum::scalar::{Double, Dual, InstructionSet, Lane, Lanes};
-use branched_pendulum::{Pendulum, Rescale, Scalar};
+use branched_pendulum::{Rescale, Scalar};
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
     chain::Chain, generations::Generations, paper::Paper, triplet::Triplet,
