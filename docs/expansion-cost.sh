@@ -10,10 +10,23 @@ folder="$(mktemp -d)"
 trap 'rm -r "$folder"' EXIT
 TIMEFORMAT=%U
 
+# Five observables in symmetric coordinates.
+observables="observe(
+    swing = sin(theta_arm_2_d)^2 + omega_arm_2_d^2,
+    push = p_arm_3_d * theta_arm_3_d,
+    lag = omega_arm_3_m - omega_arm_2_m,
+    spread = theta_arm_3_1_d^2 + theta_arm_3_2_d^2,
+    share = kinetic_energy + potential_energy - p_arm_2_d^2 / (4 * inertia_arm_2),
+),"
+
 # Requests, generations.
 row() {
-    local emit="" seconds lines longest
-    [ -z "$1" ] || emit="emit($1),"
+    local emit seconds lines longest
+    case "$1" in
+        "") emit="" ;;
+        "five symmetric observables") emit="$observables" ;;
+        *) emit="emit($1)," ;;
+    esac
     cat > "$folder/scene.rs" <<SCENE
 use branched_pendulum::prelude::*;
 /// Rods.
@@ -37,5 +50,6 @@ for generations in 2 3 4 5; do
     row "" "$generations"
     row "budget(canonical)" "$generations"
     row "budget(canonical, parseval, velocity, rest, matrix)" "$generations"
+    [ "$generations" == 2 ] || row "five symmetric observables" "$generations"
     [ "$generations" != 3 ] || row "budget(canonical, amplitude = 2, amplitude = 4)" 3
 done

@@ -6,95 +6,18 @@ import time
 import heyoka as hy
 import numpy as np
 
-GRAVITY = 9.80665
-NUMBERS = 6144
+from scenes import NUMBERS, dense, eliminated, paper, tree
+
 REPEATS = 301
 
 
-def paper():
-    """Links as (parent, mass, com, inertia, lever)."""
-    child = (0, 0.10531, 0.043, 0.516e-3, 0.27)
-    return [(None, 0.12880, 0.084, 1.88e-3, 0.0), child, child]
+class Symbolic:
+    """What the formulation of `scenes` needs of a tool, in heyoka's terms."""
 
-
-def tree(generations):
-    links = []
-
-    def grow(parent, left, mass, length, lever):
-        if left == 0:
-            return
-        index = len(links)
-        links.append((parent, mass, length / 2, mass * length**2 / 12, lever))
-        for _ in range(2):
-            grow(index, left - 1, mass * 0.5, length * 0.7, length)
-
-    grow(None, generations, 0.12, 0.3, 0.0)
-    return links
-
-
-def constants(links):
-    """Couplings A_ij and weights G_i: docs/physics.md, section 1."""
-    n = len(links)
-    subtree = [link[1] for link in links]
-    moment = [link[1] * link[2] for link in links]
-    coupling = {(i, i): link[3] + link[1] * link[2] ** 2 for i, link in enumerate(links)}
-    for i in reversed(range(n)):
-        parent, lever = links[i][0], links[i][4]
-        if parent is not None:
-            subtree[parent] += subtree[i]
-            moment[parent] += lever * subtree[i]
-            coupling[parent, parent] += lever**2 * subtree[i]
-    for j in range(n):
-        below = j
-        while (above := links[below][0]) is not None:
-            coupling[j, above] = links[below][4] * moment[j]
-            below = above
-    return coupling, [GRAVITY * m for m in moment]
-
-
-def accelerations(links):
-    """Expressions of the accelerations, eliminated from the leaves up."""
-    n = len(links)
-    coupling, weight = constants(links)
-    theta = [hy.make_vars(f"t{i}") for i in range(n)]
-    omega = [hy.make_vars(f"w{i}") for i in range(n)]
-    sine, cosine = [hy.sin(t) for t in theta], [hy.cos(t) for t in theta]
-    matrix, right = {}, [-(weight[i] * sine[i]) for i in range(n)]
-    for (j, i), a in coupling.items():
-        if i == j:
-            matrix[j, j] = hy.expression(a)
-            continue
-        matrix[j, i] = a * (cosine[j] * cosine[i] + sine[j] * sine[i])
-        turned = a * (sine[j] * cosine[i] - cosine[j] * sine[i])
-        right[j] = right[j] - turned * (omega[i] * omega[i])
-        right[i] = right[i] + turned * (omega[j] * omega[j])
-    ratio = {}
-    for k in reversed(range(n)):
-        inverse = 1.0 / matrix[k, k]
-        row = [i for i in range(k) if (k, i) in matrix]
-        for i in row:
-            ratio[k, i] = matrix[k, i] * inverse
-            for j in row:
-                if j <= i:
-                    matrix[i, j] = matrix[i, j] - ratio[k, i] * matrix[k, j]
-            right[i] = right[i] - ratio[k, i] * right[k]
-        right[k] = right[k] * inverse
-    for k in range(n):
-        for i in range(k):
-            if (k, i) in ratio:
-                right[k] = right[k] - ratio[k, i] * right[i]
-    return theta + omega, right
-
-
-def dense(links, theta, omega):
-    n = len(links)
-    coupling, weight = constants(links)
-    a = np.zeros((n, n))
-    for (j, i), value in coupling.items():
-        a[i, j] = a[j, i] = value
-    difference = theta[:, None] - theta[None, :]
-    bias = (a * np.sin(difference)) @ omega**2 + np.array(weight) * np.sin(theta)
-    return np.linalg.solve(a * np.cos(difference), -bias)
+    variables = staticmethod(lambda name, n: [hy.make_vars(f"{name}{i}") for i in range(n)])
+    number = staticmethod(hy.expression)
+    sin = staticmethod(hy.sin)
+    cos = staticmethod(hy.cos)
 
 
 def median_ns(function, states):
@@ -113,7 +36,7 @@ def main():
     for links in (paper(), tree(3), tree(4), tree(5)):
         n = len(links)
         states = (NUMBERS // n + 15) // 16 * 16
-        variables, outputs = accelerations(links)
+        variables, outputs = eliminated(links, Symbolic)
         function = hy.cfunc(outputs, variables, compact_mode=False)
         theta = random.uniform(-np.pi, np.pi, (n, states))
         omega = random.uniform(-9, 9, (n, states))

@@ -221,6 +221,34 @@ impl Rational {
         }
     }
 
+    /// The nearest `f64` and the nearest to what that leaves: together some 106
+    /// bits. The second is 0 where the first is exact, not finite, or so small
+    /// that the rest is below all `f64`.
+    pub fn to_parts(&self) -> (f64, f64) {
+        let high = self.to_f64();
+        match Self::from_f64(high) {
+            Some(rounded) => (high, (self.clone() - rounded).to_f64()),
+            None => (high, 0.0),
+        }
+    }
+
+    /// The value of a finite `f64`.
+    fn from_f64(value: f64) -> Option<Self> {
+        const MANTISSA_BITS: u32 = 52;
+        let bits = value.abs().to_bits();
+        let (field, fraction) = (bits >> MANTISSA_BITS, bits & ((1 << MANTISSA_BITS) - 1));
+        let (mantissa, exponent) = match field {
+            0 => (fraction, -1074),
+            _ => (fraction | (1 << MANTISSA_BITS), field as i32 - 1075),
+        };
+        if !value.is_finite() {
+            return None;
+        }
+        let sign = if value < 0.0 { -1 } else { 1 };
+        let power = Self::from(2).checked_pow(exponent).ok()?;
+        Some(Self::from(sign * mantissa as i64) * power)
+    }
+
     /// The terminating decimal expansion, where there is one of at most
     /// [`DECIMAL_DIGITS`] digits.
     fn terminating_decimal(&self) -> Option<String> {

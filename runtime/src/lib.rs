@@ -12,7 +12,9 @@
 //! - [`batch`]: accelerations of many states, in vector registers,
 //! - [`sectors`]: what identical subtrees do in phase and against each other,
 //! - [`taylor`]: sums that emitted Taylor recurrences are made of,
+//! - [`transfer_forms`]: several forms of one energy transfer,
 //! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
+//!   errors of truncated transfers,
 //! - [`data`]: CSV files.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
@@ -67,7 +69,8 @@
 //! # Features
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
-//!   `alloc` and offers [`scalar`], [`system`], [`batch`], [`taylor`] and [`integrate`].
+//!   `alloc` and offers [`scalar`], [`system`], [`batch`], [`taylor`],
+//!   [`sectors`], [`transfer_forms`] and [`integrate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `chart`: line charts as SVG and PNG.
@@ -93,12 +96,14 @@ pub mod scalar;
 pub mod sectors;
 pub mod system;
 pub mod taylor;
+pub mod transfer_forms;
 
 // What emitted code names, at the shortest path.
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
 pub use system::{Canonical, Energy, Pendulum, Rescale, SymmetricPendulum, TaylorPendulum};
+pub use transfer_forms::{TransferForm, TransferForms};
 
 #[cfg(feature = "macros")]
 #[doc = include_str!("attribute.md")]

@@ -4,7 +4,15 @@
 //! into blocks: one for the means and one for each branching and difference. The
 //! coordinates of a block are a sector. Emitted code lists them
 //! ([`Sectors::SECTORS`]) and reports their energies and the transfers between
-//! them ([`Budget`]).
+//! them ([`Budget`]). States come from absolute angles into symmetric coordinates
+//! and back by the functions of [`Sectors`], in either [`Normalisation`].
+
+mod normalisation;
+
+pub use normalisation::Normalisation;
+use normalisation::{Kind, inward, outward, renormalise};
+
+use crate::scalar::Scalar;
 
 /// A coordinate of a sector, in terms of the links: θ_link = Σ weight ·
 /// coordinate over all coordinates.
@@ -20,7 +28,8 @@ impl SectorCoordinate {
     /// Σ weight²: the square of the factor that turns the coordinate into the
     /// orthonormal one. The orthonormal coordinate is √norm · coordinate, its
     /// momentum that of the coordinate divided by √norm; for the difference of
-    /// two links the norm is 2. `analysis::sector_modes` says more.
+    /// two links the norm is 2. [`Sectors`] converts states;
+    /// `analysis::sector_modes` says more.
     #[must_use]
     pub fn norm(&self) -> f64 {
         self.weights.iter().map(|(_, weight)| weight * weight).sum()
@@ -48,11 +57,110 @@ pub struct Sector {
 }
 
 /// A model whose sectors are known.
+///
+/// Its functions transform states, for any scalar. All slices have one number
+/// for each link; a slice of another length is answered with NaN. Effort: the
+/// number of weights, O(n · depth · copies) for n links.
+///
+/// # Examples
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::sectors::{Normalisation, Sectors};
+/// use branched_pendulum::branched_pendulum;
+///
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+///         child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+///     ],
+///     emit(momenta, budget(canonical)),
+/// )]
+/// struct BranchedDouble;
+///
+/// let model = BranchedDouble::<f64>::new();
+/// let theta = [0.1, 0.5, 0.3];
+/// let (mut plain, mut orthonormal) = ([0.0; 3], [0.0; 3]);
+/// model.symmetric_from_absolute(Normalisation::Plain, &theta, &mut plain);
+/// model.symmetric_from_absolute(Normalisation::Orthonormal, &theta, &mut orthonormal);
+/// // The paper's θ_m = (θ_2 + θ_3)/2 and θ_d = (θ_2 − θ_3)/2 ...
+/// assert!((plain[1] - 0.4).abs() < 1e-15 && (plain[2] - 0.1).abs() < 1e-15);
+/// // ... and a rotation of the angles.
+/// assert!((orthonormal[2] - (0.5 - 0.3) / 2.0_f64.sqrt()).abs() < 1e-15);
+/// let square = |values: &[f64]| values.iter().map(|x| x * x).sum::<f64>();
+/// assert!((square(&orthonormal) - square(&theta)).abs() < 1e-15);
+/// ```
 pub trait Sectors {
     /// The sectors: the means, then the differences, those of a branching before
     /// those of the branchings below it.
-    /// Together they have as many coordinates as there are links.
+    /// Together they have as many coordinates as there are links; one after the
+    /// other they are the symmetric coordinates, in the order of
+    /// [`COORDINATE_NAMES`](crate::SymmetricPendulum::COORDINATE_NAMES).
     const SECTORS: &'static [Sector];
+
+    /// Symmetric coordinates from absolute angles, or their rates from angular
+    /// velocities.
+    fn symmetric_from_absolute<T: Scalar>(
+        &self,
+        normalisation: Normalisation,
+        absolute: &[T],
+        symmetric: &mut [T],
+    ) {
+        let kind = Kind::Coordinates;
+        inward(Self::SECTORS, kind, normalisation, absolute, symmetric);
+    }
+
+    /// Absolute angles from symmetric coordinates, or angular velocities from
+    /// their rates.
+    fn absolute_from_symmetric<T: Scalar>(
+        &self,
+        normalisation: Normalisation,
+        symmetric: &[T],
+        absolute: &mut [T],
+    ) {
+        let kind = Kind::Coordinates;
+        outward(Self::SECTORS, kind, normalisation, symmetric, absolute);
+    }
+
+    /// Momenta of symmetric coordinates from those of the absolute angles: p_j =
+    /// Σ p_i ∂θ_i/∂q_j.
+    fn symmetric_momenta_from_absolute<T: Scalar>(
+        &self,
+        normalisation: Normalisation,
+        absolute: &[T],
+        symmetric: &mut [T],
+    ) {
+        let kind = Kind::Momenta;
+        inward(Self::SECTORS, kind, normalisation, absolute, symmetric);
+    }
+
+    /// Momenta of the absolute angles from those of symmetric coordinates.
+    fn absolute_momenta_from_symmetric<T: Scalar>(
+        &self,
+        normalisation: Normalisation,
+        symmetric: &[T],
+        absolute: &mut [T],
+    ) {
+        let kind = Kind::Momenta;
+        outward(Self::SECTORS, kind, normalisation, symmetric, absolute);
+    }
+
+    /// Symmetric coordinates or their rates, from one normalisation to another
+    /// in place.
+    fn renormalise<T: Scalar>(&self, from: Normalisation, to: Normalisation, values: &mut [T]) {
+        renormalise(Self::SECTORS, Kind::Coordinates, [from, to], values);
+    }
+
+    /// Momenta of symmetric coordinates, from one normalisation to another in
+    /// place.
+    fn renormalise_momenta<T: Scalar>(
+        &self,
+        from: Normalisation,
+        to: Normalisation,
+        values: &mut [T],
+    ) {
+        renormalise(Self::SECTORS, Kind::Momenta, [from, to], values);
+    }
 }
 
 /// Energies of `S` sectors and what changes them: dE/dt = transfer + power.

@@ -7,6 +7,7 @@
 //! [`SymmetricCoordinates`] turn one into the other.
 
 mod canonical;
+mod first_integral;
 pub(crate) mod rescale;
 mod taylor;
 
@@ -16,6 +17,7 @@ use core::fmt;
 use crate::scalar::Scalar;
 
 pub use canonical::{Canonical, CanonicalVariables};
+pub use first_integral::{CanonicalEnergy, FirstIntegral};
 pub use rescale::Rescale;
 pub use taylor::{TaylorOde, TaylorPendulum};
 

@@ -9,6 +9,7 @@ use core::ops::ControlFlow;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+use branched_pendulum::integrate::{Projected, StoermerVerlet};
 use branched_pendulum::prelude::*;
 
 thread_local! {
@@ -104,6 +105,38 @@ fn methods_with_fixed_steps() {
         };
         assert_eq!(in_steps(&ode, &method), 0);
     }
+}
+
+#[test]
+fn projection_onto_the_energy() {
+    let energy = |y: &[f64], gradient: &mut [f64]| {
+        gradient.copy_from_slice(y);
+        0.5 * (y[0] * y[0] + y[1] * y[1])
+    };
+    let ode = oscillator();
+    assert_eq!(in_steps(&ode, &Projected::new(Rk4::new(STEP), &energy)), 0);
+    let gauss = Gauss::new(GaussOrder::Two, STEP);
+    assert_eq!(in_steps(&ode, &Projected::new(gauss, &energy)), 0);
+}
+
+/// The oscillator in canonical variables.
+struct Mass;
+
+impl Canonical<f64> for Mass {
+    fn freedoms(&self) -> usize {
+        1
+    }
+
+    fn canonical_rates(&self, _: f64, q: &[f64], p: &[f64], v: &mut [f64], f: &mut [f64]) {
+        v[0] = p[0];
+        f[0] = -q[0];
+    }
+}
+
+#[test]
+fn splitting() {
+    let ode = CanonicalVariables(&Mass);
+    assert_eq!(in_steps(&ode, &StoermerVerlet::new(STEP)), 0);
 }
 
 /// The oscillator by its Taylor coefficients.

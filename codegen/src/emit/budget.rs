@@ -93,23 +93,20 @@ impl Emission<'_> {
                 "Energies E_s of all sectors (in J), the transfers W_s into them and the powers P_s of friction and drive (in W), so that dE_s/dt = W_s + P_s without truncation. The kinetic energy of a sector is taken {kinetic}."
             ),
             String::new(),
-            "```text".into(),
-            formula.into(),
-            "V_s = Σ G |[1 − e^{iθ}]_s|²/2 + springs".into(),
-            "```".into(),
-            String::new(),
-            "<details><summary>LaTeX</summary>".into(),
-            String::new(),
-            "```latex".into(),
-            latex.into(),
-            "V_s = \\tfrac12 \\sum G\\,|[1-e^{i\\theta}]_s|^2 + \\text{springs}".into(),
-            "```".into(),
-            "</details>".into(),
+        ];
+        lines.extend(block(
+            &[formula, "V_s = Σ G |[1 − e^{iθ}]_s|²/2 + springs"],
+            &[
+                latex,
+                "V_s = \\tfrac12 \\sum G\\,|[1-e^{i\\theta}]_s|^2 + \\text{springs}",
+            ],
+        ));
+        lines.extend([
             String::new(),
             format!(
                 "[x]_s is the part of x in the symmetric coordinates of the sector, links summed; V_s sums to U and has the period 2π in every angle, springs aside. {closes}"
             ),
-        ];
+        ]);
         let lateral = self.mechanics.sectors.as_ref().is_some_and(|sectors| {
             sectors
                 .orbits
@@ -140,21 +137,50 @@ impl Emission<'_> {
             ],
         };
         lines.push(String::new());
-        lines.push("```text".into());
-        lines.push("kinetic = {E_s, K − T_s}, potential = {E_s, U − V_s}".into());
-        lines.push("```".into());
+        lines.extend(block(
+            &["kinetic = {E_s, K − T_s}, potential = {E_s, U − V_s}, T_s = E_s − V_s"],
+            &[
+                "W_{s,\\text{kinetic}} = \\{E_s, K - T_s\\}",
+                "W_{s,\\text{potential}} = \\{E_s, U - V_s\\}",
+                "T_s = E_s - V_s",
+            ],
+        ));
         lines.push(String::new());
         lines.push(self.sector_names());
         lines
     }
 
     pub(super) fn matrix_meaning(&self) -> Vec<String> {
-        vec![
-            "Transfer matrix (in W): row s, column r holds W(r→s) = {E_s, E_r}, what sector r gives sector s. Energies by Parseval, as in `budget_parseval`.".into(),
+        let mut lines = vec![
+            "Transfer matrix (in W): row s, column r holds W(r→s), what sector r gives sector s. Energies by Parseval, as in `budget_parseval`.".into(),
+            String::new(),
+        ];
+        lines.extend(block(
+            &["W(r→s) = {E_s, E_r} = −W(s→r), Σ_r W(r→s) = W_s"],
+            &[
+                "W_{r\\to s} = \\{E_s, E_r\\} = -W_{s\\to r}",
+                "\\sum_r W_{r\\to s} = W_s",
+            ],
+        ));
+        lines.extend([
             String::new(),
             "Antisymmetric to the last bit; row s sums to the transfer into s.".into(),
             String::new(),
             self.sector_names(),
-        ]
+        ]);
+        lines
     }
+}
+
+/// Formulas as a text block and, folded away, as LaTeX.
+fn block(text: &[&str], latex: &[&str]) -> Vec<String> {
+    let lines = ["```text"].iter().chain(text).chain(&[
+        "```",
+        "",
+        "<details><summary>LaTeX</summary>",
+        "",
+        "```latex",
+    ]);
+    let lines = lines.chain(latex).chain(&["```", "</details>"]);
+    lines.map(|&line| line.to_owned()).collect()
 }

@@ -1,8 +1,9 @@
 //! One function for each entry point.
 
 use super::Emission;
+use super::gather::Gathered;
 use super::names::Locals;
-use super::parts::{Line, MOST_LINES};
+use super::parts::{self, Line};
 use crate::exact::Rational;
 use crate::program::{Argument, Entry, Fused, Op, Purpose, Shape, ValueId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -21,23 +22,24 @@ pub(super) enum Binding {
     Atom,
 }
 
+/// A function before it is put together.
+pub(super) struct Written {
+    pub(super) lines: Vec<Line>,
+    pub(super) locals: Locals,
+    gathered: Gathered,
+    /// Whether it is to be written in parts.
+    pub(super) long: bool,
+}
+
 impl Emission<'_> {
     pub(super) fn function(&self, entry: &Entry) -> TokenStream {
         let docs = self.entry_docs(entry);
         let name = ident(&entry.name);
-        let arguments = entry.arguments.iter().map(|&argument| {
-            let name = ident(argument.name());
-            if argument == Argument::Time {
-                return quote!(#name: T);
-            }
-            let size = self.argument_size(argument);
-            quote!(#name: &[T; #size])
-        });
+        let arguments = entry.arguments.iter();
+        let arguments = arguments.map(|&argument| self.parameter(argument));
         let result = self.result_type(entry);
         let needed = self.program.needed(&entry.outputs);
-        let locals = self.locals(entry, &needed);
-        let body = self.body(entry, &needed, &locals);
-        let parts = self.part_functions(entry, &needed, &locals);
+        let (body, parts) = self.body(entry, &needed);
         // A batch compiles the accelerations for wider registers than the rest
         // of the build uses, which only inlining allows.
         let inline = if entry.purpose == Purpose::Accelerations {
@@ -54,6 +56,20 @@ impl Emission<'_> {
 
             #parts
         }
+    }
+
+    /// `theta: &[T; 3]`.
+    pub(super) fn parameter(&self, argument: Argument) -> TokenStream {
+        let (name, kind) = (ident(argument.name()), self.argument_type(argument));
+        quote!(#name: #kind)
+    }
+
+    pub(super) fn argument_type(&self, argument: Argument) -> TokenStream {
+        if argument == Argument::Time {
+            return quote!(T);
+        }
+        let size = self.argument_size(argument);
+        quote!(&[T; #size])
     }
 
     /// Links and coordinates are equally many.
@@ -87,70 +103,86 @@ impl Emission<'_> {
         }
     }
 
-    fn body(&self, entry: &Entry, needed: &[ValueId], locals: &Locals) -> TokenStream {
-        let (gathered, whole) = self.gathered(entry, needed);
-        let lines = self.lines(&gathered, whole, needed, locals);
-        // The parts of a long function are handed numbers, not arrays.
-        let long = lines.len() > MOST_LINES;
-        let whole = whole.filter(|_| !long);
-        let read = self.read(entry, needed, whole.is_some().then_some(&gathered));
+    /// The body of a function, and the parts behind it if it is long.
+    fn body(&self, entry: &Entry, needed: &[ValueId]) -> (TokenStream, TokenStream) {
+        let written = self.written(entry, needed);
+        if written.long {
+            return self.in_parts(entry, &written.lines, &written.locals);
+        }
+        let Written {
+            lines,
+            locals,
+            gathered,
+            ..
+        } = written;
+        let whole = gathered.whole;
+        let read = self.read(entry, needed, whole.is_some().then_some(&gathered.inputs));
         let inputs = entry
             .arguments
             .iter()
             .filter(|argument| whole != Some(**argument) || self.reads(**argument, &read))
-            .map(|&argument| self.take_apart(argument, &read, locals));
-        let lines: Vec<TokenStream> = if long {
-            let lines = self.lines(&gathered, None, needed, locals);
-            let parts = self.parts(entry, &lines, locals);
-            let numbers = self.numbers_of_outputs(entry, &lines, locals);
-            let calls = parts.calls(entry, &self.names_of_outputs(entry, locals));
-            numbers.into_iter().chain(calls).collect()
-        } else {
-            lines.into_iter().map(|line| line.tokens).collect()
-        };
-        let outputs = self.outputs(entry, locals);
-        quote! {
+            .map(|&argument| self.take_apart(argument, &read, &locals));
+        let lines = lines.into_iter().map(|line| line.tokens);
+        let outputs = entry.outputs.iter();
+        let outputs = outputs.map(|&id| self.bound(id, &locals, Binding::Sum));
+        let outputs = self.shaped(entry, outputs.collect());
+        let body = quote! {
             #(#inputs)*
             #(#lines)*
             #outputs
+        };
+        (body, TokenStream::new())
+    }
+
+    /// A function's lines; the outputs of a long one have names too.
+    pub(super) fn written(&self, entry: &Entry, needed: &[ValueId]) -> Written {
+        let mut locals = self.locals(entry, needed);
+        let gathered = self.gathered(entry, needed);
+        let mut lines = self.lines(&gathered, needed, &locals);
+        let long = parts::long(&lines);
+        if long {
+            self.name_outputs(entry, &mut locals);
+            lines = self.lines(&gathered, needed, &locals);
+        }
+        Written {
+            lines,
+            locals,
+            gathered,
+            long,
         }
     }
 
     /// The `let` lines of a function; first the sines and cosines that are
-    /// asked for at once, of an argument as a `whole` or of single angles.
+    /// asked for at once, and what their angles are formed of.
     pub(super) fn lines(
         &self,
-        gathered: &[ValueId],
-        whole: Option<Argument>,
+        gathered: &Gathered,
         needed: &[ValueId],
         locals: &Locals,
     ) -> Vec<Line> {
+        let Gathered {
+            inputs,
+            whole,
+            formed,
+        } = gathered;
         let mut lines = Vec::new();
-        let mut paired = gathered.to_vec();
-        if !gathered.is_empty() {
-            let of_gathered = needed.iter().copied().filter(|&id| {
-                matches!(*self.op(id), Op::Sin(angle) | Op::Cos(angle) if gathered.contains(&angle))
-            });
-            lines.push(Line {
-                defines: of_gathered.collect(),
-                reads: gathered.to_vec(),
-                tokens: self.sin_cos_each(gathered, whole, needed, locals),
-            });
+        if !inputs.is_empty() {
+            lines.push(self.gathered_line(inputs, *whole, needed, locals));
         }
+        let first = self.program.needed(formed);
+        for &id in &first {
+            lines.extend(self.line(id, locals));
+        }
+        if !formed.is_empty() {
+            lines.push(self.gathered_line(formed, None, needed, locals));
+        }
+        let mut paired: Vec<ValueId> = inputs.iter().chain(formed).copied().collect();
         for &id in needed {
             let angle = match *self.op(id) {
                 Op::Sin(angle) | Op::Cos(angle) => angle,
-                Op::Input(..) | Op::Constant(_) => continue,
+                _ if first.binary_search(&id).is_ok() => continue,
                 _ => {
-                    if let Some(name) = locals.names.get(&id) {
-                        let name = ident(name);
-                        let (value, _) = self.definition(id, locals);
-                        lines.push(Line {
-                            defines: vec![id],
-                            reads: self.program.definition(id).op.operands().collect(),
-                            tokens: quote!(let #name = #value;),
-                        });
-                    }
+                    lines.extend(self.line(id, locals));
                     continue;
                 }
             };
@@ -164,11 +196,48 @@ impl Emission<'_> {
                 lines.push(Line {
                     defines: both.collect(),
                     reads: vec![angle],
+                    whole: None,
                     tokens: self.sin_cos(angle, needed, locals),
                 });
             }
         }
         lines
+    }
+
+    /// The line of a value with a name, unless it is handed over.
+    fn line(&self, id: ValueId, locals: &Locals) -> Option<Line> {
+        if let Op::Input(..) | Op::Constant(_) = self.op(id) {
+            return None;
+        }
+        let name = ident(locals.names.get(&id)?);
+        let (value, _) = self.definition(id, locals);
+        Some(Line {
+            defines: vec![id],
+            reads: self.op(id).operands().collect(),
+            whole: None,
+            tokens: quote!(let #name = #value;),
+        })
+    }
+
+    fn gathered_line(
+        &self,
+        angles: &[ValueId],
+        whole: Option<Argument>,
+        needed: &[ValueId],
+        locals: &Locals,
+    ) -> Line {
+        let of_angles = needed.iter().copied().filter(
+            |&id| matches!(*self.op(id), Op::Sin(angle) | Op::Cos(angle) if angles.contains(&angle)),
+        );
+        Line {
+            defines: of_angles.collect(),
+            reads: match whole {
+                Some(_) => Vec::new(),
+                None => angles.to_vec(),
+            },
+            whole,
+            tokens: self.sin_cos_each(angles, whole, needed, locals),
+        }
     }
 
     /// `let [theta_parent, _, theta_child_2] = *theta;`, the elements that are
@@ -233,12 +302,8 @@ impl Emission<'_> {
         }
     }
 
-    fn outputs(&self, entry: &Entry, locals: &Locals) -> TokenStream {
-        let values: Vec<TokenStream> = entry
-            .outputs
-            .iter()
-            .map(|&id| self.bound(id, locals, Binding::Sum))
-            .collect();
+    /// The outputs in the shape in which the function returns them.
+    pub(super) fn shaped(&self, entry: &Entry, values: Vec<TokenStream>) -> TokenStream {
         let runtime = self.runtime();
         match entry.shape {
             Shape::Scalar => quote!(#(#values)*),
@@ -356,13 +421,21 @@ impl Emission<'_> {
     }
 }
 
-/// `T::from_f64(2.0)`.
+/// `T::from_f64(2.0)`, or `T::from_parts(0.1, -5.551115123125783e-18)` for a
+/// number that no `f64` is.
 pub(super) fn number_tokens(number: &Rational) -> TokenStream {
-    let value = number.to_f64();
-    let size = Literal::f64_unsuffixed(value.abs());
-    if value.is_sign_negative() {
-        quote!(T::from_f64(-#size))
-    } else {
-        quote!(T::from_f64(#size))
+    let signed = |value: f64, size: Literal| match value.is_sign_negative() {
+        true => quote!(-#size),
+        false => quote!(#size),
+    };
+    let (high, low) = number.to_parts();
+    let decimal = signed(high, Literal::f64_unsuffixed(high.abs()));
+    if low == 0.0 {
+        return quote!(T::from_f64(#decimal));
     }
+    // Some eighteen zeros lead it.
+    let size = low.abs();
+    let short = format!("{size:e}").parse();
+    let rest = signed(low, short.unwrap_or_else(|_| Literal::f64_unsuffixed(size)));
+    quote!(T::from_parts(#decimal, #rest))
 }

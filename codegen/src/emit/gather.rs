@@ -1,43 +1,77 @@
-//! One call for the sines and cosines of all angles that are arguments: the
-//! runtime computes several at a time.
+//! One call for the sines and cosines of all angles that are arguments or are
+//! formed of them (means, half differences): the runtime computes several at a
+//! time.
 
 use super::Emission;
+use super::function::Binding;
 use super::names::Locals;
 use crate::program::{Argument, Entry, Op, ValueId};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
+use std::collections::BTreeSet;
+
+/// Angles whose sines and cosines are asked for at once.
+#[derive(Default)]
+pub(super) struct Gathered {
+    /// Inputs, before anything else.
+    pub(super) inputs: Vec<ValueId>,
+    /// The argument that they are, if they are all of one.
+    pub(super) whole: Option<Argument>,
+    /// Angles that something has to be formed for first, with the inputs where
+    /// those are not handed on as a whole.
+    pub(super) formed: Vec<ValueId>,
+}
 
 impl Emission<'_> {
-    /// The inputs whose sine or cosine an entry needs, if they are several, in
-    /// their order; and the argument that they are, if they are all of one.
-    pub(super) fn gathered(
-        &self,
-        entry: &Entry,
-        needed: &[ValueId],
-    ) -> (Vec<ValueId>, Option<Argument>) {
-        let turned = |id: ValueId| {
-            needed
-                .iter()
-                .any(|other| matches!(*self.op(*other), Op::Sin(a) | Op::Cos(a) if a == id))
-        };
+    /// The angles whose sine or cosine an entry needs and that no other sine or
+    /// cosine goes into, if they are several, in their order.
+    pub(super) fn gathered(&self, entry: &Entry, needed: &[ValueId]) -> Gathered {
+        let mut turned = BTreeSet::new();
+        // Values that a sine or cosine goes into.
+        let mut late = BTreeSet::new();
+        for &id in needed {
+            let op = self.op(id);
+            if let Op::Sin(angle) | Op::Cos(angle) = *op {
+                turned.insert(angle);
+                late.insert(id);
+            } else if op.operands().any(|operand| late.contains(&operand)) {
+                late.insert(id);
+            }
+        }
+        let formed = turned.iter().copied().filter(|id| {
+            !late.contains(id)
+                && !matches!(self.op(*id), Op::Input(argument, _) if *argument != Argument::Time)
+        });
+        let mut formed: Vec<ValueId> = formed.collect();
         let mut angles: Vec<(usize, usize, ValueId)> = needed
             .iter()
             .filter_map(|&id| match *self.op(id) {
-                Op::Input(argument, index) if turned(id) => {
+                Op::Input(Argument::Time, _) => None,
+                Op::Input(argument, index) if turned.contains(&id) => {
                     let place = entry.arguments.iter().position(|a| *a == argument)?;
                     Some((place, index, id))
                 }
                 _ => None,
             })
             .collect();
-        if angles.len() < 2 {
-            return (Vec::new(), None);
-        }
         angles.sort_unstable();
-        let (first, last) = (angles[0].0, angles[angles.len() - 1].0);
-        let all = first == last && angles.len() == self.scene.links.len();
-        let whole = all.then(|| entry.arguments[first]);
-        (angles.into_iter().map(|(.., id)| id).collect(), whole)
+        let ends = angles.first().zip(angles.last());
+        let one = ends.filter(|(first, last)| first.0 == last.0);
+        let all = one.filter(|_| angles.len() == self.scene.links.len() && angles.len() > 1);
+        let whole = all.map(|(first, _)| entry.arguments[first.0]);
+        let mut inputs: Vec<ValueId> = angles.into_iter().map(|(.., id)| id).collect();
+        if whole.is_none() && !formed.is_empty() {
+            formed.splice(0..0, inputs.drain(..));
+        }
+        let several = |angles: Vec<ValueId>| match angles.len() {
+            0 | 1 => Vec::new(),
+            _ => angles,
+        };
+        Gathered {
+            inputs: several(inputs),
+            whole,
+            formed: several(formed),
+        }
     }
 
     /// `let (sines, cosines) = T::sin_cos_each(theta);` and what they are called.
@@ -60,10 +94,10 @@ impl Emission<'_> {
                 quote!(#name)
             }
             None => {
-                let inputs = angles
+                let angles = angles
                     .iter()
-                    .map(|&id| self.local(self.op(id), needed, locals));
-                quote!(&[#(#inputs),*])
+                    .map(|&id| self.bound(id, locals, Binding::Sum));
+                quote!(&[#(#angles),*])
             }
         };
         quote! {

@@ -15,6 +15,7 @@ mod stub;
 mod taylor;
 mod taylor_order;
 mod traits;
+mod transfer_forms;
 
 pub use stub::stub;
 

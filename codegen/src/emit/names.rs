@@ -17,6 +17,9 @@ pub(super) struct Locals {
     /// Sums that are written with a product in them.
     pub(super) fused: BTreeMap<ValueId, Fused>,
     used: BTreeSet<String>,
+    /// The number after the last one given to each wanted name; no lower one is
+    /// free.
+    numbers: BTreeMap<String, usize>,
 }
 
 impl Emission<'_> {
@@ -52,6 +55,7 @@ impl Emission<'_> {
                 .iter()
                 .map(|argument| argument.name().to_owned())
                 .collect(),
+            numbers: BTreeMap::new(),
         };
         let mut depths: BTreeMap<ValueId, usize> = BTreeMap::new();
         for &id in needed {
@@ -77,7 +81,10 @@ impl Emission<'_> {
                 (Op::Number(_), _) => None,
                 (Op::Sin(_) | Op::Cos(_), Some(name)) => Some(name.clone()),
                 (_, Some(name)) => Some(name.clone()),
-                (_, None) if several => self.describe(id, &locals),
+                (_, None) if several => {
+                    let hint = definition.hint.clone();
+                    hint.or_else(|| self.describe(id, &locals))
+                }
                 (_, None) => {
                     depths.insert(id, depth);
                     continue;
@@ -171,10 +178,10 @@ impl Locals {
             wanted
         };
         let mut name = wanted.clone();
-        let mut number = 2;
         while !self.used.insert(name.clone()) {
+            let number = self.numbers.entry(wanted.clone()).or_insert(2);
             name = format!("{wanted}_{number}");
-            number += 1;
+            *number += 1;
         }
         name
     }

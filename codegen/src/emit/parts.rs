@@ -1,24 +1,34 @@
 //! Long functions in parts: readers tire, and the compiler's passes over one
 //! function take longer than in proportion to its length.
+//!
+//! Parts hand their values to each other in one array, which the function
+//! holds. A place in it serves another value as soon as no later part reads the
+//! one that it held.
 
 use super::Emission;
-use super::function::ident;
+use super::function::{Binding, Written, ident, number_tokens};
 use super::names::Locals;
-use crate::program::{Entry, Op, Purpose, ValueId};
+use crate::program::{Argument, Entry, Op, Purpose, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A function of more `let` lines than this is written in parts of at most as
-/// many.
-pub(super) const MOST_LINES: usize = 600;
+/// A function of about more lines than this is written in parts.
+const MOST_LINES: usize = 1000;
 
-/// Parts that hand each other more names than this in all do it by an array:
-/// lists of thousands of arguments are as long as what they replace.
-const MOST_NAMES: usize = 10_000;
+/// Lines of a part, at most about, those included that take values from the
+/// array and put them there.
+const MOST_IN_PART: usize = 700;
 
-/// Lines and values taken from the array, at most, in a part that uses one.
-const MOST_WITH_ARRAY: usize = 500;
+/// The parts of a function of about more lines than this are compiled one by
+/// one; those of a shorter one as the whole that they are, which runs faster.
+const MOST_INLINED: usize = 3000;
+
+/// Characters of tokens on a line of formatted code.
+const WIDTH: usize = 60;
+
+/// The array of the values that parts share.
+const SHARED: &str = "shared_values";
 
 /// One `let` line.
 pub(super) struct Line {
@@ -26,184 +36,227 @@ pub(super) struct Line {
     pub(super) defines: Vec<ValueId>,
     /// Values that it is formed from, named or not.
     pub(super) reads: Vec<ValueId>,
+    /// An argument that it reads as a whole.
+    pub(super) whole: Option<Argument>,
     pub(super) tokens: TokenStream,
+}
+
+impl Line {
+    /// About how many lines of formatted code this is.
+    fn height(&self) -> usize {
+        self.tokens.to_string().len().div_ceil(WIDTH)
+    }
+}
+
+/// Whether these lines are too many for one function.
+pub(super) fn long(lines: &[Line]) -> bool {
+    height(lines) > MOST_LINES
+}
+
+fn height(lines: &[Line]) -> usize {
+    lines.iter().map(Line::height).sum()
+}
+
+/// Some lines of a function, with what goes in and out.
+struct Part {
+    number: usize,
+    /// Arguments of the function that are handed on.
+    arguments: Vec<Argument>,
+    /// Elements that are read of them.
+    inputs: Vec<ValueId>,
+    receives: Vec<ValueId>,
+    returns: Vec<ValueId>,
+    lines: Vec<TokenStream>,
 }
 
 /// A long function in parts.
 pub(super) struct Parts {
     parts: Vec<Part>,
-    /// Places of the values that parts hand each other in an array, if they do.
-    places: Option<BTreeMap<Ident, usize>>,
-}
-
-/// Some lines of a function, with what goes in and out.
-pub(super) struct Part {
-    number: usize,
-    receives: Vec<Ident>,
-    returns: Vec<Ident>,
-    lines: Vec<TokenStream>,
-}
-
-impl Part {
-    fn name(&self, entry: &Entry) -> Ident {
-        format_ident!("{}_part_{}", entry.name, self.number)
-    }
-
-    /// The line that stands for the part in the whole.
-    fn call(&self, entry: &Entry) -> TokenStream {
-        let (name, receives, returns) = (self.name(entry), &self.receives, &self.returns);
-        let receives = quote!([#(#receives),*]);
-        if entry.purpose == Purpose::Accelerations {
-            let number = Literal::usize_unsuffixed(self.number);
-            return quote!(let [#(#returns),*] = T::outlined::<#number, _, _>(self, #receives););
-        }
-        quote!(let [#(#returns),*] = self.#name(#receives);)
-    }
-
-    /// A part of the accelerations: compiled for the instructions that the scalar
-    /// stands for, which a plain function would not be.
-    fn implementation(
-        &self,
-        name: &Ident,
-        runtime: &TokenStream,
-        places: Option<&BTreeMap<Ident, usize>>,
-    ) -> TokenStream {
-        let number = Literal::usize_unsuffixed(self.number);
-        let (receives, returns, lines) = (&self.receives, &self.returns, &self.lines);
-        if let Some(places) = places {
-            let size = Literal::usize_unsuffixed(places.len());
-            let (taken, given) = (taken(receives, places), given(returns, places));
-            return quote! {
-                impl<T: #runtime::Scalar> #runtime::model::Part<#number, &mut [T; #size]> for #name<T> {
-                    type Output = ();
-
-                    #[inline(always)]
-                    fn part(&self, shared_values: &mut [T; #size]) {
-                        #(#taken)*
-                        #(#lines)*
-                        #(#given)*
-                    }
-                }
-            };
-        }
-        let taken = Literal::usize_unsuffixed(receives.len());
-        let given = Literal::usize_unsuffixed(returns.len());
-        quote! {
-            impl<T: #runtime::Scalar> #runtime::model::Part<#number, [T; #taken]> for #name<T> {
-                type Output = [T; #given];
-
-                #[inline(always)]
-                fn part(&self, [#(#receives),*]: [T; #taken]) -> [T; #given] {
-                    #(#lines)*
-                    [#(#returns),*]
-                }
-            }
-        }
-    }
-
-    fn function(&self, entry: &Entry) -> TokenStream {
-        let name = self.name(entry);
-        let docs = format!(" Part {} of [`{1}`](Self::{1}).", self.number, entry.name);
-        let (receives, returns, lines) = (&self.receives, &self.returns, &self.lines);
-        let taken = Literal::usize_unsuffixed(receives.len());
-        let given = Literal::usize_unsuffixed(returns.len());
-        quote! {
-            #[doc = #docs]
-            fn #name(&self, [#(#receives),*]: [T; #taken]) -> [T; #given] {
-                #(#lines)*
-                [#(#returns),*]
-            }
-        }
-    }
-
-    /// The part as a function on the array.
-    fn on_array(&self, entry: &Entry, places: &BTreeMap<Ident, usize>) -> TokenStream {
-        let name = self.name(entry);
-        let docs = format!(
-            " Part {} of [`{1}`](Self::{1}), on the values that its parts share.",
-            self.number, entry.name
-        );
-        let size = Literal::usize_unsuffixed(places.len());
-        let taken = taken(&self.receives, places);
-        let given = given(&self.returns, places);
-        let lines = &self.lines;
-        quote! {
-            #[doc = #docs]
-            fn #name(&self, shared_values: &mut [T; #size]) {
-                #(#taken)*
-                #(#lines)*
-                #(#given)*
-            }
-        }
-    }
-}
-
-/// `let x = shared_values[3];`
-fn taken(names: &[Ident], places: &BTreeMap<Ident, usize>) -> Vec<TokenStream> {
-    let line = |name: &Ident| {
-        let place = Literal::usize_unsuffixed(places[name]);
-        quote!(let #name = shared_values[#place];)
-    };
-    names.iter().map(line).collect()
-}
-
-/// `shared_values[3] = x;`
-fn given(names: &[Ident], places: &BTreeMap<Ident, usize>) -> Vec<TokenStream> {
-    let line = |name: &Ident| {
-        let place = Literal::usize_unsuffixed(places[name]);
-        quote!(shared_values[#place] = #name;)
-    };
-    names.iter().map(line).collect()
+    /// Places of values in the array.
+    places: BTreeMap<ValueId, usize>,
+    /// Length of the array.
+    size: usize,
 }
 
 impl Parts {
-    /// The lines that stand for the parts in the whole, after those of the
-    /// inputs; `outputs` names what the lines after them read.
-    pub(super) fn calls(&self, entry: &Entry, outputs: &[Ident]) -> Vec<TokenStream> {
-        let Some(places) = &self.places else {
-            return self.parts.iter().map(|part| part.call(entry)).collect();
-        };
-        let made: BTreeSet<&Ident> = self.parts.iter().flat_map(|part| &part.returns).collect();
-        let received: BTreeSet<&Ident> =
-            self.parts.iter().flat_map(|part| &part.receives).collect();
-        let inputs: Vec<Ident> = received.difference(&made).copied().cloned().collect();
-        let outputs: Vec<Ident> = outputs
-            .iter()
-            .filter(|name| made.contains(name))
-            .cloned()
-            .collect();
-        let size = Literal::usize_unsuffixed(places.len());
-        let mut lines = vec![quote!(let mut shared_values = [T::from_f64(0.0); #size];)];
-        lines.extend(given(&inputs, places));
-        lines.extend(self.parts.iter().map(|part| {
-            let name = part.name(entry);
-            if entry.purpose == Purpose::Accelerations {
-                let number = Literal::usize_unsuffixed(part.number);
-                return quote!(T::outlined::<#number, _, _>(self, &mut shared_values););
-            }
-            quote!(self.#name(&mut shared_values);)
-        }));
-        lines.extend(taken(&outputs, places));
-        lines
-    }
-
-    fn implementations(&self, name: &Ident, runtime: &TokenStream) -> Vec<TokenStream> {
-        let parts = self.parts.iter();
-        parts
-            .map(|part| part.implementation(name, runtime, self.places.as_ref()))
-            .collect()
-    }
-
-    fn functions(&self, entry: &Entry) -> Vec<TokenStream> {
-        let parts = self.parts.iter();
-        match &self.places {
-            Some(places) => parts.map(|part| part.on_array(entry, places)).collect(),
-            None => parts.map(|part| part.function(entry)).collect(),
+    /// Gives every value that parts return a place, free ones first. Outputs
+    /// keep theirs to the end.
+    fn new(parts: Vec<Part>, outputs: &BTreeSet<ValueId>) -> Self {
+        let mut last_read = BTreeMap::new();
+        for part in &parts {
+            last_read.extend(part.receives.iter().map(|&id| (id, part.number)));
         }
+        let (mut places, mut size, mut free) = (BTreeMap::new(), 0, Vec::new());
+        for part in &parts {
+            // Received values are read before any is returned.
+            let done = part.receives.iter();
+            let done = done.filter(|id| last_read[id] == part.number && !outputs.contains(id));
+            free.extend(done.map(|id| places[id]));
+            for &id in &part.returns {
+                let place = free.pop().unwrap_or_else(|| {
+                    size += 1;
+                    size - 1
+                });
+                places.insert(id, place);
+            }
+        }
+        Self {
+            parts,
+            places,
+            size,
+        }
+    }
+
+    fn place(&self, id: ValueId) -> TokenStream {
+        let (shared, place) = (ident(SHARED), Literal::usize_unsuffixed(self.places[&id]));
+        quote!(#shared[#place])
     }
 }
 
 impl Emission<'_> {
+    /// Names the outputs of a long function: its parts form them.
+    pub(super) fn name_outputs(&self, entry: &Entry, locals: &mut Locals) {
+        locals.fresh(SHARED.to_owned());
+        for (number, &id) in entry.outputs.iter().enumerate() {
+            let leaf = matches!(self.op(id), Op::Constant(_) | Op::Number(_));
+            if !leaf && !locals.names.contains_key(&id) {
+                locals.claim(id, format!("output_{number}"));
+            }
+        }
+    }
+
+    /// The body of a long function, and the functions behind it.
+    pub(super) fn in_parts(
+        &self,
+        entry: &Entry,
+        lines: &[Line],
+        locals: &Locals,
+    ) -> (TokenStream, TokenStream) {
+        let parts = self.parts(entry, lines, locals);
+        let used =
+            |argument: &&Argument| parts.parts.iter().any(|p| p.arguments.contains(argument));
+        let read = |argument: &&Argument| {
+            let input =
+                |id: &ValueId| matches!(*self.op(*id), Op::Input(of, _) if of == **argument);
+            entry.outputs.iter().any(input)
+        };
+        let unused = entry.arguments.iter().filter(|a| !used(a) && !read(a));
+        let unused = unused.map(|argument| ident(argument.name()));
+        let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
+        let calls = parts.parts.iter().map(|part| {
+            let arguments = part.arguments.iter();
+            let arguments = arguments.map(|argument| ident(argument.name()));
+            if entry.purpose == Purpose::Accelerations {
+                let number = Literal::usize_unsuffixed(part.number);
+                quote!(T::outlined::<#number, _, _>(self, (#(#arguments,)* &mut #shared));)
+            } else {
+                let name = part.name(entry);
+                quote!(self.#name(#(#arguments,)* &mut #shared);)
+            }
+        });
+        let values = entry.outputs.iter().map(|&id| match *self.op(id) {
+            Op::Input(Argument::Time, _) => self.bound(id, locals, Binding::Sum),
+            Op::Input(argument, index) => {
+                let (name, index) = (ident(argument.name()), Literal::usize_unsuffixed(index));
+                quote!(#name[#index])
+            }
+            Op::Number(ref number) => number_tokens(number),
+            Op::Constant(_) => self.bound(id, locals, Binding::Sum),
+            _ => parts.place(id),
+        });
+        let outputs = self.shaped(entry, values.collect());
+        let body = quote! {
+            #(let _ = #unused;)*
+            let mut #shared = [T::from_f64(0.0); #size];
+            #(#calls)*
+            #outputs
+        };
+        if entry.purpose == Purpose::Accelerations {
+            return (body, TokenStream::new());
+        }
+        let inlined = height(lines) <= MOST_INLINED;
+        let inline = inlined.then(|| quote!(#[inline(always)]));
+        let functions = parts.parts.iter().map(|part| {
+            let name = part.name(entry);
+            let docs = format!(
+                " Part {} of [`{1}`](Self::{1}), on the values that its parts share.",
+                part.number, entry.name
+            );
+            let parameters = part.arguments.iter();
+            let parameters = parameters.map(|&argument| self.parameter(argument));
+            let body = self.part_body(part, &parts, locals);
+            quote! {
+                #[doc = #docs]
+                #inline
+                fn #name(&self, #(#parameters,)* #shared: &mut [T; #size]) {
+                    #body
+                }
+            }
+        });
+        (body, functions.collect())
+    }
+
+    /// The parts of the accelerations, if these are long. As implementations of
+    /// a trait they are compiled for the instructions that the scalar stands
+    /// for, which plain functions would not be.
+    pub(super) fn part_implementations(&self) -> TokenStream {
+        let mut entries = self.program.entries.iter();
+        let Some(entry) = entries.find(|entry| entry.purpose == Purpose::Accelerations) else {
+            return TokenStream::new();
+        };
+        let needed = self.program.needed(&entry.outputs);
+        let Written {
+            lines,
+            locals,
+            long: true,
+            ..
+        } = self.written(entry, &needed)
+        else {
+            return TokenStream::new();
+        };
+        let parts = self.parts(entry, &lines, &locals);
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
+        let implementations = parts.parts.iter().map(|part| {
+            let number = Literal::usize_unsuffixed(part.number);
+            let arguments = part.arguments.iter();
+            let names: Vec<Ident> = arguments.clone().map(|a| ident(a.name())).collect();
+            let types: Vec<TokenStream> = arguments.map(|&a| self.argument_type(a)).collect();
+            let body = self.part_body(part, &parts, &locals);
+            quote! {
+                impl<T: #runtime::Scalar>
+                    #runtime::model::Part<#number, (#(#types,)* &mut [T; #size])> for #name<T>
+                {
+                    type Output = ();
+
+                    #[inline(always)]
+                    fn part(&self, (#(#names,)* #shared): (#(#types,)* &mut [T; #size])) {
+                        #body
+                    }
+                }
+            }
+        });
+        implementations.collect()
+    }
+
+    fn part_body(&self, part: &Part, parts: &Parts, locals: &Locals) -> TokenStream {
+        let elements = part.arguments.iter();
+        let elements = elements.filter(|argument| self.reads(**argument, &part.inputs));
+        let elements = elements.map(|&argument| self.take_apart(argument, &part.inputs, locals));
+        let named = |id: &ValueId| (ident(&locals.names[id]), parts.place(*id));
+        let taken = part.receives.iter().map(named);
+        let taken = taken.map(|(name, place)| quote!(let #name = #place;));
+        let given = part.returns.iter().map(named);
+        let given = given.map(|(name, place)| quote!(#place = #name;));
+        let lines = &part.lines;
+        quote! {
+            #(#elements)*
+            #(#taken)*
+            #(#lines)*
+            #(#given)*
+        }
+    }
+
     /// The named values that a value is written in.
     fn named_operands(&self, id: ValueId, locals: &Locals, found: &mut BTreeSet<ValueId>) {
         if locals.names.contains_key(&id) {
@@ -215,197 +268,117 @@ impl Emission<'_> {
         }
     }
 
-    /// The named values that the outputs are written in.
-    fn behind_outputs(&self, entry: &Entry, locals: &Locals) -> BTreeSet<ValueId> {
-        let mut wanted = BTreeSet::new();
-        for &output in &entry.outputs {
-            self.named_operands(output, locals, &mut wanted);
-        }
-        wanted
-    }
-
     fn is_number(&self, line: &Line) -> bool {
         let number = |id: &ValueId| matches!(self.op(*id), Op::Number(_));
-        line.defines.iter().all(number)
+        !line.defines.is_empty() && line.defines.iter().all(number)
     }
 
-    /// Cuts the lines of a function into parts of equal length. Numbers are
-    /// written again in every part that uses them.
-    pub(super) fn parts(&self, entry: &Entry, lines: &[Line], locals: &Locals) -> Parts {
+    fn is_input(&self, id: ValueId) -> bool {
+        matches!(self.op(id), Op::Input(..))
+    }
+
+    /// Cuts the lines of a function into parts. Numbers are written again in
+    /// every part that uses them.
+    fn parts(&self, entry: &Entry, lines: &[Line], locals: &Locals) -> Parts {
         let (numbers, lines): (Vec<&Line>, Vec<&Line>) =
             lines.iter().partition(|line| self.is_number(line));
-        let count = lines.len().div_ceil(MOST_LINES);
-        let length = lines.len().div_ceil(count);
-        let even: Vec<&[&Line]> = lines.chunks(length).collect();
-        let parts = self.cut(entry, &numbers, &even, locals);
-        let names: usize = parts
-            .iter()
-            .map(|part| part.receives.len() + part.returns.len())
-            .sum();
-        if names <= MOST_NAMES {
-            return Parts {
-                parts,
-                places: None,
-            };
+        let outputs: BTreeSet<ValueId> = entry.outputs.iter().copied().collect();
+        let mut wanted = outputs.clone();
+        let mut parts = Vec::new();
+        for (number, lines) in self.pieces(&lines, locals).into_iter().enumerate().rev() {
+            let part = self.part(number + 1, lines, &numbers, &mut wanted, locals);
+            parts.push(part);
         }
-        let parts = self.cut(entry, &numbers, &self.short(&lines, locals), locals);
-        let shared = parts
-            .iter()
-            .flat_map(|part| part.receives.iter().chain(&part.returns));
-        let mut places = BTreeMap::new();
-        for name in shared {
-            let next = places.len();
-            places.entry(name.clone()).or_insert(next);
-        }
-        Parts {
-            parts,
-            places: Some(places),
-        }
+        parts.reverse();
+        Parts::new(parts, &outputs)
     }
 
     /// Pieces of few lines and few values from outside.
-    fn short<'l>(&self, lines: &'l [&'l Line], locals: &Locals) -> Vec<&'l [&'l Line]> {
+    fn pieces<'l>(&self, lines: &'l [&'l Line], locals: &Locals) -> Vec<&'l [&'l Line]> {
         let mut pieces = Vec::new();
-        let mut start = 0;
+        let (mut start, mut height) = (0, 0);
         let mut seen = BTreeSet::new();
         for (index, line) in lines.iter().enumerate() {
+            let mut touched: BTreeSet<ValueId> = line.defines.iter().copied().collect();
             for &id in &line.reads {
-                self.named_operands(id, locals, &mut seen);
+                self.named_operands(id, locals, &mut touched);
             }
-            seen.extend(&line.defines);
+            let own = line.height();
+            height += own;
+            seen.extend(&touched);
             // Values count once, whether they come from outside or are made.
-            if seen.len() > MOST_WITH_ARRAY && index > start {
+            if height + seen.len() > MOST_IN_PART && index > start {
                 pieces.push(&lines[start..index]);
-                start = index;
-                seen.clear();
-                for &id in &line.reads {
-                    self.named_operands(id, locals, &mut seen);
-                }
-                seen.extend(&line.defines);
+                (start, height, seen) = (index, own, touched);
             }
         }
         pieces.push(&lines[start..]);
         pieces
     }
 
-    /// The given pieces as parts.
-    fn cut(
+    /// A piece as a part; `wanted` are the values that later parts and the
+    /// outputs read, and then those that this part reads too.
+    fn part(
         &self,
-        entry: &Entry,
+        number: usize,
+        lines: &[&Line],
         numbers: &[&Line],
-        pieces: &[&[&Line]],
+        wanted: &mut BTreeSet<ValueId>,
         locals: &Locals,
-    ) -> Vec<Part> {
-        let mut wanted = self.behind_outputs(entry, locals);
-        let mut parts = Vec::new();
-        for (number, &lines) in pieces.iter().enumerate().rev() {
-            let mut read = BTreeSet::new();
-            for line in lines {
-                for &id in &line.reads {
-                    self.named_operands(id, locals, &mut read);
-                }
+    ) -> Part {
+        let mut read = BTreeSet::new();
+        for &id in lines.iter().flat_map(|line| &line.reads) {
+            self.named_operands(id, locals, &mut read);
+        }
+        let own_numbers = numbers.iter().copied();
+        let own_numbers: Vec<&Line> = own_numbers
+            .filter(|line| line.defines.iter().any(|id| read.contains(id)))
+            .collect();
+        let whole: Vec<Argument> = lines.iter().filter_map(|line| line.whole).collect();
+        let numbers: BTreeSet<ValueId> = own_numbers
+            .iter()
+            .flat_map(|line| line.defines.iter().copied())
+            .collect();
+        let defined: BTreeSet<ValueId> = lines
+            .iter()
+            .flat_map(|line| line.defines.iter().copied())
+            .collect();
+        let returns: Vec<ValueId> = wanted.intersection(&defined).copied().collect();
+        for id in &returns {
+            wanted.remove(id);
+        }
+        let outside = read
+            .iter()
+            .copied()
+            .filter(|id| !defined.contains(id) && !numbers.contains(id));
+        let (inputs, receives): (Vec<ValueId>, Vec<ValueId>) =
+            outside.partition(|&id| self.is_input(id));
+        wanted.extend(&receives);
+        let mut arguments: Vec<Argument> = Vec::new();
+        let of_inputs = inputs.iter().filter_map(|&id| match *self.op(id) {
+            Op::Input(argument, _) => Some(argument),
+            _ => None,
+        });
+        for argument in of_inputs.chain(whole) {
+            if !arguments.contains(&argument) {
+                arguments.push(argument);
             }
-            let own_numbers: Vec<&Line> = numbers
-                .iter()
-                .copied()
-                .filter(|line| line.defines.iter().any(|id| read.contains(id)))
-                .collect();
-            let defined: BTreeSet<ValueId> = own_numbers
-                .iter()
-                .chain(lines)
-                .flat_map(|line| line.defines.clone())
-                .collect();
-            let is_number = |id: &&ValueId| matches!(self.op(**id), Op::Number(_));
-            let returns: Vec<ValueId> = wanted
-                .intersection(&defined)
-                .filter(|id| !is_number(id))
-                .copied()
-                .collect();
-            let receives: Vec<ValueId> = read.difference(&defined).copied().collect();
-            for id in &returns {
-                wanted.remove(id);
-            }
-            wanted.extend(&receives);
-            let names = |ids: &[ValueId]| ids.iter().map(|id| ident(&locals.names[id])).collect();
-            parts.push(Part {
-                number: number + 1,
-                receives: names(&receives),
-                returns: names(&returns),
-                lines: own_numbers
-                    .iter()
-                    .chain(lines)
-                    .map(|line| line.tokens.clone())
-                    .collect(),
-            });
         }
-        parts.reverse();
-        parts
-    }
-
-    /// The lines of numbers that the outputs are written in.
-    pub(super) fn numbers_of_outputs(
-        &self,
-        entry: &Entry,
-        lines: &[Line],
-        locals: &Locals,
-    ) -> Vec<TokenStream> {
-        let wanted = self.behind_outputs(entry, locals);
-        lines
-            .iter()
-            .filter(|line| self.is_number(line))
-            .filter(|line| line.defines.iter().any(|id| wanted.contains(id)))
-            .map(|line| line.tokens.clone())
-            .collect()
-    }
-
-    /// The names that the outputs are written in.
-    pub(super) fn names_of_outputs(&self, entry: &Entry, locals: &Locals) -> Vec<Ident> {
-        let wanted = self.behind_outputs(entry, locals);
-        wanted.iter().map(|id| ident(&locals.names[id])).collect()
-    }
-
-    /// The functions behind a long one, which stand beside it; nothing for others.
-    pub(super) fn part_functions(
-        &self,
-        entry: &Entry,
-        needed: &[ValueId],
-        locals: &Locals,
-    ) -> TokenStream {
-        if entry.purpose == Purpose::Accelerations {
-            return TokenStream::new();
+        arguments.sort_unstable();
+        let lines = own_numbers.iter().chain(lines);
+        Part {
+            number,
+            arguments,
+            inputs,
+            receives,
+            returns,
+            lines: lines.map(|line| line.tokens.clone()).collect(),
         }
-        let functions = self.divided(entry, needed, locals);
-        let functions = functions.iter().flat_map(|parts| parts.functions(entry));
-        quote!(#(#functions)*)
     }
+}
 
-    /// The same behind the accelerations, as implementations of a trait.
-    pub(super) fn part_implementations(&self) -> TokenStream {
-        let mut entries = self.program.entries.iter();
-        let Some(entry) = entries.find(|entry| entry.purpose == Purpose::Accelerations) else {
-            return TokenStream::new();
-        };
-        let needed = self.program.needed(&entry.outputs);
-        let locals = self.locals(entry, &needed);
-        let (name, runtime) = (&self.item.ident, self.runtime());
-        let parts = self.divided(entry, &needed, &locals);
-        let parts = parts
-            .iter()
-            .flat_map(|parts| parts.implementations(name, &runtime));
-        quote!(#(#parts)*)
-    }
-
-    /// The parts of a long function.
-    fn divided(&self, entry: &Entry, needed: &[ValueId], locals: &Locals) -> Option<Parts> {
-        // Most functions have too few values for it, and are not written twice.
-        let values = needed
-            .iter()
-            .filter(|&&id| !matches!(self.op(id), Op::Input(..)));
-        if values.count() <= MOST_LINES {
-            return None;
-        }
-        let (gathered, _) = self.gathered(entry, needed);
-        let lines = self.lines(&gathered, None, needed, locals);
-        (lines.len() > MOST_LINES).then(|| self.parts(entry, &lines, locals))
+impl Part {
+    fn name(&self, entry: &Entry) -> Ident {
+        format_ident!("{}_part_{}", entry.name, self.number)
     }
 }

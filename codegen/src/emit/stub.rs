@@ -2,9 +2,9 @@
 //! its methods without meaning, so that an editor shows the description's
 //! errors and no others.
 
-use crate::description::Description;
+use crate::description::{Description, Expression, ExpressionKind, Node, Value};
 use crate::scene::OBSERVABLE_SUFFIXES;
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
 
@@ -31,8 +31,28 @@ const NUMBERS: [&str; 4] = [
 ];
 /// Methods from the time and two arrays to a number.
 const POWERS: [&str; 2] = ["drive_power", "antiphase_drive_power"];
+/// Budgets of the sectors.
+const BUDGETS: [&str; 4] = [
+    "budget_rest",
+    "budget_canonical",
+    "budget_velocity",
+    "budget_parseval",
+];
 /// Methods from two arrays to a transfer.
 const TRANSFERS: [&str; 2] = ["transfer_exact", "transfer_exact_from_rates"];
+
+/// Beginnings of the names of functions that are not listed one by one.
+const FAMILIES: [&str; 6] = [
+    "antiphase_drive_power",
+    "antiphase_energy",
+    "antiphase_friction_power",
+    "sector_transfers",
+    "symmetric_",
+    "transfer_",
+];
+
+/// Results of more elements say no more about a description that is wrong.
+const MOST_SECTORS: usize = 1024;
 
 /// The type and its documented methods as stubs. They are never run: the
 /// errors beside them keep the crate from compiling.
@@ -46,16 +66,34 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             .map(|name| Ident::new(name, Span::call_site()))
             .collect()
     };
-    let (maps, transforms, matrices) = (idents(&MAPS), idents(&TRANSFORMS), idents(&MATRICES));
-    let (motions, powers) = (idents(&MOTIONS), idents(&POWERS));
+    let (transforms, matrices, motions) =
+        (idents(&TRANSFORMS), idents(&MATRICES), idents(&MOTIONS));
+    let (mut maps, mut powers) = (idents(&MAPS), idents(&POWERS));
     let time = description.drive.as_ref().map(|_| quote!(time: T,));
     let (mut numbers, mut transfers) = (idents(&NUMBERS), idents(&TRANSFERS));
-    numbers.extend(observables(description));
     for order in 1..=8 {
         transfers.push(format_ident!("transfer_angle_{order}"));
         transfers.push(format_ident!("transfer_amplitude_{order}"));
     }
+    // Where there are several differences, each has its functions.
+    let places = places(description);
+    for (functions, family) in [
+        (&mut maps, "transfer_"),
+        (&mut powers, "antiphase_"),
+        (&mut numbers, "antiphase_"),
+        (&mut transfers, "transfer_"),
+    ] {
+        let plain = functions.iter().map(Ident::to_string);
+        let plain: Vec<String> = plain.filter(|name| name.starts_with(family)).collect();
+        let placed = plain.iter().flat_map(|name| {
+            let place = move |place| format_ident!("{name}_{place}");
+            places.iter().map(place)
+        });
+        functions.extend(placed);
+    }
+    numbers.extend(observables(description));
     let taylor = taylor(description, runtime);
+    let budgets = budgets(description, runtime);
     quote! {
         #(#attrs)*
         #vis struct #name<T = f64>(::core::marker::PhantomData<T>);
@@ -102,12 +140,22 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             pub fn potential_energy<const N: usize>(&self, theta: &[T; N]) -> T {
                 ::core::unimplemented!()
             }
+            #budgets
+        }
+
+        impl<T: #runtime::Scalar> #runtime::Sectors for #name<T> {
+            const SECTORS: &'static [#runtime::sectors::Sector] = &[];
         }
 
         impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
             const LINKS: usize = 0;
             const LINK_NAMES: &'static [&'static str] = &[];
             fn accelerations_into(&self, _: T, _: &[T], _: &[T], _: &mut [T]) {}
+        }
+
+        impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
+            fn freedoms(&self) -> usize { 0 }
+            fn canonical_rates(&self, _: T, _: &[T], _: &[T], _: &mut [T], _: &mut [T]) {}
         }
 
         impl<T: #runtime::Scalar> #runtime::Rescale<T> for #name<T> {
@@ -135,6 +183,100 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
         }
 
         #taylor
+    }
+}
+
+/// What the differences of groups of single links are called.
+fn places(description: &Description) -> Vec<String> {
+    let mut groups: Vec<(String, usize)> = Vec::new();
+    let mut pending: Vec<&Node> = description.roots.iter().collect();
+    while let Some(node) = pending.pop() {
+        let copies = node.copies.map_or(1, |copies| copies.count as usize);
+        if copies > 1 && copies <= MOST_SECTORS {
+            groups.push((node.name.to_string(), copies));
+        }
+        pending.extend(&node.children);
+    }
+    let alone = groups.len() == 1;
+    let names = groups.iter().flat_map(|(name, copies)| {
+        let stem = if alone {
+            "d".to_owned()
+        } else {
+            format!("{name}_d")
+        };
+        let number = move |number: usize| match copies {
+            2 => stem.clone(),
+            _ => format!("{stem}{number}"),
+        };
+        (1..*copies).map(number)
+    });
+    names.collect()
+}
+
+/// The functions of sectors. Their results have as many elements as the tree
+/// has sectors, as far as that can be read.
+fn budgets(description: &Description, runtime: &TokenStream) -> TokenStream {
+    let time = description.drive.as_ref().map(|_| quote!(time: T,));
+    let differences = description.roots.iter().map(differences);
+    let sectors = differences.fold(1_usize, usize::saturating_add);
+    let sectors = Literal::usize_unsuffixed(sectors.min(MOST_SECTORS));
+    let both = |name: &str| [format_ident!("{name}"), format_ident!("symmetric_{name}")];
+    let shares = BUDGETS.iter().flat_map(|name| both(name));
+    let mut transfers = both("sector_transfers").to_vec();
+    for order in 1..=8 {
+        transfers.push(format_ident!("sector_transfers_angle_{order}"));
+        transfers.push(format_ident!("sector_transfers_amplitude_{order}"));
+    }
+    let matrices = both("transfer_matrix");
+    quote! {
+        #(pub fn #shares<const N: usize>(
+            &self, #time first: &[T; N], second: &[T; N],
+        ) -> #runtime::Budget<T, #sectors> {
+            ::core::unimplemented!()
+        })*
+        #(pub fn #transfers<const N: usize>(
+            &self, first: &[T; N], second: &[T; N],
+        ) -> [#runtime::Transfer<T>; #sectors] {
+            ::core::unimplemented!()
+        })*
+        #(pub fn #matrices<const N: usize>(
+            &self, first: &[T; N], second: &[T; N],
+        ) -> [[T; #sectors]; #sectors] {
+            ::core::unimplemented!()
+        })*
+    }
+}
+
+/// Differences between copies in a subtree: a group of k has k − 1 of them
+/// everywhere it stands.
+fn differences(node: &Node) -> usize {
+    let copies = node.copies.map_or(1, |copies| copies.count.max(1) as usize);
+    let below = if node
+        .shape
+        .as_ref()
+        .is_some_and(|shape| shape == "generations")
+    {
+        // Σ (k − 1) kⁱ over all generations but the last.
+        let branching = rule_count(node, "branching").unwrap_or(1);
+        let generations = rule_count(node, "count").unwrap_or(1);
+        let power = u32::try_from(generations.saturating_sub(1)).unwrap_or(u32::MAX);
+        branching.saturating_pow(power).saturating_sub(1)
+    } else {
+        let children = node.children.iter().map(differences);
+        children.fold(0, usize::saturating_add)
+    };
+    copies.saturating_mul(below).saturating_add(copies - 1)
+}
+
+/// A whole number that a rule gives.
+fn rule_count(node: &Node, name: &str) -> Option<usize> {
+    let property = node.properties.iter().find(|p| p.name == name)?;
+    match &property.value {
+        Value::Single(Expression {
+            kind: ExpressionKind::Number(number),
+            ..
+        }) => number.numerator_text().parse().ok(),
+        _ => None,
     }
 }
 
@@ -175,7 +317,7 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
 /// The functions of observables, as far as they can stand beside the others.
 fn observables(description: &Description) -> Vec<Ident> {
     let known = MAPS.iter().chain(&TRANSFORMS).chain(&MATRICES);
-    let known = known.chain(&NUMBERS).chain(&TRANSFERS);
+    let known = known.chain(&NUMBERS).chain(&TRANSFERS).chain(&BUDGETS);
     let mut taken: BTreeSet<String> = known.map(|name| (*name).to_owned()).collect();
     taken.extend(["potential_energy", "new", "from_parameters"].map(str::to_owned));
     let mut functions = Vec::new();
@@ -184,9 +326,8 @@ fn observables(description: &Description) -> Vec<Ident> {
         for suffix in OBSERVABLE_SUFFIXES {
             let function = format!("{name}{suffix}");
             let plain = syn::parse_str::<Ident>(&function);
-            // Transfers have numbers in their names.
             if let Ok(plain) = plain
-                && !function.starts_with("transfer_")
+                && !FAMILIES.iter().any(|family| function.starts_with(family))
                 && taken.insert(function)
             {
                 functions.push(plain);

@@ -14,14 +14,15 @@ impl Emission<'_> {
         let needed = self.program.needed(&entry.outputs);
         let recurrences = Recurrences::new(self, entry, &needed);
         let locals = &recurrences.locals;
-        let (gathered, whole) = self.gathered(entry, &needed);
-        let read = self.read(entry, &needed, whole.is_some().then_some(&gathered));
+        let gathered = self.gathered(entry, &needed);
+        let whole = gathered.whole;
+        let read = self.read(entry, &needed, whole.is_some().then_some(&gathered.inputs));
         let inputs = entry
             .arguments
             .iter()
             .filter(|argument| whole != Some(**argument) || self.reads(**argument, &read))
             .map(|&argument| self.take_apart(argument, &read, locals));
-        let lines = self.lines(&gathered, whole, &needed, locals);
+        let lines = self.lines(&gathered, &needed, locals);
         let lines = lines.into_iter().map(|line| line.tokens);
         let accelerations: Vec<TokenStream> = entry.outputs[..self.scene.links.len()]
             .iter()

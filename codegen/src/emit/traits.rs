@@ -19,6 +19,7 @@ impl Emission<'_> {
         let canonical = self.scene.requests.momenta.then(|| self.canonical());
         let sectors = self.mechanics.sectors.as_ref();
         let sectors = sectors.map(|sectors| self.sectors(sectors));
+        let forms = self.transfer_forms();
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
             #pendulum
@@ -26,6 +27,7 @@ impl Emission<'_> {
             #symmetric
             #canonical
             #sectors
+            #forms
             #taylor
         }
     }

@@ -5,6 +5,7 @@ use super::algebra::Formula;
 use super::drive::DerivedDrive;
 use super::expression::{Role, SymbolId, Symbols};
 use super::observable::Composite;
+use super::observables::EnergySymbols;
 use super::print::latex_name;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
@@ -56,6 +57,10 @@ pub(super) struct Derivation<'s> {
     of_combination: Vec<(SymbolId, SymbolId)>,
     /// Functions of whole expressions, which observables alone have.
     pub(super) composites: BTreeMap<SymbolId, Composite>,
+    /// K and U of a frame of which symbols alone are derived.
+    pub(super) energies: Option<EnergySymbols>,
+    /// Derivatives that are symbols of their own: function, variable, slope.
+    pub(super) given_slopes: BTreeMap<(SymbolId, SymbolId), SymbolId>,
 }
 
 impl<'s> Derivation<'s> {
@@ -83,6 +88,8 @@ impl<'s> Derivation<'s> {
             groups_of: BTreeMap::new(),
             of_combination: Vec::new(),
             composites: BTreeMap::new(),
+            energies: None,
+            given_slopes: BTreeMap::new(),
         }
     }
 
@@ -233,8 +240,12 @@ impl<'s> Derivation<'s> {
         self.of_two[&(a, b)]
     }
 
-    /// ∂/∂(coordinate) of a trigonometric symbol, if it depends on it.
+    /// ∂/∂(coordinate) of a symbol that stands for a function, if it depends on
+    /// it.
     fn slope(&self, symbol: SymbolId, coordinate: SymbolId) -> Option<Formula> {
+        if let Some(&slope) = self.given_slopes.get(&(symbol, coordinate)) {
+            return Some(Formula::symbol(slope));
+        }
         if let Some(composite) = self.composites.get(&symbol) {
             return Some(self.composite_slope(symbol, composite, coordinate));
         }

@@ -35,10 +35,7 @@ impl Derivation<'_> {
             observables: Observables::default(),
         };
         let requests = &self.scene.requests;
-        // Observables are derived in the frame's own symbols.
-        let observables = &self.scene.observables;
-        let observed = observables.iter().any(|o| o.value.is_symmetric());
-        let nested = requests.symmetric && !observed && self.is_nested();
+        let nested = requests.symmetric && self.is_nested();
         if requests.budget.is_some() || nested {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
             mechanics.sectors = Some(self.sectors(&absolute, &coordinates));
@@ -46,7 +43,9 @@ impl Derivation<'_> {
         }
         let mut derived = None;
         if nested {
-            mechanics.symmetric = Some(self.symbols_of(&mechanics.coordinates));
+            let symmetric = self.symbols_of(&mechanics.coordinates);
+            derived = Some(DerivedFrame::of_symbols(&symmetric));
+            mechanics.symmetric = Some(symmetric);
         } else if self.scene.requests.symmetric {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
             let symmetric = self.symmetric_frame(&absolute, &coordinates);

@@ -58,6 +58,26 @@ pub(super) struct Frame {
 }
 
 impl Frame {
+    /// The symbols of a frame of which nothing else is derived: the program
+    /// forms its mechanics on means and differences.
+    pub(super) fn of_symbols(frame: &super::Frame) -> Self {
+        Self {
+            coordinates: frame.coordinates.clone(),
+            velocities: frame.velocities.clone(),
+            momenta: frame.momenta.clone(),
+            mass: MassMatrix::default(),
+            potential: Formula::zero(),
+            springs: Formula::zero(),
+            dissipation: Formula::zero(),
+            drive: Formula::zero(),
+        }
+    }
+
+    /// Whether it is such a frame.
+    pub(super) fn has_symbols_alone(&self) -> bool {
+        self.mass.iter().next().is_none()
+    }
+
     /// Kinetic energy ½ Σ M_ab v_a v_b, one term for each pair a ≥ b.
     pub(super) fn kinetic_terms(&self) -> impl Iterator<Item = (usize, usize, Formula)> {
         self.mass.iter().map(|(a, b, entry)| {

@@ -20,6 +20,7 @@ mod observable;
 mod observable_rate;
 mod observables;
 mod print;
+mod rate_symbols;
 pub mod sectors;
 mod series;
 mod show;
@@ -32,7 +33,10 @@ pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{Drive, PivotMotion, Temporal};
 pub use inverse_mass::Counting;
-pub use observables::{Canonical, FunctionOf, Observable, ObservableFrame, Observables, System};
+pub use observables::{
+    Canonical, EnergySymbols, FormedSymbols, FunctionOf, Observable, ObservableFrame, Observables,
+    System,
+};
 pub use print::{latex, text};
 pub use sectors::{Coupling, OrbitConstants, Sector, Sectors};
 

@@ -84,6 +84,12 @@ impl Derivation<'_> {
             Observed::Known(quantity) => self.quantity(quantity),
             Observed::Variable(variable) => setting.variable(variable),
             Observed::Constant(name) => self.constant_called(name),
+            Observed::KineticEnergy if setting.frame.has_symbols_alone() => {
+                Formula::symbol(self.energies(setting.frame).kinetic)
+            }
+            Observed::PotentialEnergy if setting.frame.has_symbols_alone() => {
+                Formula::symbol(self.energies(setting.frame).potential)
+            }
             Observed::KineticEnergy => {
                 let terms = setting.frame.kinetic_terms().map(|(_, _, term)| term);
                 terms.sum::<Formula>().expand()

@@ -18,7 +18,9 @@
 //!
 //! and friction adds Σ (∂F/∂p_i + y_i) Q_i: one solve with the velocities'
 //! matrix, and no acceleration. M is never inverted in writing. A drive's forces
-//! count with ∂L/∂q and, the other way round, with ∂H/∂q.
+//! count with ∂L/∂q and, the other way round, with ∂H/∂q. In the symmetric
+//! coordinates of a nested tree, forces, slopes and energies stay symbols: the
+//! program forms their values on means and differences.
 
 use super::algebra::{AlgebraError, Formula};
 use super::coordinates::Coordinate;
@@ -26,8 +28,11 @@ use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::Frame;
 use super::observable::Setting;
-use super::observables::{Canonical, FunctionOf, Observable, ObservableFrame, Observables, System};
+use super::observables::{
+    Canonical, FormedSymbols, FunctionOf, Observable, ObservableFrame, Observables, System,
+};
 use super::print::latex_name;
+use super::rate_symbols::RateSymbols;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The gradients of an observable, in the order of the coordinates.
@@ -35,22 +40,6 @@ struct Gradients {
     coordinates: Vec<Formula>,
     velocities: Vec<Formula>,
     momenta: Vec<Formula>,
-}
-
-/// Symbols that the rates of one frame are written in.
-struct RateSymbols {
-    accelerations: Vec<SymbolId>,
-    friction_accelerations: Vec<SymbolId>,
-    /// ∂L/∂q_i at fixed velocities.
-    forces: Vec<SymbolId>,
-    /// Q_i.
-    torques: Vec<SymbolId>,
-    /// ∂H/∂q_i at fixed momenta.
-    slopes: Vec<SymbolId>,
-    /// (Ṁ v)_i.
-    changes: Vec<SymbolId>,
-    /// Whether there is friction on coordinate i.
-    has_torque: Vec<bool>,
 }
 
 impl Derivation<'_> {
@@ -79,7 +68,7 @@ impl Derivation<'_> {
             if chosen.is_empty() {
                 continue;
             }
-            let symbols = self.rate_symbols(frame);
+            let symbols = self.rate_symbols(absolute, frame, coordinates);
             let mut list = Vec::new();
             for observable in chosen {
                 let setting = Setting {
@@ -193,85 +182,6 @@ impl Derivation<'_> {
         }
     }
 
-    fn rate_symbols(&mut self, frame: &Frame) -> RateSymbols {
-        let indexed = |derivation: &mut Self, role, code: &str, text: &str, latex: &str| {
-            let (before, after) = text.split_once('#').unwrap_or((text, ""));
-            let (latex_before, latex_after) = latex.split_once('#').unwrap_or((latex, ""));
-            derivation.indexed_symbols(
-                frame,
-                role,
-                code,
-                |name| format!("{before}{name}{after}"),
-                |name| format!("{latex_before}\\mathrm{{{name}}}{latex_after}"),
-            )
-        };
-        use Role::{Acceleration, Derived};
-        RateSymbols {
-            accelerations: indexed(self, Acceleration, "alpha", "α_#", "\\alpha_{#}"),
-            friction_accelerations: indexed(
-                self,
-                Derived,
-                "friction_alpha",
-                "α_#^Q",
-                "\\alpha_{#}^{Q}",
-            ),
-            forces: indexed(
-                self,
-                Derived,
-                "force",
-                "(∂L/∂θ_#)",
-                "\\frac{\\partial L}{\\partial\\theta_{#}}",
-            ),
-            torques: indexed(self, Derived, "friction_torque", "Q_#", "Q_{#}"),
-            slopes: indexed(
-                self,
-                Derived,
-                "hamiltonian_slope",
-                "(∂H/∂θ_#)",
-                "\\frac{\\partial H}{\\partial\\theta_{#}}",
-            ),
-            changes: indexed(
-                self,
-                Derived,
-                "mass_change",
-                "(Ṁ ω)_#",
-                "(\\dot M\\omega)_{#}",
-            ),
-            has_torque: frame
-                .velocities
-                .iter()
-                .map(|&velocity| !frame.dissipation.derivative(velocity).expand().is_zero())
-                .collect(),
-        }
-    }
-
-    /// One symbol for each coordinate of a frame.
-    fn indexed_symbols(
-        &mut self,
-        frame: &Frame,
-        role: Role,
-        code: &str,
-        text: impl Fn(&str) -> String,
-        latex: impl Fn(&str) -> String,
-    ) -> Vec<SymbolId> {
-        let names: Vec<String> = frame
-            .coordinates
-            .iter()
-            .map(|&id| {
-                let code = &self.symbols.get(id).code;
-                code.strip_prefix("theta_").unwrap_or(code).to_owned()
-            })
-            .collect();
-        names
-            .iter()
-            .map(|name| {
-                let (text, latex) = (text(name), latex(&latex_name(name)));
-                self.symbols
-                    .intern(role, &format!("{code}_{name}"), &text, &latex)
-            })
-            .collect()
-    }
-
     /// What the observables of a frame refer to.
     fn observable_frame(
         &self,
@@ -298,6 +208,28 @@ impl Derivation<'_> {
             composite.argument.symbols().into_iter().for_each(&mut note);
         }
         let uses = |symbols: &[SymbolId]| symbols.iter().any(|symbol| used.contains(symbol));
+        let accelerations = match uses(&symbols.accelerations) {
+            true => symbols.accelerations.clone(),
+            false => Vec::new(),
+        };
+        if frame.has_symbols_alone() {
+            let formed = |symbols: &[SymbolId]| match uses(symbols) {
+                true => symbols.to_vec(),
+                false => Vec::new(),
+            };
+            return ObservableFrame {
+                accelerations,
+                formed: FormedSymbols {
+                    forces: formed(&symbols.forces),
+                    torques: formed(&symbols.torques),
+                    friction_accelerations: formed(&symbols.friction_accelerations),
+                    slopes: formed(&symbols.slopes),
+                    changes: formed(&symbols.changes),
+                    energies: self.energies.clone(),
+                },
+                ..ObservableFrame::default()
+            };
+        }
         let mut definitions = BTreeMap::new();
         let mut define = |symbols: &[SymbolId], values: &dyn Fn() -> Vec<Formula>| {
             if !uses(symbols) {
@@ -328,10 +260,8 @@ impl Derivation<'_> {
         });
         define(&symbols.changes, &|| frame.mass_changes(self));
         ObservableFrame {
-            accelerations: match uses(&symbols.accelerations) {
-                true => symbols.accelerations.clone(),
-                false => Vec::new(),
-            },
+            accelerations,
+            formed: FormedSymbols::default(),
             friction: uses(&symbols.friction_accelerations).then(|| System {
                 unknowns: symbols.friction_accelerations.clone(),
                 right: self.exprs(&torques()),
@@ -342,19 +272,6 @@ impl Derivation<'_> {
                 false => Vec::new(),
             },
         }
-    }
-}
-
-impl RateSymbols {
-    /// Σ slope_i Q_i over the coordinates that friction acts on.
-    fn torque(&self, slopes: &[Formula]) -> Formula {
-        slopes
-            .iter()
-            .zip(&self.torques)
-            .zip(&self.has_torque)
-            .filter(|(_, has_torque)| **has_torque)
-            .map(|((slope, &torque), _)| slope * &Formula::symbol(torque))
-            .sum()
     }
 }
 

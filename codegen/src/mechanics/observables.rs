@@ -61,6 +61,38 @@ pub struct System {
     pub right: Vec<Expr>,
 }
 
+/// Symbols that observables of nested trees refer to and that no formula
+/// defines: written out, they would fill pages. One for each coordinate; none
+/// where none is used.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FormedSymbols {
+    /// ∂L/∂q_i at fixed velocities, with the drive.
+    pub forces: Vec<SymbolId>,
+    /// Forces of friction and drag Q_i.
+    pub torques: Vec<SymbolId>,
+    /// Accelerations by friction and drag alone: M a = Q.
+    pub friction_accelerations: Vec<SymbolId>,
+    /// ∂H/∂q_i at fixed momenta, with the drive.
+    pub slopes: Vec<SymbolId>,
+    /// (Ṁ v)_i.
+    pub changes: Vec<SymbolId>,
+    /// K and U, if observables hold them.
+    pub energies: Option<EnergySymbols>,
+}
+
+/// Kinetic and potential energy as symbols of their own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EnergySymbols {
+    /// K.
+    pub kinetic: SymbolId,
+    /// U.
+    pub potential: SymbolId,
+    /// ∂K/∂q_i at fixed velocities.
+    pub kinetic_slopes: Vec<SymbolId>,
+    /// ∂U/∂q_i.
+    pub potential_slopes: Vec<SymbolId>,
+}
+
 /// What the rates of one frame refer to, as far as they do.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ObservableFrame {
@@ -68,6 +100,8 @@ pub struct ObservableFrame {
     pub accelerations: Vec<SymbolId>,
     /// Accelerations by friction and drag alone: M a = Q.
     pub friction: Option<System>,
+    /// What the program forms on means and differences, on nested trees.
+    pub formed: FormedSymbols,
     /// Forces, slopes of H and changes of M in coordinates and velocities.
     pub definitions: BTreeMap<SymbolId, Expr>,
     /// The momenta in coordinates and velocities; none where no observable

@@ -39,7 +39,11 @@ impl Builder {
         }
         let id = ValueId(self.definitions.len() as u32);
         self.known.insert(op.clone(), id);
-        self.definitions.push(Definition { op, name: None });
+        self.definitions.push(Definition {
+            op,
+            name: None,
+            hint: None,
+        });
         id
     }
 
@@ -51,14 +55,22 @@ impl Builder {
             return id;
         }
         let definition = &mut self.definitions[id.0 as usize];
-        let leaf = matches!(
-            definition.op,
-            Op::Input(..) | Op::Constant(_) | Op::Number(_)
-        );
-        if !leaf && definition.name.is_none() {
+        if !is_leaf(&definition.op) && definition.name.is_none() {
             definition.name = Some(name.to_owned());
         }
         id
+    }
+
+    /// Says what a value is, without giving it a line of its own: code that
+    /// needs a name for it takes this one. The first hint stays.
+    pub(super) fn hint(&mut self, id: ValueId, name: &str) {
+        if let Op::Neg(inner) = *self.op(id) {
+            return self.hint(inner, &format!("minus_{name}"));
+        }
+        let definition = &mut self.definitions[id.0 as usize];
+        if !is_leaf(&definition.op) && definition.hint.is_none() {
+            definition.hint = Some(name.to_owned());
+        }
     }
 
     pub(super) fn input(&mut self, argument: super::Argument, index: usize) -> ValueId {
@@ -247,6 +259,10 @@ impl Builder {
         }
         self.record(Op::Div(a, b))
     }
+}
+
+fn is_leaf(op: &Op) -> bool {
+    matches!(op, Op::Input(..) | Op::Constant(_) | Op::Number(_))
 }
 
 /// Constants of the setup as values.

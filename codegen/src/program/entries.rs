@@ -30,7 +30,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> (Vec<Entry>
     if let (Some(sectors), Some(request)) = (&mechanics.sectors, &scene.requests.budget) {
         list.budgets(scene, sectors, request);
     }
-    list.observables(mechanics);
+    list.observables(scene, mechanics);
     if scene.requests.taylor {
         list.taylor();
     }

@@ -110,9 +110,7 @@ pub(super) fn motion(
                         .iter()
                         .map(|&LinkId(link)| copies.graded.builder.input(argument, link))
                         .collect();
-                    let field = copies.analysed(orbit, &links);
-                    copies.named(&field, argument.letter());
-                    field
+                    copies.analysed(orbit, &links, argument.letter())
                 })
                 .collect(),
             State::Rates | State::Momenta(_) => {

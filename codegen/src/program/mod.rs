@@ -12,6 +12,7 @@ mod copies;
 mod count;
 mod drive;
 mod entries;
+mod formed;
 mod fuse;
 mod handed;
 mod interpret;
@@ -124,6 +125,8 @@ pub struct Definition {
     pub op: Op,
     /// Name in emitted code; unnamed values are written in place.
     pub name: Option<String>,
+    /// What it is called where code needs a name for it, if that is known.
+    pub hint: Option<String>,
 }
 
 /// The shape in which an entry point returns its outputs.

@@ -1,11 +1,13 @@
 //! Entry points of observables: values and rates.
 
 use super::entries::EntryList;
+use super::formed::Formed;
+use super::handed::{CANONICAL, State};
 use super::lower::{Door, Lowering};
 use super::{Argument, ObservableForm, Purpose, Shape, ValueId};
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{Frame, Mechanics, ObservableFrame, System};
-use crate::scene::Function;
+use crate::scene::{Function, Scene};
 
 impl Lowering<'_> {
     /// The value of a symbol that only observables have.
@@ -51,11 +53,13 @@ struct Ways<'a> {
     momenta: [Argument; 2],
     /// What the accelerations are computed from.
     rates: Vec<Argument>,
+    /// On nested trees, what solves with the mass matrix.
+    formed: Option<Formed<'a>>,
 }
 
 impl EntryList<'_, '_> {
     /// Value and rate of every observable.
-    pub(super) fn observables(&mut self, mechanics: &Mechanics) {
+    pub(super) fn observables(&mut self, scene: &Scene, mechanics: &Mechanics) {
         use Argument::{AbsoluteMomenta, Coordinates, Momenta, Omega, Rates, Theta};
         let observables = &mechanics.observables;
         if observables.list.is_empty() {
@@ -67,13 +71,28 @@ impl EntryList<'_, '_> {
             Purpose::Accelerations,
             ([Theta, Omega], [Theta, AbsoluteMomenta]),
         );
-        let mut symmetric = mechanics.symmetric.as_ref().map(|frame| {
-            self.ways(
+        let asked = observables.list.iter().any(|o| o.symmetric);
+        let symmetric = mechanics.symmetric.as_ref().filter(|_| asked);
+        let mut symmetric = symmetric.map(|frame| {
+            let used = &observables.symmetric;
+            let mut ways = self.ways(
                 frame,
-                &observables.symmetric,
+                used,
                 Purpose::SymmetricAccelerations,
                 ([Coordinates, Rates], [Coordinates, Momenta]),
-            )
+            );
+            // Only the names of the frame are derived then.
+            if frame.mass.is_empty()
+                && let Some(sectors) = &mechanics.sectors
+            {
+                let formed = Formed::new(self.lowering, scene, sectors);
+                formed.supply(self.lowering, used, &mut ways.motion, State::Rates);
+                if scene.requests.momenta {
+                    formed.supply(self.lowering, used, &mut ways.phase, CANONICAL);
+                }
+                ways.formed = Some(formed);
+            }
+            ways
         });
         for (number, observable) in observables.list.iter().enumerate() {
             let ways = match (&mut symmetric, observable.symmetric) {
@@ -112,6 +131,7 @@ impl EntryList<'_, '_> {
             velocities,
             momenta,
             rates,
+            formed: None,
         }
     }
 
@@ -132,7 +152,10 @@ impl EntryList<'_, '_> {
             let (value, rate) = (&observable.value, &canonical.rate);
             self.form(number, FromMomenta, "_from_momenta", &momenta, phase, value);
             if let Some(system) = &canonical.adjoint {
-                self.lowering.solve_system(phase, system);
+                match &ways.formed {
+                    Some(formed) => formed.solve(self.lowering, phase, system),
+                    None => self.lowering.solve_system(phase, system),
+                }
             }
             let suffix = "_rate_from_momenta";
             let momenta = self.timed(&momenta);

@@ -230,8 +230,8 @@ impl EntryList<'_, '_> {
     }
 }
 
-/// One output for each symmetric coordinate.
-fn by_coordinate<'b>(
+/// One value for each symmetric coordinate.
+pub(super) fn by_coordinate<'b>(
     copies: &mut Copies<'b>,
     mechanics: &Mechanics,
     fields: &Fields,

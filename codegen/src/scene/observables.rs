@@ -140,7 +140,8 @@ const METHODS: &[&str] = &[
     "kinetic_energy_of", "mass_matrix", "momenta", "new", "potential_energy",
     "part", "potential_energy_of", "rescale", "stiffness_matrix", "symmetric_accelerations",
     "symmetric_accelerations_into", "symmetric_momenta", "symmetric_velocities",
-    "taylor_coefficients", "taylor_coefficients_into", "to_symmetric", "velocities",
+    "taylor_coefficients", "taylor_coefficients_into", "to_symmetric", "transfers_into",
+    "velocities",
 ];
 
 /// Beginnings of names of methods that are many.

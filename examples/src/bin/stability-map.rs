@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use branched_pendulum_examples::branched_double::{Failure, files, table};
 use branched_pendulum_examples::exit;
 use branched_pendulum_examples::solvers::arguments::{Request, parse};
-use branched_pendulum_examples::stability_map::{HELP, output};
+use branched_pendulum_examples::stability_map::{HELP, output, truncation};
 
 fn main() -> ExitCode {
     match parse(std::env::args().skip(1), "stability-map-output") {
@@ -26,7 +26,10 @@ fn run(folder: &Path) -> Result<(), Failure> {
     files::make_folder(folder)?;
     let maps = output::maps()?;
     print!("{}", output::table(&maps));
-    let written = output::write(folder, &maps)?;
+    let truncations = truncation::map()?;
+    print!("{}", truncation::table(&truncations));
+    let mut written = output::write(folder, &maps)?;
+    written.extend(truncation::write(folder, &truncations)?);
     print!("{}", table::file_list(&written));
     Ok(())
 }

@@ -6,6 +6,7 @@ use std::io;
 use std::path::PathBuf;
 
 use branched_pendulum::ParameterError;
+use branched_pendulum::analysis::truncation::TruncationError;
 use branched_pendulum::analysis::{ModesError, SpectrumError};
 use branched_pendulum::chart::ChartError;
 use branched_pendulum::data::CsvError;
@@ -27,6 +28,8 @@ pub enum Failure {
     Modes(ModesError),
     /// A spectrum could not be taken.
     Spectrum(SpectrumError),
+    /// Forms of W could not be compared.
+    Truncation(TruncationError),
     /// The output folder could not be made.
     Folder {
         /// The folder.
@@ -50,6 +53,7 @@ impl fmt::Display for Failure {
             } => write!(f, "the run from {angle_deg}° did not reach its end"),
             Self::Modes(_) => write!(f, "the linear modes could not be found"),
             Self::Spectrum(_) => write!(f, "the spectrum of θ_m could not be taken"),
+            Self::Truncation(_) => write!(f, "the forms of W could not be compared"),
             Self::Folder { path, source: _ } => {
                 write!(f, "cannot make the output folder {}", path.display())
             }
@@ -69,6 +73,7 @@ impl Error for Failure {
             } => Some(source.as_ref()),
             Self::Modes(source) => Some(source),
             Self::Spectrum(source) => Some(source),
+            Self::Truncation(source) => Some(source),
             Self::Folder { path: _, source } => Some(source),
             Self::Csv(source) => Some(source),
             Self::Chart(source) => Some(source),
@@ -90,6 +95,7 @@ from!(
     Friction(ParameterError),
     Modes(ModesError),
     Spectrum(SpectrumError),
+    Truncation(TruncationError),
     Csv(CsvError),
     Chart(ChartError)
 );

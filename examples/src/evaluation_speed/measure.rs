@@ -10,7 +10,7 @@ use branched_pendulum::{Pendulum, Rescale};
 use super::articulated::Articulated;
 use super::by_hand::ByHand;
 use super::dense::Dense;
-use super::scenes::{Paper, Tree7, Tree15, Tree31, Tree127};
+use super::scenes::{factorization, recursion};
 use super::states::{Layouts, random};
 use super::table::{self, Link};
 
@@ -18,13 +18,16 @@ use super::table::{self, Link};
 const NUMBERS: usize = 6144;
 
 /// What is measured, in the order of the columns.
-pub const CONTENDERS: [&str; 7] = [
+pub const CONTENDERS: [&str; 10] = [
     "sines of std",
-    "one state",
-    "batch f64",
-    "batch f32",
+    "factorization",
+    "recursion",
+    "batch, fact.",
+    "batch, rec.",
+    "f32, fact.",
+    "f32, rec.",
     "by hand",
-    "articulated",
+    "table",
     "dense",
 ];
 
@@ -47,24 +50,33 @@ type Pass = Box<dyn FnMut()>;
 /// take turns, so that a change of the processor's clock meets all of them.
 #[must_use]
 pub fn all(repeats: usize) -> Vec<Row> {
-    let paper = batches::<3, Paper<_>, Paper<_>>(Paper::default(), Paper::default());
-    let tree7 = batches::<7, Tree7<_>, Tree7<_>>(Tree7::default(), Tree7::default());
-    let tree15 = batches::<15, Tree15<_>, Tree15<_>>(Tree15::default(), Tree15::default());
-    let tree31 = batches::<31, Tree31<_>, Tree31<_>>(Tree31::default(), Tree31::default());
-    let mut with_hand = paper;
-    with_hand[4] = Some(by_hand());
+    macro_rules! solves {
+        ($links:literal, $scene:ident) => {{
+            let mut passes = Passes::default();
+            passes[1] = Some(one_by_one::<$links>(factorization::$scene::new()));
+            passes[2] = Some(one_by_one::<$links>(recursion::$scene::new()));
+            passes
+        }};
+        ($links:literal, $scene:ident, batches) => {{
+            use factorization::$scene as Factorization;
+            use recursion::$scene as Recursion;
+            let mut passes = solves!($links, $scene);
+            passes[3] = Some(doubles::<$links>(Factorization::default()));
+            passes[4] = Some(doubles::<$links>(Recursion::default()));
+            passes[5] = Some(singles::<$links>(Factorization::default()));
+            passes[6] = Some(singles::<$links>(Recursion::default()));
+            passes
+        }};
+    }
+    let mut paper = solves!(3, Paper, batches);
+    paper[7] = Some(by_hand());
+    let tree = |generations| table::tree(generations);
     vec![
-        row::<3>("paper", with_hand, Paper::new(), &table::paper(), repeats),
-        row::<7>("tree", tree7, Tree7::new(), &table::tree(3), repeats),
-        row::<15>("tree", tree15, Tree15::new(), &table::tree(4), repeats),
-        row::<31>("tree", tree31, Tree31::new(), &table::tree(5), repeats),
-        row::<127>(
-            "tree",
-            Default::default(),
-            Tree127::new(),
-            &table::tree(7),
-            repeats,
-        ),
+        row::<3>("paper", paper, &table::paper(), repeats),
+        row::<7>("tree", solves!(7, Tree7, batches), &tree(3), repeats),
+        row::<15>("tree", solves!(15, Tree15, batches), &tree(4), repeats),
+        row::<31>("tree", solves!(31, Tree31, batches), &tree(5), repeats),
+        row::<127>("tree", solves!(127, Tree127), &tree(7), repeats),
     ]
 }
 
@@ -93,20 +105,16 @@ fn arrays<const N: usize>(layouts: &Layouts) -> Vec<[f64; N]> {
 fn row<const N: usize>(
     scene: &'static str,
     mut passes: Passes,
-    model: impl Pendulum<f64> + 'static,
     links: &[Link],
     repeats: usize,
 ) -> Row {
     passes[0] = Some(Box::new(sines::<N>()));
-    passes[1] = Some(Box::new(states::<N>(move |theta, omega, alpha| {
-        model.accelerations_into(0.0, theta, omega, alpha);
-    })));
-    let mut recursion = Articulated::new(links);
-    passes[5] = Some(Box::new(states::<N>(move |theta, omega, alpha| {
-        recursion.accelerations(theta, omega, alpha);
+    let mut table = Articulated::new(links);
+    passes[8] = Some(Box::new(states::<N>(move |theta, omega, alpha| {
+        table.accelerations(theta, omega, alpha);
     })));
     let mut dense = Dense::new(links);
-    passes[6] = Some(Box::new(states::<N>(move |theta, omega, alpha| {
+    passes[9] = Some(Box::new(states::<N>(move |theta, omega, alpha| {
         dense.accelerations(theta, omega, alpha);
     })));
     let mut times: [Vec<f64>; CONTENDERS.len()] = Default::default();
@@ -167,15 +175,18 @@ fn by_hand() -> Pass {
     }))
 }
 
-fn batches<const N: usize, P, Q>(double: P, single: Q) -> Passes
-where
-    P: Rescale<f64> + 'static,
-    Q: Rescale<f32> + 'static,
-{
-    let mut passes = Passes::default();
-    passes[2] = Some(Box::new(batch::<N, _, _>(double, |x| x)));
-    passes[3] = Some(Box::new(batch::<N, _, _>(single, |x| x as f32)));
-    passes
+fn one_by_one<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
+    Box::new(states::<N>(move |theta, omega, alpha| {
+        model.accelerations_into(0.0, theta, omega, alpha);
+    }))
+}
+
+fn doubles<const N: usize>(model: impl Rescale<f64> + 'static) -> Pass {
+    Box::new(batch::<N, _, _>(model, |x| x))
+}
+
+fn singles<const N: usize>(model: impl Rescale<f32> + 'static) -> Pass {
+    Box::new(batch::<N, _, _>(model, |x| x as f32))
 }
 
 fn batch<const N: usize, P, T>(model: P, convert: fn(f64) -> T) -> impl FnMut() + 'static

@@ -6,6 +6,7 @@ pub mod by_hand;
 pub mod dense;
 pub mod measure;
 pub mod output;
+mod random;
 pub mod scenes;
 pub mod states;
 pub mod table;

@@ -1,6 +1,6 @@
 //! Random states, in the two layouts that the contenders read.
 
-use crate::transfer_orders::random::Random;
+use super::random::Random;
 
 /// Angles or angular velocities of many states.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,10 +1,14 @@
 //! The methods of the runtime under one roof, for programs that compare them.
 
 pub mod arguments;
+pub mod scenes;
 
 use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
+
+/// Tolerance below which the rounding of sums is carried along.
+const COMPENSATED: f64 = 1e-12;
 
 /// A method; what it takes, a tolerance or a step, is given to its runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +21,9 @@ pub enum Method {
     Dop853,
     /// Verner's 9(8).
     Verner98,
+    /// Taylor series of the order that the tolerance asks for; sums compensated
+    /// at tolerances near rounding.
+    Taylor,
     /// Gauss–Legendre, by fixed-point iteration.
     Gauss(GaussOrder),
     /// The midpoint rule by Newton's method.
@@ -31,6 +38,7 @@ impl Method {
             Self::Dopri5 => "Dormand–Prince 5(4)",
             Self::Dop853 => "Dormand–Prince 8(5,3)",
             Self::Verner98 => "Verner 9(8)",
+            Self::Taylor => "Taylor",
             Self::Gauss(GaussOrder::Two) => "Gauss 2",
             Self::Gauss(GaussOrder::Four) => "Gauss 4",
             Self::Gauss(GaussOrder::Six) => "Gauss 6",
@@ -41,7 +49,10 @@ impl Method {
 
     /// Whether it takes a tolerance; the others take a step.
     pub fn is_adaptive(self) -> bool {
-        matches!(self, Self::Dopri5 | Self::Dop853 | Self::Verner98)
+        matches!(
+            self,
+            Self::Dopri5 | Self::Dop853 | Self::Verner98 | Self::Taylor
+        )
     }
 
     /// The head of a CSV column that holds indices into `methods`.
@@ -61,7 +72,7 @@ impl Method {
     pub fn integrate(
         self,
         setting: f64,
-        ode: &impl Ode<f64>,
+        ode: &impl TaylorOde<f64>,
         start: &State<f64>,
         end: f64,
         mut visit: impl FnMut(f64, &[f64]) -> ControlFlow<()>,
@@ -76,6 +87,13 @@ impl Method {
             Self::Dopri5 => Dopri5::new(options()).integrate(ode, start, end, observer),
             Self::Dop853 => Dop853::new(options()).integrate(ode, start, end, observer),
             Self::Verner98 => Verner98::new(options()).integrate(ode, start, end, observer),
+            Self::Taylor => {
+                let options = Options {
+                    compensated: setting < COMPENSATED,
+                    ..options()
+                };
+                Taylor::new(options).integrate(ode, start, end, observer)
+            }
             Self::Gauss(order) => Gauss {
                 // What cannot be solved in one piece shows as that.
                 halvings: 0,

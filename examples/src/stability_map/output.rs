@@ -21,7 +21,12 @@ pub const FIXED: [Method; 5] = [
 ];
 
 /// Methods that take a tolerance.
-pub const ADAPTIVE: [Method; 3] = [Method::Dopri5, Method::Dop853, Method::Verner98];
+pub const ADAPTIVE: [Method; 4] = [
+    Method::Dopri5,
+    Method::Dop853,
+    Method::Verner98,
+    Method::Taylor,
+];
 
 /// A run's place in its map, and what became of it.
 #[derive(Clone, Copy, Debug, PartialEq)]

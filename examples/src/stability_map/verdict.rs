@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
 
-use crate::branched_double::scenes::{BranchedDouble, DampedBranchedDouble};
-use crate::branched_double::{Failure, Friction};
+use crate::branched_double::Failure;
 use crate::solvers::Method;
+use crate::solvers::scenes::{Damped, DampedParameters, Ideal};
 
 /// What became of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ fn start(angle_deg: f64) -> State<f64> {
     State::at_rest(0.0, &[angle_deg.to_radians(), 1e-3, -1e-3])
 }
 
-fn energy_of(model: &BranchedDouble, state: &[f64]) -> f64 {
+fn energy_of(model: &Ideal, state: &[f64]) -> f64 {
     let (theta, omega) = state.split_at(3);
     model.kinetic_energy_of(theta, omega) + model.potential_energy_of(theta)
 }
@@ -71,7 +71,7 @@ fn of_error(error: &IntegrationError<f64>) -> Verdict {
 
 /// The verdict on a run without friction, released from `angle_deg`.
 pub fn ideal(method: Method, setting: f64, angle_deg: f64) -> Verdict {
-    let model = BranchedDouble::new();
+    let model = Ideal::new();
     let start = start(angle_deg);
     let initial = energy_of(&model, &start.values);
     let (mut early, mut late) = (0.0_f64, 0.0_f64);
@@ -110,12 +110,8 @@ pub const DAMPED_ANGLE: f64 = 40.0;
 ///
 /// # Errors
 /// [`Failure::Friction`].
-pub fn damped_model(friction: f64) -> Result<DampedBranchedDouble, Failure> {
-    let friction = Friction {
-        root: friction,
-        children: friction,
-    };
-    Ok(DampedBranchedDouble::new(friction.parameters())?)
+pub fn damped_model(friction: f64) -> Result<Damped, Failure> {
+    Ok(Damped::new(DampedParameters { friction })?)
 }
 
 /// Energy at the end with friction by a method and setting that are known to be
@@ -123,7 +119,7 @@ pub fn damped_model(friction: f64) -> Result<DampedBranchedDouble, Failure> {
 ///
 /// # Errors
 /// As the method's.
-pub fn damped_reference(model: &DampedBranchedDouble) -> Result<f64, IntegrationError<f64>> {
+pub fn damped_reference(model: &Damped) -> Result<f64, IntegrationError<f64>> {
     let method = Gauss {
         solver: Solver::Newton,
         ..Gauss::new(GaussOrder::Eight, 2e-4)
@@ -131,18 +127,13 @@ pub fn damped_reference(model: &DampedBranchedDouble) -> Result<f64, Integration
     let ode = AbsoluteAngles(model);
     let run_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
     let end = method.integrate(&ode, &start(DAMPED_ANGLE), DAMPED_DURATION, run_on)?;
-    Ok(energy_of(&BranchedDouble::new(), &end.state.values))
+    Ok(energy_of(&Ideal::new(), &end.state.values))
 }
 
 /// The verdict on a run with friction whose energy at the end should be
 /// `expected`.
-pub fn damped(
-    method: Method,
-    setting: f64,
-    model: &DampedBranchedDouble,
-    expected: f64,
-) -> Verdict {
-    let ideal = BranchedDouble::new();
+pub fn damped(method: Method, setting: f64, model: &Damped, expected: f64) -> Verdict {
+    let ideal = Ideal::new();
     let start = start(DAMPED_ANGLE);
     let initial = energy_of(&ideal, &start.values);
     let mut most = initial;

@@ -17,7 +17,7 @@ pub enum Request {
 pub struct Arguments {
     /// Random states for each amplitude.
     pub states: usize,
-    /// Folder for tables and chart.
+    /// Folder for tables and charts.
     pub output: PathBuf,
 }
 
@@ -32,13 +32,15 @@ impl Default for Arguments {
 
 /// The help text.
 pub const HELP: &str = "\
-How wrong is each form of the energy transfer W into the antiphase mode of the
-paper's branched double pendulum, at which amplitude, and what does it cost?
+How wrong is each form of the energy transfer W into each sector of a tree, at
+which amplitude of its differences, and what does it cost? For the paper's
+branched double pendulum and for two jointed arms on a body; another tree is one
+more description in examples/src/transfer_orders/scenes.rs.
 
 Usage: transfer-orders [OPTION VALUE]...
 
   --states N       random states for each amplitude, 10 to 1000000 [20000]
-  --output FOLDER  where tables and chart go; files of the same name there are
+  --output FOLDER  where tables and charts go; files of the same name there are
                    replaced [transfer-orders-output]
   --help           this text
 ";

@@ -3,21 +3,21 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use super::forms::{Apparatus, FORMS, Motion};
-use super::phase_average::unit_states;
+use branched_pendulum::analysis::truncation::{CanonicalState, PhaseAverage, TruncationError};
+use branched_pendulum::{Transfer, TransferForm, TransferForms};
 
 /// States in one pass: a pass takes long enough for the clock, and its states
 /// fit into the processor's second cache.
 const STATES: usize = 2048;
 
 /// Passes over the states; the median of their times is taken.
-const REPEATS: usize = 101;
+const REPEATS: usize = 51;
 
-/// Median times for one evaluation from (q, p).
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Median times for W into all receivers from (q, p).
+#[derive(Clone, Debug, PartialEq)]
 pub struct Costs {
-    /// Of the forms, in the order of [`FORMS`], over that of the exact form.
-    pub ratios: [f64; FORMS.len()],
+    /// Of the truncated forms, over that of the exact form.
+    pub ratios: Vec<f64>,
     /// Of the exact form, ns.
     pub exact_ns: f64,
 }
@@ -26,48 +26,49 @@ impl Costs {
     /// Measures at random states, one after the other, so that the processor may
     /// overlap them as it does in a table of samples. The forms take turns: a
     /// change of the processor's clock then meets all of them.
-    pub fn measure() -> Self {
-        let model = Apparatus::new();
-        let canonical = |state: &Motion| {
-            let q = state.coordinates;
-            (q, model.symmetric_momenta(&q, &state.rates))
-        };
-        let states: Vec<_> = unit_states(STATES).iter().map(canonical).collect();
-        let mut times: [Vec<f64>; FORMS.len() + 1] = Default::default();
+    ///
+    /// # Errors
+    /// As [`PhaseAverage::canonical_states`].
+    pub fn measure<M: TransferForms<f64>>(
+        model: &M,
+        average: &PhaseAverage,
+    ) -> Result<Self, TruncationError> {
+        let states = PhaseAverage {
+            states: STATES,
+            ..average.clone()
+        }
+        .canonical_states(model, 1.0)?;
+        let mut times = vec![Vec::with_capacity(REPEATS); M::TRANSFER_FORMS.len()];
         for _ in 0..REPEATS {
-            let pass = [
-                time(&states, |q, p| model.transfer_angle_1(q, p)),
-                time(&states, |q, p| model.transfer_amplitude_2(q, p)),
-                time(&states, |q, p| model.transfer_amplitude_4(q, p)),
-                time(&states, |q, p| model.transfer_amplitude_6(q, p)),
-                time(&states, |q, p| model.transfer_amplitude_8(q, p)),
-                time(&states, |q, p| model.transfer_exact(q, p)),
-            ];
-            for (times, time) in times.iter_mut().zip(pass) {
-                times.push(time);
+            for (form, times) in times.iter_mut().enumerate() {
+                times.push(time(model, form, &states));
             }
         }
-        let [a, b, c, d, e, exact_ns] = times.map(median);
-        Self {
-            ratios: [a, b, c, d, e].map(|time| time / exact_ns),
+        let times: Vec<f64> = times.into_iter().map(median).collect();
+        let exact = M::TRANSFER_FORMS.iter().zip(&times);
+        let exact = exact.filter(|(form, _)| **form == TransferForm::Exact);
+        let exact_ns = exact.map(|(_, time)| *time).sum();
+        let all = M::TRANSFER_FORMS.iter().zip(&times);
+        let truncated = all.filter(|(form, _)| **form != TransferForm::Exact);
+        Ok(Self {
+            ratios: truncated.map(|(_, time)| time / exact_ns).collect(),
             exact_ns,
-        }
+        })
     }
 }
 
 /// Time for one evaluation in one pass over the states, ns.
-pub(super) fn time<const N: usize, W>(
-    states: &[([f64; N], [f64; N])],
-    form: impl Fn(&[f64; N], &[f64; N]) -> W,
-) -> f64 {
+fn time<M: TransferForms<f64>>(model: &M, form: usize, states: &[CanonicalState]) -> f64 {
+    let mut transfers = vec![Transfer::default(); M::RECEIVERS.len()];
     let start = Instant::now();
     for (q, p) in black_box(states) {
-        black_box(form(q, p));
+        model.transfers_into(form, q, p, &mut transfers);
+        black_box(&mut transfers);
     }
     start.elapsed().as_secs_f64() * 1e9 / states.len() as f64
 }
 
-pub(super) fn median(mut values: Vec<f64>) -> f64 {
+fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

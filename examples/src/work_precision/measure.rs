@@ -5,16 +5,17 @@ use std::time::{Duration, Instant};
 
 use branched_pendulum::prelude::*;
 
-use super::reference::Problem;
-use crate::branched_double::scenes::BranchedDouble;
+use super::reference::{Problem, Tree};
 use crate::solvers::Method;
+use crate::solvers::scenes::{Ideal, Rods};
 
 /// The methods that are compared.
-pub const METHODS: [Method; 7] = [
+pub const METHODS: [Method; 8] = [
     Method::Rk4,
     Method::Dopri5,
     Method::Dop853,
     Method::Verner98,
+    Method::Taylor,
     Method::Gauss(GaussOrder::Four),
     Method::Gauss(GaussOrder::Six),
     Method::Gauss(GaussOrder::Eight),
@@ -31,7 +32,8 @@ pub struct Measurement {
     pub error: f64,
     /// Time for the run, µs: the shortest of several.
     pub microseconds: f64,
-    /// Evaluations of the right-hand side.
+    /// Evaluations of the right-hand side; of Taylor series, orders of their
+    /// coefficients.
     pub evaluations: u64,
 }
 
@@ -41,10 +43,13 @@ fn settings(method: Method) -> Vec<f64> {
         let halves = |k| longest * 0.5_f64.powf(0.5 * f64::from(k));
         (0..count).map(halves).collect()
     };
+    let tolerances = |last: i32| {
+        let tolerance = |k| 10.0_f64.powf(-0.5 * f64::from(k));
+        (6..=last).map(tolerance).collect()
+    };
     match method {
-        _ if method.is_adaptive() => (6..=28)
-            .map(|k| 10.0_f64.powf(-0.5 * f64::from(k)))
-            .collect(),
+        Method::Taylor => tolerances(32),
+        _ if method.is_adaptive() => tolerances(28),
         Method::Rk4 => steps(0.02, 14),
         _ => steps(0.08, 11),
     }
@@ -52,15 +57,20 @@ fn settings(method: Method) -> Vec<f64> {
 
 /// Measures a problem with every method; runs that fail are left out.
 pub fn measure(problem: &Problem) -> Vec<Measurement> {
-    let model = BranchedDouble::new();
-    let ode = AbsoluteAngles(&model);
+    match problem.tree {
+        Tree::Paper => measure_on(&AbsoluteAngles(&Ideal::new()), problem),
+        Tree::Rods => measure_on(&AbsoluteAngles(&Rods::new()), problem),
+    }
+}
+
+fn measure_on(ode: &impl TaylorOde<f64>, problem: &Problem) -> Vec<Measurement> {
     let start = State::at_rest(0.0, &problem.start);
     let mut all = Vec::new();
     for method in METHODS {
         for setting in settings(method) {
             let run = || {
                 let observer = |_: f64, _: &[f64]| ControlFlow::Continue(());
-                method.integrate(setting, &ode, &start, problem.end, observer)
+                method.integrate(setting, ode, &start, problem.end, observer)
             };
             let Ok(solution) = run() else {
                 continue;
@@ -126,7 +136,7 @@ pub struct EnergyDrift {
 /// # Errors
 /// As the methods'.
 pub fn energy_drifts() -> Result<Vec<EnergyDrift>, IntegrationError<f64>> {
-    let model = BranchedDouble::new();
+    let model = Ideal::new();
     let start = State::at_rest(0.0, &[0.3, 1e-3, -1e-3]);
     let energy = |state: &[f64]| {
         let (theta, omega) = state.split_at(3);
@@ -138,6 +148,7 @@ pub fn energy_drifts() -> Result<Vec<EnergyDrift>, IntegrationError<f64>> {
         (Method::Dopri5, 1e-10),
         (Method::Dop853, 1e-12),
         (Method::Verner98, 1e-13),
+        (Method::Taylor, 1e-16),
         (Method::Gauss(GaussOrder::Four), 0.02),
         (Method::Gauss(GaussOrder::Eight), 0.01),
     ];

@@ -11,7 +11,7 @@ use crate::branched_double::Failure;
 use crate::solvers::Method;
 
 /// Errors in the table.
-const LEVELS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
+const LEVELS: [f64; 5] = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14];
 
 /// A problem's name and its runs.
 pub type Runs = (&'static str, Vec<Measurement>);
@@ -125,9 +125,12 @@ pub fn write(
         ),
         (
             "work-precision-evaluations",
-            chart(against_work, "evaluations", problems, |run| {
-                run.evaluations as f64
-            }),
+            chart(
+                against_work,
+                "evaluations (of Taylor: orders)",
+                problems,
+                |run| run.evaluations as f64,
+            ),
         ),
         ("energy-drift", drift_chart(drifts)),
     ];
@@ -144,7 +147,7 @@ pub fn write(
 }
 
 fn chart(title: &str, x: &str, problems: &[Runs], cost: impl Fn(&Measurement) -> f64) -> Chart {
-    let chart = Chart::new(title, Axis::log(x)).size(900.0, 1200.0);
+    let chart = Chart::new(title, Axis::log(x)).size(900.0, 120.0 + 320.0 * problems.len() as f64);
     problems.iter().fold(chart, |chart, (name, runs)| {
         let panel = Panel::new(Axis::log(format!("error, {name}")).range(1e-14, 10.0));
         let panel = METHODS.iter().fold(panel, |panel, method| {

@@ -1,11 +1,13 @@
 //! From matrices and trajectories to physics: linear modes, of a whole tree and
-//! sector by sector, spectra, and the growth of deviations.
+//! sector by sector, spectra, the growth of deviations, and how far truncated
+//! transfers reach.
 
 pub mod modes;
 pub mod sector_modes;
 pub mod spectrum;
+pub mod truncation;
+pub mod variational;
 
 pub use modes::{Modes, ModesError};
 pub use sector_modes::{SectorBlock, SectorModes, SectorModesError};
 pub use spectrum::{Peak, Spectrum, SpectrumError, SpectrumOptions, Window};
-pub mod variational;

@@ -11,9 +11,9 @@ use crate::system::State;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum InputError<T> {
-    /// A tolerance is negative or not finite.
+    /// A tolerance is negative or not finite, or zero where it must not be.
     Tolerance {
-        /// `"relative"` or `"absolute"`.
+        /// `"relative"`, `"absolute"` or `"projection"`.
         name: &'static str,
         /// Index of the component; 0 for a uniform tolerance.
         component: usize,
@@ -73,6 +73,16 @@ pub enum InputError<T> {
         /// The highest.
         largest: usize,
     },
+    /// A splitting is asked for where H is not T(p) + U(q).
+    NotSeparable {
+        /// Index of the coordinate whose rate, or whose momentum's rate, depends
+        /// on what it must not.
+        coordinate: usize,
+        /// Which of the two.
+        rate: Inseparable,
+        /// By how much it does, relative to its size.
+        change: T,
+    },
     /// The state has no components.
     EmptyState,
     /// The state does not fit the equations.
@@ -112,9 +122,28 @@ pub enum InputError<T> {
     },
 }
 
+/// What keeps a Hamiltonian from being T(p) + U(q).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inseparable {
+    /// Velocities depend on the coordinates, as those of links that hang from
+    /// other links do.
+    Velocity,
+    /// Rates of momenta depend on momenta: by a kinetic energy that depends on
+    /// the coordinates, or by friction.
+    Force,
+}
+
 impl<T: Real> fmt::Display for InputError<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Tolerance {
+                name: "projection",
+                component: _,
+                value,
+            } => write!(
+                f,
+                "tolerance of the projection is {value}: it must be finite and positive"
+            ),
             Self::Tolerance {
                 name,
                 component,
@@ -171,6 +200,23 @@ impl<T: Real> fmt::Display for InputError<T> {
                 f,
                 "the order is {order}: it must be between {smallest} and {largest}"
             ),
+            Self::NotSeparable {
+                coordinate,
+                rate,
+                change,
+            } => {
+                let (rate, cause) = match rate {
+                    Inseparable::Velocity => ("velocity of coordinate", "coordinates"),
+                    Inseparable::Force => ("rate of momentum", "momenta"),
+                };
+                write!(
+                    f,
+                    "the {rate} {coordinate} depends on the {cause}, by {change} of its size: \
+                     H is not T(p) + U(q), \
+                     so that a splitting would not be symplectic and hardly consistent; \
+                     Gauss methods need no such form"
+                )
+            }
             Self::EmptyState => write!(f, "the state has no components"),
             Self::Dimension { expected, found } => {
                 write!(
@@ -246,6 +292,20 @@ pub enum IntegrationError<T> {
         /// Account of the run so far.
         report: Report<T>,
     },
+    /// The end of a step was not brought back to the level of a first integral,
+    /// however often the step was halved.
+    NotProjected {
+        /// Length of the last step tried.
+        step: T,
+        /// Newton iterations made for its end.
+        iterations: u32,
+        /// What is left: value of the integral minus its level.
+        deviation: T,
+        /// The last accepted state.
+        last: State<T>,
+        /// Account of the run so far.
+        report: Report<T>,
+    },
     /// The function of an event is NaN.
     Event {
         /// Index of the event among those asked for.
@@ -277,6 +337,7 @@ impl<T> IntegrationError<T> {
             Self::NonFinite { last, .. }
             | Self::StepTooSmall { last, .. }
             | Self::NotSolved { last, .. }
+            | Self::NotProjected { last, .. }
             | Self::Event { last, .. }
             | Self::StepLimit { last, .. } => Some(last),
         }
@@ -290,6 +351,7 @@ impl<T> IntegrationError<T> {
             Self::NonFinite { report, .. }
             | Self::StepTooSmall { report, .. }
             | Self::NotSolved { report, .. }
+            | Self::NotProjected { report, .. }
             | Self::Event { report, .. }
             | Self::StepLimit { report, .. } => Some(report),
         }
@@ -337,6 +399,18 @@ impl<T: Real> fmt::Display for IntegrationError<T> {
                 f,
                 "a step of {step} at t = {} is not solved after {iterations} iterations: \
                  the last changed it by {change} of its size",
+                last.time
+            ),
+            Self::NotProjected {
+                step,
+                iterations,
+                deviation,
+                last,
+                report: _,
+            } => write!(
+                f,
+                "the end of a step of {step} at t = {} is off the level of its first integral \
+                 by {deviation} after {iterations} iterations",
                 last.time
             ),
             Self::Event {

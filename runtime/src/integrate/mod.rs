@@ -13,6 +13,9 @@
 //! | [`Taylor`] | by tolerance | that of the method | adaptive | tolerances down to rounding |
 //! | [`Rk4`] | 4 | 3 | fixed | comparison |
 //! | [`Gauss`] | 2, 4, 6, 8 | 1 to 4 | fixed | energy over long times |
+//! | [`StoermerVerlet`] | 2 | 1 | fixed | H = T(p) + U(q) alone: a single link |
+//!
+//! [`Projected`] holds the state of [`Gauss`] and [`Rk4`] to a first integral.
 //!
 //! Every run ends with a [`Report`]; a run that fails ends with an
 //! [`IntegrationError`] that carries the last good state.
@@ -31,12 +34,12 @@ mod sum;
 mod taylor;
 
 pub use dense::{DenseError, DenseStep};
-pub use error::{InputError, IntegrationError};
+pub use error::{InputError, Inseparable, IntegrationError};
 pub use events::{Crossing, Event, Occurrence};
 pub use explicit::{
     Dop853, Dopri5, DormandPrince5, DormandPrince8, ExplicitRungeKutta, Verner9, Verner98,
 };
-pub use fixed::{Gauss, GaussOrder, Rk4, Solver};
+pub use fixed::{Gauss, GaussOrder, Projected, Rk4, Solver, StoermerVerlet};
 pub use integrator::Integrator;
 pub use options::{Options, Tolerance};
 pub use report::{Report, Solution, StopReason};

@@ -21,6 +21,8 @@ pub enum StopReason {
     StepTooSmall,
     /// The equations of an implicit step could not be solved.
     NotSolved,
+    /// A state could not be brought back to the level of a first integral.
+    NotProjected,
     /// The state or its rates became infinite or NaN.
     NonFinite,
 }
@@ -34,6 +36,7 @@ impl fmt::Display for StopReason {
             Self::StepLimit => "step limit reached",
             Self::StepTooSmall => "step too small",
             Self::NotSolved => "equations of a step not solved",
+            Self::NotProjected => "state not projected",
             Self::NonFinite => "state or rates not finite",
         })
     }

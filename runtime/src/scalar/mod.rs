@@ -95,6 +95,14 @@ pub trait Scalar:
     /// each. Used for constants, and for them only.
     fn from_f64(value: f64) -> Self;
 
+    /// A constant given as the `f64` nearest to it and the `f64` nearest to
+    /// the rest. Types of no more digits than `f64` take the first alone.
+    #[inline(always)]
+    fn from_parts(high: f64, low: f64) -> Self {
+        let _ = low;
+        Self::from_f64(high)
+    }
+
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
 

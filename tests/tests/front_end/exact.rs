@@ -257,3 +257,23 @@ fn the_ends_of_the_range() {
     assert_eq!(power_of_two(-4000).to_f64(), 0.0);
     assert_eq!(power_of_two(4000).to_f64(), f64::INFINITY);
 }
+
+/// In machine words: 0.1 = 3602879701896397 / 2^55 - 1 / (5 * 2^56), by hand.
+#[test]
+fn two_parts() {
+    let number = decimal;
+    assert_eq!(number("0.1").to_parts(), (0.1, -5.551115123125783e-18));
+    assert_eq!(number("-0.1").to_parts(), (-0.1, 5.551115123125783e-18));
+    for exact in ["0", "0.5", "-3", "1e22", "9007199254740992"] {
+        assert_eq!(number(exact).to_parts(), (exact.parse().unwrap(), 0.0));
+    }
+    // 2^53 + 1: a tie that goes to the even one.
+    assert_eq!(
+        number("9007199254740993").to_parts(),
+        (9007199254740992.0, 1.0)
+    );
+    assert_eq!(number("1e400").to_parts(), (f64::INFINITY, 0.0));
+    assert_eq!(number("1e-400").to_parts(), (0.0, 0.0));
+    // The last bit of a subnormal number is the last there is.
+    assert_eq!(number("1e-310").to_parts(), (1e-310, 0.0));
+}

@@ -6,4 +6,5 @@ mod exact;
 mod fuzz;
 mod scenes;
 mod singular;
+mod stubs;
 mod support;

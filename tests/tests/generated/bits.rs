@@ -242,15 +242,27 @@ fn nested() {
         one: [mass_matrix, stiffness_matrix, to_symmetric, from_symmetric]);
 }
 
-/// A function that is emitted in parts computes what an undivided one would.
+/// A function whose parts share their values in an array computes what an
+/// undivided one would; places of the array serve several values.
 #[test]
 fn functions_in_parts() {
     let tokens = scene("generations").tokens.to_string();
     for part in ["budget_parseval_part_1", "budget_parseval_part_2"] {
         assert!(tokens.contains(&format!("fn {part} ")), "no {part}");
     }
+    let function = tokens.split("pub fn ");
+    let mut function = function.filter(|code| code.starts_with("budget_parseval "));
+    let function = function.next().expect("the scene has it");
+    let given = function.matches("; shared_values [").count();
+    let size = function
+        .split_once("let mut shared_values = [T :: from_f64 (0.0) ; ")
+        .and_then(|(_, rest)| rest.split_once(']'))
+        .and_then(|(size, _)| size.trim().parse::<usize>().ok());
+    let size = size.expect("the parts share an array");
+    assert!(given > size, "{given} values in {size} places");
     agree!("generations", Generations::new(), [], 15,
-        two: [accelerations, budget_parseval], one: []);
+        two: [accelerations, budget_rest, budget_canonical, budget_velocity, budget_parseval,
+              sector_transfers, transfer_matrix], one: []);
 }
 
 #[test]

@@ -7,3 +7,4 @@ mod machine_code;
 mod scalars;
 mod sectors;
 mod toolchain;
+mod transfer_forms;

@@ -211,8 +211,20 @@ fn dual_numbers_give_the_jacobian() {
     }
 }
 
-/// K = ½ ωᵀp, where kinetic energy and momenta are functions of their own. The
-/// constants are those of `f64` in both, and powers of two of each other.
+/// M_parent of the paper's pendulum has ten decimals, and no `f64` has its value.
+#[test]
+fn constants_have_the_digits_of_the_scalar() {
+    let exact = Double::from_f64(181_430_108.0) / Double::from_f64(1e10);
+    let wide = Paper::<Double>::default().inertia_parent();
+    assert_ne!(exact.low(), 0.0);
+    let error = ((wide - exact) / exact).high().abs();
+    assert!(error < 1e-31, "{error}");
+    assert_eq!(wide.high(), Paper::new().inertia_parent());
+    let dual = Paper::<Dual<Double, 1>>::default().inertia_parent();
+    assert_eq!(dual.value, wide);
+}
+
+/// K = ½ ωᵀp, where kinetic energy and momenta are functions of their own.
 #[test]
 fn double_double_keeps_thirty_digits() {
     let mut random = Random::new(11);

@@ -6,6 +6,7 @@ mod exactness;
 mod fixtures;
 mod formulas;
 mod letters;
+mod nested_observables;
 mod observables;
 mod orders;
 mod paper;

@@ -2,5 +2,7 @@
 //! that it says the same each time.
 
 mod determinism;
+mod ladder;
+mod lengths;
 mod pages;
 mod snapshots;

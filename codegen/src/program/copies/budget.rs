@@ -50,7 +50,7 @@ impl Copies<'_> {
             self.block(values, &motion.pose, which)
         };
         let momenta = self.projections(&motion.momenta, which);
-        self.solve_block(&block, &momenta)
+        self.solve_block(&block, &momenta, which)
     }
 
     /// −½ uᵀ Ḃ u: what the change of the sector's block does to ½ pᵀ B⁻¹ p.
@@ -190,23 +190,37 @@ impl Copies<'_> {
         [conservative, other]
     }
 
-    /// H = ½ p·ω + U.
-    pub(in crate::program) fn hamiltonian(&mut self, values: &Values, motion: &Motion) -> Series {
+    /// K = ½ p·ω.
+    pub(in crate::program) fn kinetic_energy(&mut self, motion: &Motion) -> Series {
         let mut twice = Series::default();
         for (momentum, rate) in motion.momenta.iter().zip(&motion.rates) {
             let product = self.dot(momentum, rate);
             twice = self.graded.add(&twice, &product);
         }
         let half = self.half();
-        let mut energy = self.graded.mul(&half, &twice);
+        self.graded.mul(&half, &twice)
+    }
+
+    /// H = K + U.
+    pub(in crate::program) fn hamiltonian(&mut self, values: &Values, motion: &Motion) -> Series {
+        let kinetic = self.kinetic_energy(motion);
+        self.with_potential(kinetic, values, &motion.pose)
+    }
+
+    /// U.
+    pub(in crate::program) fn potential_energy(&mut self, values: &Values, pose: &Pose) -> Series {
+        self.with_potential(Series::default(), values, pose)
+    }
+
+    fn with_potential(&mut self, mut energy: Series, values: &Values, pose: &Pose) -> Series {
         let mut sectors: Vec<Which> = vec![None];
-        for orbit in &motion.pose.angles {
+        for orbit in &pose.angles {
             sectors.extend(orbit.differences.keys().map(|&place| Some(place)));
         }
         sectors.sort_unstable();
         sectors.dedup();
         for which in sectors {
-            let potential = self.sector_potential(values, &motion.pose, which);
+            let potential = self.sector_potential(values, pose, which);
             energy = self.graded.add(&energy, &potential);
         }
         energy

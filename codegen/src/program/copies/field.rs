@@ -103,7 +103,7 @@ impl<'b> Copies<'b> {
         self.termwise(f, g, Graded::sub)
     }
 
-    pub(super) fn neg(&mut self, f: &Field) -> Field {
+    pub(in crate::program) fn neg(&mut self, f: &Field) -> Field {
         self.sub(&Field::zero(f.orbit), f)
     }
 

@@ -12,6 +12,7 @@
 mod budget;
 mod field;
 mod motion;
+mod named;
 mod parseval;
 mod potential;
 mod reciprocal;
@@ -26,4 +27,5 @@ pub(super) use field::{Copies, Field};
 pub(super) use motion::{CouplingValues, Fields, OrbitValues, Pose, Values};
 pub(super) use sector::Which;
 pub(super) use series::{Graded, Series};
+pub(super) use solve::Factors;
 pub(super) use tree::{Orbit, orbits};

@@ -4,7 +4,6 @@
 use super::field::{Copies, Field};
 use super::series::Series;
 use super::turn::Direction;
-use crate::program::ValueId;
 
 /// Values of the constants of one orbit; zeros are empty series.
 pub(in crate::program) struct OrbitValues {
@@ -80,6 +79,9 @@ impl Copies<'_> {
             ];
             let cos = self.add(&products[0], &products[1]);
             let sin = self.sub(&products[2], &products[3]);
+            let above = self.orbits[column].name(None);
+            self.hinted(&cos, &format!("cos_from_{above}"));
+            self.hinted(&sin, &format!("sin_from_{above}"));
             let parts = [
                 self.scale(&coupling.cosine, &cos),
                 self.scale(&coupling.sine, &sin),
@@ -134,11 +136,16 @@ impl Copies<'_> {
             let up = self.gather(&up, entry.column);
             self.accumulate(&mut momenta, &up);
         }
+        self.all_hinted(&momenta, "momentum");
         momenta
     }
 
     /// ∂U/∂θ of gravity and springs.
-    pub(super) fn potential_gradient(&mut self, values: &Values, pose: &Pose) -> Fields {
+    pub(in crate::program) fn potential_gradient(
+        &mut self,
+        values: &Values,
+        pose: &Pose,
+    ) -> Fields {
         let mut gradient = self.zeros();
         for (orbit, constants) in values.orbits.iter().enumerate() {
             let direction = &pose.directions[orbit];
@@ -150,6 +157,7 @@ impl Copies<'_> {
         self.in_joints(&mut gradient, &pose.angles, values, |constants| {
             &constants.spring
         });
+        self.all_hinted(&gradient, "potential_slope");
         gradient
     }
 
@@ -168,7 +176,9 @@ impl Copies<'_> {
                 continue;
             }
             let relative = self.relative(positions, orbit);
+            self.hinted(&relative, "relative");
             let torque = self.scale(stiffness, &relative);
+            self.hinted(&torque, "joint_torque");
             self.accumulate(sums, &torque);
             if let Some(parent) = self.orbits[orbit].parent {
                 let reaction = self.gather(&torque, parent);
@@ -196,13 +206,29 @@ impl Copies<'_> {
         pose: &Pose,
         rates: &Fields,
     ) -> Fields {
+        let mut forces = self.friction_forces(values, rates);
+        self.drive(&mut forces, values, pose);
+        forces
+    }
+
+    /// Generalized forces of friction and drag, Q = −∂R/∂ω.
+    pub(in crate::program) fn friction_forces(
+        &mut self,
+        values: &Values,
+        rates: &Fields,
+    ) -> Fields {
         let mut losses = self.zeros();
         self.in_joints(&mut losses, rates, values, |constants| &constants.friction);
         for (constants, rate) in values.orbits.iter().zip(rates) {
             let drag = self.scale(&constants.drag, rate);
             self.accumulate(&mut losses, &drag);
         }
-        let mut forces: Fields = losses.iter().map(|loss| self.neg(loss)).collect();
+        self.all_hinted(&losses, "loss");
+        losses.iter().map(|loss| self.neg(loss)).collect()
+    }
+
+    /// Adds the generalized forces of the drive.
+    pub(in crate::program) fn drive(&mut self, forces: &mut Fields, values: &Values, pose: &Pose) {
         for (orbit, constants) in values.orbits.iter().enumerate() {
             let [c, s, torque] = &constants.drive;
             let direction = &pose.directions[orbit];
@@ -210,21 +236,42 @@ impl Copies<'_> {
             let across = self.scale(c, &direction.sin);
             let pushed = self.sub(&along, &across);
             let turned = Field::uniform(orbit, torque.clone());
-            self.accumulate(&mut forces, &pushed);
-            self.accumulate(&mut forces, &turned);
+            self.accumulate(forces, &pushed);
+            self.accumulate(forces, &turned);
         }
-        forces
     }
 
     /// ∂K/∂θ at fixed velocities.
-    pub(super) fn kinetic_gradient(&mut self, pose: &Pose, rates: &Fields) -> Fields {
+    pub(in crate::program) fn kinetic_gradient(&mut self, pose: &Pose, rates: &Fields) -> Fields {
         let mut gradient = self.zeros();
         for entry in &pose.entries {
             let above = self.lift(&rates[entry.column], entry.row);
             let product = self.mul(&rates[entry.row], &above);
+            let name = format!("omega_{}_omega", self.orbits[entry.column].name(None));
+            self.hinted(&product, &name);
             self.turn_both(&mut gradient, entry, &product);
         }
+        self.all_hinted(&gradient, "kinetic_slope");
         gradient
+    }
+
+    /// Ṁ v.
+    pub(in crate::program) fn mass_changes(&mut self, pose: &Pose, rates: &Fields) -> Fields {
+        let mut changes = self.zeros();
+        for entry in &pose.entries {
+            let above = self.lift(&rates[entry.column], entry.row);
+            let relative = self.sub(&rates[entry.row], &above);
+            let change = self.mul(&entry.slope, &relative);
+            let name = format!("mass_rate_{}", self.orbits[entry.column].name(None));
+            self.hinted(&change, &name);
+            let down = self.mul(&change, &above);
+            self.accumulate(&mut changes, &down);
+            let up = self.mul(&change, &rates[entry.row]);
+            let up = self.gather(&up, entry.column);
+            self.accumulate(&mut changes, &up);
+        }
+        self.all_hinted(&changes, "mass_change");
+        changes
     }
 
     /// ∂(aᵀ M b)/∂θ.
@@ -236,6 +283,8 @@ impl Copies<'_> {
             let first = self.mul(&a[entry.row], &b_above);
             let second = self.mul(&b[entry.row], &a_above);
             let product = self.add(&first, &second);
+            let name = format!("mixed_{}", self.orbits[entry.column].name(None));
+            self.hinted(&product, &name);
             self.turn_both(&mut gradient, entry, &product);
         }
         gradient
@@ -245,6 +294,8 @@ impl Copies<'_> {
     /// ancestors'.
     fn turn_both(&mut self, gradient: &mut Fields, entry: &Entry, product: &Field) {
         let own = self.mul(&entry.slope, product);
+        let name = format!("turning_{}", self.orbits[entry.column].name(None));
+        self.hinted(&own, &name);
         self.accumulate(gradient, &own);
         let above = self.gather(&own, entry.column);
         let above = self.neg(&above);
@@ -255,6 +306,7 @@ impl Copies<'_> {
     /// m′ ω² of the other link, centrifugal and no Coriolis terms.
     pub(super) fn centrifugal(&mut self, pose: &Pose, rates: &Fields) -> Fields {
         let squares: Fields = rates.iter().map(|rate| self.mul(rate, rate)).collect();
+        self.all_hinted(&squares, "omega_squared");
         let mut forces = self.zeros();
         for entry in &pose.entries {
             let above = self.lift(&squares[entry.column], entry.row);
@@ -265,6 +317,7 @@ impl Copies<'_> {
             let up = self.neg(&up);
             self.accumulate(&mut forces, &up);
         }
+        self.all_hinted(&forces, "centrifugal");
         forces
     }
 
@@ -280,57 +333,11 @@ impl Copies<'_> {
         self.subtract(&motion, &gradient)
     }
 
-    pub(super) fn subtract(&mut self, a: &Fields, b: &Fields) -> Fields {
+    pub(in crate::program) fn subtract(&mut self, a: &Fields, b: &Fields) -> Fields {
         a.iter().zip(b).map(|(a, b)| self.sub(a, b)).collect()
     }
 
     pub(in crate::program) fn sum(&mut self, a: &Fields, b: &Fields) -> Fields {
         a.iter().zip(b).map(|(a, b)| self.add(a, b)).collect()
-    }
-
-    /// Names the mean and the differences of a field: `theta_child_m`.
-    pub(in crate::program) fn named(&mut self, field: &Field, letter: &str) {
-        let orbit = &self.orbits[field.orbit];
-        let parts = field
-            .differences
-            .iter()
-            .map(|(&place, value)| (Some(place), value));
-        for (which, value) in std::iter::once((None, &field.mean)).chain(parts) {
-            if let Some(value) = value.coefficient(0) {
-                let name = format!("{letter}_{}", orbit.name(which));
-                self.graded.builder.name(value, &name);
-            }
-        }
-    }
-
-    /// The links' values of a field, in the order of the orbit's links.
-    pub(in crate::program) fn analysed(&mut self, orbit: usize, links: &[ValueId]) -> Field {
-        let mut field = Field::zero(orbit);
-        let mut next = 0;
-        let branch = self.orbits[orbit].branch.as_ref();
-        field.mean = self.analysed_below(branch, links, &mut next, &mut field);
-        field
-    }
-
-    fn analysed_below(
-        &mut self,
-        branch: Option<&super::tree::Branch>,
-        links: &[ValueId],
-        next: &mut usize,
-        field: &mut Field,
-    ) -> Series {
-        let Some(branch) = branch else {
-            *next += 1;
-            return self.graded.value(links[*next - 1]);
-        };
-        let means: Vec<Series> = branch
-            .copies
-            .iter()
-            .map(|copy| self.analysed_below(copy.as_ref(), links, next, field))
-            .collect();
-        for (index, value) in self.differences(&means).into_iter().enumerate() {
-            field.put((branch.group, index + 1), value);
-        }
-        self.average(&means)
     }
 }

@@ -34,10 +34,19 @@ impl Copies<'_> {
             self.scale(a, sin),
             self.scale(b, cos),
         ];
-        [
+        let lever = [
             self.sub(&parts[0], &parts[1]),
             self.add(&parts[2], &parts[3]),
-        ]
+        ];
+        self.plane_hinted(&lever, "lever");
+        lever
+    }
+
+    /// Hints at what the components of vectors are.
+    fn plane_hinted(&mut self, plane: &Plane, what: &str) {
+        for (axis, component) in ["x", "y"].iter().zip(plane) {
+            self.hinted(component, &format!("{what}_{axis}"));
+        }
     }
 
     /// Second derivative: the lever turned by a right angle.
@@ -59,6 +68,7 @@ impl Copies<'_> {
         &mut self,
         values: &Values,
         motion: &Motion,
+        what: &str,
         mut contribution: impl FnMut(&mut Self, &Plane, usize) -> Plane,
     ) -> Vec<Plane> {
         let mut pivots: Vec<Plane> = Vec::new();
@@ -78,7 +88,9 @@ impl Copies<'_> {
             let direction = motion.pose.directions[orbit].clone();
             let lever = self.lever(&constants.com, &direction);
             let own = contribution(self, &lever, orbit);
-            centres.push(self.add_planes(&pivot, &own));
+            let centre = self.add_planes(&pivot, &own);
+            self.plane_hinted(&centre, what);
+            centres.push(centre);
             pivots.push(pivot);
         }
         centres
@@ -89,7 +101,7 @@ impl Copies<'_> {
         values: &Values,
         motion: &Motion,
     ) -> Kinematics {
-        let velocities = self.of_centres(values, motion, |copies, lever, orbit| {
+        let velocities = self.of_centres(values, motion, "velocity", |copies, lever, orbit| {
             copies.times(lever, &motion.rates[orbit])
         });
         Kinematics { velocities }
@@ -142,13 +154,15 @@ impl Copies<'_> {
             .iter()
             .map(|rate| self.mul(rate, rate))
             .collect();
-        let accelerations = self.of_centres(values, motion, |copies, lever, orbit| {
-            let along = copies.times(lever, &conservative[orbit]);
-            let across = copies.across(lever);
-            let inwards = copies.times(&across, &squares[orbit]);
-            copies.add_planes(&along, &inwards)
-        });
-        let added = self.of_centres(values, motion, |copies, lever, orbit| {
+        self.all_hinted(&squares, "omega_squared");
+        let accelerations =
+            self.of_centres(values, motion, "acceleration", |copies, lever, orbit| {
+                let along = copies.times(lever, &conservative[orbit]);
+                let across = copies.across(lever);
+                let inwards = copies.times(&across, &squares[orbit]);
+                copies.add_planes(&along, &inwards)
+            });
+        let added = self.of_centres(values, motion, "added", |copies, lever, orbit| {
             copies.times(lever, &other[orbit])
         });
         let velocities = &kinematics.velocities;
@@ -190,7 +204,10 @@ impl Copies<'_> {
             .map(|orbit| {
                 let mass = &values.orbits[orbit].mass;
                 let velocity = &kinematics.velocities[orbit];
-                [0, 1].map(|axis| self.scale(mass, &velocity[axis].restricted(which)))
+                let impulse =
+                    [0, 1].map(|axis| self.scale(mass, &velocity[axis].restricted(which)));
+                self.plane_hinted(&impulse, "impulse");
+                impulse
             })
             .collect();
         let mut carried = impulses.clone();
@@ -215,18 +232,19 @@ impl Copies<'_> {
             if let Some(parent) = self.orbits[orbit].parent {
                 let above = [0, 1].map(|axis| self.gather(&carried[orbit][axis].clone(), parent));
                 carried[parent] = self.add_planes(&carried[parent].clone(), &above);
+                self.plane_hinted(&carried[parent].clone(), "carried");
                 let direction = motion.pose.directions[parent].clone();
                 let lever = self.lever(&constants.pivot, &direction);
                 self.moment(&mut by_rates, &mut by_angles, &lever, &above, motion);
             }
         }
+        self.all_hinted(&by_rates, "energy_slope_omega");
         let momenta = self.solve(factors, &by_rates);
         // At fixed momenta the velocities change with the mass matrix.
         let change = self.bilinear_gradient(&motion.pose, &momenta, &motion.rates);
-        Slopes {
-            angles: self.subtract(&by_angles, &change),
-            momenta,
-        }
+        let angles = self.subtract(&by_angles, &change);
+        self.all_hinted(&angles, "energy_slope");
+        Slopes { angles, momenta }
     }
 
     /// lever · impulse to the derivative in ω, ω lever′ · impulse to that in θ.
@@ -247,9 +265,11 @@ impl Copies<'_> {
             copies.add(&products[0], &products[1])
         };
         let along = dot(self, lever);
+        self.hinted(&along, "moment");
         self.accumulate(by_rates, &along);
         let across = self.across(lever);
         let across = dot(self, &across);
+        self.hinted(&across, "moment_across");
         let across = self.mul(&across, &motion.rates[orbit]);
         self.accumulate(by_angles, &across);
     }

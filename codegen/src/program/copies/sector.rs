@@ -251,13 +251,20 @@ impl<'b> Copies<'b> {
         &mut self,
         block: &Block,
         right: &BTreeMap<usize, Series>,
+        which: Which,
     ) -> BTreeMap<usize, Series> {
+        let name = |copies: &Self, orbit: usize| copies.orbits[orbit].name(which).to_owned();
         let orbits: Vec<usize> = right.keys().copied().collect();
         let mut block = block.clone();
         let mut solution = right.clone();
         let mut ratios = Vec::new();
         for &orbit in orbits.iter().rev() {
-            let inverse = self.graded.reciprocal(&block[&(orbit, orbit)].clone());
+            let own = name(self, orbit);
+            let pivot = block[&(orbit, orbit)].clone();
+            self.graded.hint(&pivot, &format!("block_pivot_{own}"));
+            let inverse = self.graded.reciprocal(&pivot);
+            self.graded
+                .hint(&inverse, &format!("inverse_block_pivot_{own}"));
             let row: Vec<(usize, Series)> = orbits
                 .iter()
                 .filter(|&&above| above < orbit)
@@ -265,6 +272,9 @@ impl<'b> Copies<'b> {
                 .collect();
             for (above, value) in &row {
                 let ratio = self.graded.mul(value, &inverse);
+                let above_name = name(self, *above);
+                self.graded
+                    .hint(&ratio, &format!("block_ratio_{own}_{above_name}"));
                 for (other, entry) in row.iter().filter(|(other, _)| other <= above) {
                     let product = self.graded.mul(&ratio, entry);
                     let old = block.remove(&(*above, *other)).unwrap_or_default();
@@ -273,6 +283,8 @@ impl<'b> Copies<'b> {
                 }
                 let product = self.graded.mul(&ratio, &solution[&orbit]);
                 let new = self.graded.sub(&solution[above], &product);
+                self.graded
+                    .hint(&new, &format!("reduced_momentum_{above_name}"));
                 solution.insert(*above, new);
                 ratios.push((orbit, *above, ratio));
             }
@@ -285,6 +297,9 @@ impl<'b> Copies<'b> {
                 let new = self.graded.sub(&solution[&orbit], &product);
                 solution.insert(orbit, new);
             }
+            let own = name(self, orbit);
+            self.graded
+                .hint(&solution[&orbit], &format!("own_omega_{own}"));
         }
         solution
     }

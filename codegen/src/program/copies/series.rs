@@ -149,6 +149,16 @@ impl Graded<'_> {
         total
     }
 
+    /// Hints at what the values are, order by order.
+    pub(super) fn hint(&mut self, series: &Series, name: &str) {
+        for (order, value) in series.orders() {
+            match order {
+                0 => self.builder.hint(value, name),
+                _ => self.builder.hint(value, &format!("{name}_order_{order}")),
+            }
+        }
+    }
+
     /// All orders but the highest one kept.
     pub(in crate::program) fn without_highest(&mut self, series: &Series) -> Series {
         let highest = self.highest();

@@ -54,6 +54,8 @@ impl Copies<'_> {
                     let old = matrix.remove(&(*above, *other));
                     let old = old.unwrap_or_else(|| Field::zero(*above));
                     let new = self.sub(&old, &product);
+                    let name = format!("reduced_mass_{}", self.orbits[*other].name(None));
+                    self.hinted(&new, &name);
                     matrix.insert((*above, *other), new);
                 }
                 ratios.push((orbit, *above, ratio));
@@ -71,6 +73,7 @@ impl Copies<'_> {
             let product = self.mul(ratio, &solution[*orbit]);
             let product = self.gather(&product, *above);
             solution[*above] = self.sub(&solution[*above], &product);
+            self.hinted(&solution[*above], "reduced");
         }
         for (orbit, inverse) in factors.inverses.iter().enumerate() {
             solution[orbit] = self.mul(&solution[orbit], inverse);
@@ -79,6 +82,7 @@ impl Copies<'_> {
                 let product = self.mul(ratio, &above);
                 solution[orbit] = self.sub(&solution[orbit], &product);
             }
+            self.hinted(&solution[orbit], "solved");
         }
         solution
     }

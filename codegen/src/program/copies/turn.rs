@@ -40,6 +40,8 @@ impl Copies<'_> {
         let [less, across] = self.turned(branch, angle, &mut real, &mut imaginary);
         real.mean = less;
         imaginary.mean = across;
+        self.hinted(&real, "real");
+        self.hinted(&imaginary, "imaginary");
         // (cos + i sin)(1 + real + i imaginary)
         let mut whole = [Field::zero(orbit), Field::zero(orbit)];
         let parts = [
@@ -95,8 +97,17 @@ impl Copies<'_> {
             let below = self.turned(inner.as_ref(), angle, inside_real, inside_imaginary);
             // (1 − vers + i sin)(1 + below) − 1
             let [x, y] = self.rotated(&turn, &below);
-            reals.push(self.graded.sub(&x, &turn.versine));
-            imaginaries.push(self.graded.add(&y, &turn.sine));
+            let (real_part, imaginary_part) = (
+                self.graded.sub(&x, &turn.versine),
+                self.graded.add(&y, &turn.sine),
+            );
+            let number = copy + 1;
+            self.graded
+                .hint(&real_part, &format!("real_{label}_copy_{number}"));
+            self.graded
+                .hint(&imaginary_part, &format!("imaginary_{label}_copy_{number}"));
+            reals.push(real_part);
+            imaginaries.push(imaginary_part);
             let places: BTreeMap<_, ()> = inside
                 .iter()
                 .flat_map(|field| field.differences.keys().map(|&place| (place, ())))

@@ -16,6 +16,8 @@ pub(super) enum Failure<T> {
     NonFinite { time: T, values: Vec<T> },
     /// The equations of the step were not solved.
     NotSolved { iterations: u32, change: T },
+    /// The end of the step was not projected onto the level of the integral.
+    NotProjected { iterations: u32, deviation: T },
 }
 
 /// The memory of a method, which makes its steps.
@@ -195,6 +197,16 @@ impl<T: Real> Grid<T> {
                 change,
                 last,
                 report: ended(report, StopReason::NotSolved),
+            },
+            Failure::NotProjected {
+                iterations,
+                deviation,
+            } => IntegrationError::NotProjected {
+                step,
+                iterations,
+                deviation,
+                last,
+                report: ended(report, StopReason::NotProjected),
             },
         }
     }

@@ -3,7 +3,11 @@
 mod driver;
 mod gauss;
 mod linear;
+mod projected;
 mod rk4;
+mod verlet;
 
 pub use self::gauss::{Gauss, GaussOrder, Solver};
+pub use self::projected::Projected;
 pub use self::rk4::Rk4;
+pub use self::verlet::StoermerVerlet;

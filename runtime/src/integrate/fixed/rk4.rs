@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
 use super::driver::{Failure, Grid, Stepper};
+use super::projected::Corrected;
 use crate::integrate::dense::{DenseError, DenseStep, Interpolant};
 use crate::integrate::error::IntegrationError;
 use crate::integrate::integrator::Integrator;
@@ -54,6 +55,14 @@ impl<T: Real> Rk4<T> {
             step_limit: u64::MAX,
         }
     }
+
+    pub(super) fn grid(&self) -> Grid<T> {
+        Grid {
+            step: self.step,
+            halvings: 0,
+            step_limit: self.step_limit,
+        }
+    }
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Rk4<T> {
@@ -64,17 +73,13 @@ impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Rk4<T> {
         end: T,
         observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
     ) -> Result<Solution<T>, IntegrationError<T>> {
-        let grid = Grid {
-            step: self.step,
-            halvings: 0,
-            step_limit: self.step_limit,
-        };
-        grid.run(ode, start, end, || Memory::new(&start.values), observer)
+        let new = || Memory::new(&start.values);
+        self.grid().run(ode, start, end, new, observer)
     }
 }
 
 /// The vectors that a run works on.
-struct Memory<T> {
+pub(super) struct Memory<T> {
     start: Vec<T>,
     end: Vec<T>,
     stage: Vec<T>,
@@ -86,7 +91,7 @@ struct Memory<T> {
 }
 
 impl<T: Real> Memory<T> {
-    fn new(start: &[T]) -> Self {
+    pub(super) fn new(start: &[T]) -> Self {
         let zeros = || vec![T::ZERO; start.len()];
         Self {
             start: start.to_vec(),
@@ -163,6 +168,25 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
     fn advance(&mut self) {
         core::mem::swap(&mut self.start, &mut self.end);
         core::mem::swap(&mut self.start_rates, &mut self.end_rates);
+    }
+}
+
+impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Memory<T> {
+    const FOLLOWS: bool = true;
+
+    fn correct(
+        &mut self,
+        ode: &O,
+        time: T,
+        correction: &[T],
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>> {
+        for (end, &correction) in self.end.iter_mut().zip(correction) {
+            *end += correction;
+        }
+        report.evaluations += 1;
+        ode.rates(time, &self.end, &mut self.end_rates);
+        finite(time, &self.end, &self.end_rates)
     }
 }
 

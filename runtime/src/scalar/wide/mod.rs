@@ -205,6 +205,11 @@ impl Scalar for Double {
         Self::of(value, 0.0)
     }
 
+    #[inline]
+    fn from_parts(high: f64, low: f64) -> Self {
+        Self::sum(high, low)
+    }
+
     /// Payne and Hanek's reduction with 190 bits, then Taylor series.
     fn sin_cos(self) -> (Self, Self) {
         if !self.high.is_finite() {

@@ -4,6 +4,7 @@
 mod blocks;
 mod closure;
 mod energies;
+mod normalisation;
 mod oracle;
 mod orders;
 mod rates;

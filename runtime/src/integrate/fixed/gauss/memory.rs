@@ -8,6 +8,7 @@ use super::{Gauss, Solver};
 use crate::integrate::dense::{DenseError, Interpolant};
 use crate::integrate::fixed::driver::{Failure, Stepper};
 use crate::integrate::fixed::linear::Factored;
+use crate::integrate::fixed::projected::Corrected;
 use crate::integrate::report::Report;
 use crate::integrate::request::all_finite;
 use crate::integrate::sum::two_sum;
@@ -15,7 +16,7 @@ use crate::scalar::Real;
 use crate::system::Ode;
 
 /// Workspace of a run.
-pub(super) struct Memory<T> {
+pub(in crate::integrate::fixed) struct Memory<T> {
     pub(super) table: &'static Table,
     pub(super) solver: Solver,
     pub(super) tolerance: T,
@@ -49,7 +50,7 @@ pub(super) struct Memory<T> {
 }
 
 impl<T: Real> Memory<T> {
-    pub(super) fn new(method: &Gauss<T>, start: &[T]) -> Self {
+    pub(in crate::integrate::fixed) fn new(method: &Gauss<T>, start: &[T]) -> Self {
         let table = method.order.table();
         let (n, s) = (start.len(), table.nodes.len());
         let matrix = match method.solver {
@@ -178,6 +179,24 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
     fn advance(&mut self) {
         core::mem::swap(&mut self.start, &mut self.end);
         core::mem::swap(&mut self.residue, &mut self.end_residue);
+    }
+}
+
+impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Memory<T> {
+    const FOLLOWS: bool = false;
+
+    fn correct(
+        &mut self,
+        _ode: &O,
+        _time: T,
+        correction: &[T],
+        _report: &mut Report<T>,
+    ) -> Result<(), Failure<T>> {
+        let ends = self.end.iter_mut().zip(&mut self.end_residue);
+        for ((end, residue), &correction) in ends.zip(correction) {
+            (*end, *residue) = two_sum(*end, *residue + correction);
+        }
+        Ok(())
     }
 }
 

@@ -6,7 +6,7 @@ mod tables;
 
 use core::ops::ControlFlow;
 
-use self::memory::Memory;
+pub(super) use self::memory::Memory;
 use self::tables::Table;
 use super::driver::Grid;
 use crate::integrate::dense::DenseStep;
@@ -62,10 +62,12 @@ pub enum Solver {
 /// motion does nearly as well.
 ///
 /// Kick-drift splittings (leapfrog, Störmer–Verlet, Yoshida) would be explicit,
-/// and there are none here: they need a kinetic energy of the momenta alone,
-/// and that of a pendulum tree depends on its angles, H ≠ T(p) + U(q). Applied
-/// all the same they are neither symplectic nor, beyond first order,
-/// consistent.
+/// but need a kinetic energy of the momenta alone, and that of a pendulum tree
+/// depends on its angles, H ≠ T(p) + U(q): see [`StoermerVerlet`], which refuses
+/// it.
+///
+/// [`Projected`] keeps the energy to rounding at every step, at the price of
+/// both properties.
 ///
 /// The equations of a step are iterated until rounding stops them, sums are
 /// compensated and coefficients carry more digits than one number holds: that
@@ -85,6 +87,8 @@ pub enum Solver {
 /// BIT 48 (2008) 231–243.
 ///
 /// [`Canonical`]: crate::system::Canonical
+/// [`Projected`]: crate::integrate::Projected
+/// [`StoermerVerlet`]: crate::integrate::StoermerVerlet
 /// [`Report::rejected`]: crate::integrate::Report::rejected
 ///
 /// # Examples
@@ -165,6 +169,14 @@ impl<T: Real> Gauss<T> {
             ..Self::new(GaussOrder::Two, step)
         }
     }
+
+    pub(super) fn grid(&self) -> Grid<T> {
+        Grid {
+            step: self.step,
+            halvings: self.halvings,
+            step_limit: self.step_limit,
+        }
+    }
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Gauss<T> {
@@ -175,12 +187,7 @@ impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Gauss<T> {
         end: T,
         observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
     ) -> Result<Solution<T>, IntegrationError<T>> {
-        let grid = Grid {
-            step: self.step,
-            halvings: self.halvings,
-            step_limit: self.step_limit,
-        };
         let new = || Memory::new(self, &start.values);
-        grid.run(ode, start, end, new, observer)
+        self.grid().run(ode, start, end, new, observer)
     }
 }

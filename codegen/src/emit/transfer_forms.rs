@@ -1,0 +1,213 @@
+//! `impl TransferForms`: the forms of W by number, where a scene has truncated
+//! ones beside the exact one.
+
+use super::Emission;
+use crate::mechanics::Counting;
+use crate::mechanics::sectors::{Sector, sectors};
+use crate::program::{Argument, Entry, Purpose};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use std::collections::BTreeMap;
+
+/// A form, in the order in which forms are listed.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Form {
+    Angle(u32),
+    Amplitude(u32),
+    Exact,
+}
+
+/// The forms in their order, each as an array of transfers.
+type Calls = Vec<(Form, TokenStream)>;
+
+impl Emission<'_> {
+    pub(super) fn transfer_forms(&self) -> Option<TokenStream> {
+        let all = sectors(&self.mechanics.coordinates);
+        let (receivers, forms, small) = match self.budget_forms() {
+            Some(forms) => {
+                let receivers = all.iter().map(|sector| sector.name.clone()).collect();
+                (receivers, forms, self.small_sectors(&all))
+            }
+            None => {
+                let (receivers, forms) = self.leaf_forms()?;
+                (receivers, forms, self.small_sectors(&all))
+            }
+        };
+        Some(self.implementation(&receivers, &forms, &small))
+    }
+
+    /// Calls for W of all sectors; none without both a truncated and the exact
+    /// form.
+    fn budget_forms(&self) -> Option<Calls> {
+        let mut forms = BTreeMap::new();
+        for entry in &self.program.entries {
+            let call = call(entry);
+            match entry.purpose {
+                Purpose::SectorTransfers(Some((counting, order))) => {
+                    forms.insert(truncated(counting, order), call);
+                }
+                Purpose::SectorTransfers(None) if entry.arguments.contains(&Argument::Rates) => {
+                    let name = format_ident!("{}", entry.name);
+                    let exact = quote! {{
+                        let rates = self.symmetric_velocities(coordinates, momenta);
+                        self.#name(coordinates, &rates)
+                    }};
+                    forms.insert(Form::Exact, exact);
+                }
+                _ => {}
+            }
+        }
+        complete(forms)
+    }
+
+    /// Names of the differences of leaves and calls for W into all of them.
+    fn leaf_forms(&self) -> Option<(Vec<String>, Calls)> {
+        let mut forms: BTreeMap<Form, Vec<TokenStream>> = BTreeMap::new();
+        for entry in &self.program.entries {
+            let form = match entry.purpose {
+                Purpose::AngleTransfer(_) => truncated(Counting::Angle, 1),
+                Purpose::AmplitudeTransfer(_) => truncated(Counting::Amplitude, 2),
+                Purpose::HigherTransfer(transfer, form) => {
+                    let form = &self.mechanics.transfers[transfer].higher[form];
+                    truncated(form.counting, form.order)
+                }
+                Purpose::ExactTransfer(_) => Form::Exact,
+                _ => continue,
+            };
+            // Entries stand in the order of the transfers.
+            forms.entry(form).or_default().push(call(entry));
+        }
+        let forms = forms
+            .into_iter()
+            .map(|(form, calls)| (form, quote!([#(#calls),*])))
+            .collect();
+        let transfers = self.mechanics.transfers.iter();
+        let names = transfers
+            .map(|transfer| self.mechanics.coordinates[transfer.coordinate].name.clone())
+            .collect();
+        Some((names, complete(forms)?))
+    }
+
+    /// The sectors that count as small: all differences, unless some are named.
+    fn small_sectors(&self, all: &[Sector]) -> Vec<Sector> {
+        let request = self.scene.requests.budget.as_ref();
+        let named = request.map_or(&[][..], |budget| budget.small.as_slice());
+        let small = |sector: &&Sector| {
+            sector
+                .place
+                .is_some_and(|place| named.is_empty() || named.contains(&place))
+        };
+        all.iter().filter(small).cloned().collect()
+    }
+
+    fn implementation(
+        &self,
+        receivers: &[String],
+        forms: &[(Form, TokenStream)],
+        small: &[Sector],
+    ) -> TokenStream {
+        let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
+        let names = forms.iter().map(|&(form, _)| match form {
+            Form::Angle(order) => {
+                let order = Literal::u32_unsuffixed(order);
+                quote!(#runtime::TransferForm::Angle(#order))
+            }
+            Form::Amplitude(order) => {
+                let order = Literal::u32_unsuffixed(order);
+                quote!(#runtime::TransferForm::Amplitude(#order))
+            }
+            Form::Exact => quote!(#runtime::TransferForm::Exact),
+        });
+        let small = small.iter().map(|sector| {
+            let name = &sector.name;
+            let indices = sector.coordinates.iter();
+            let indices = indices.map(|&index| Literal::usize_unsuffixed(index));
+            quote!(#runtime::transfer_forms::SmallSector {
+                name: #name,
+                coordinates: &[#(#indices),*],
+            })
+        });
+        let arms = forms.iter().enumerate().map(|(number, (_, call))| {
+            let number = Literal::usize_unsuffixed(number);
+            quote!(#number => ::core::option::Option::Some(#call))
+        });
+        let found = self.with_arrays(
+            &["coordinates", "momenta"],
+            quote! {
+                match form {
+                    #(#arms,)*
+                    _ => ::core::option::Option::None,
+                }
+            },
+            quote!(::core::option::Option::None),
+        );
+        let count = Literal::usize_unsuffixed(receivers.len());
+        let momenta = self.with_arrays(
+            &["coordinates", "rates"],
+            quote!(momenta.copy_from_slice(&self.symmetric_momenta(coordinates, rates))),
+            quote!(momenta.fill(T::from_f64(f64::NAN))),
+        );
+        quote! {
+            // As for the functions above.
+            #[allow(clippy::possible_missing_comma)]
+            impl<T: #runtime::Scalar> #runtime::TransferForms<T> for #name<T> {
+                const TRANSFER_FORMS: &'static [#runtime::TransferForm] = &[#(#names),*];
+                const RECEIVERS: &'static [&'static str] = &[#(#receivers),*];
+                const SMALL_SECTORS: &'static [#runtime::transfer_forms::SmallSector] =
+                    &[#(#small),*];
+
+                #[inline]
+                fn transfers_into(
+                    &self,
+                    form: usize,
+                    coordinates: &[T],
+                    momenta: &[T],
+                    transfers: &mut [#runtime::Transfer<T>],
+                ) {
+                    let found = #found;
+                    match found {
+                        ::core::option::Option::Some(found) if transfers.len() == #count => {
+                            transfers.copy_from_slice(&found);
+                        }
+                        _ => transfers.fill(#runtime::Transfer {
+                            kinetic: T::from_f64(f64::NAN),
+                            potential: T::from_f64(f64::NAN),
+                        }),
+                    }
+                }
+
+                #[inline]
+                fn symmetric_momenta_into(
+                    &self,
+                    coordinates: &[T],
+                    rates: &[T],
+                    momenta: &mut [T],
+                ) {
+                    if momenta.len() != #links {
+                        momenta.fill(T::from_f64(f64::NAN));
+                        return;
+                    }
+                    #momenta
+                }
+            }
+        }
+    }
+}
+
+fn truncated(counting: Counting, order: u32) -> Form {
+    match counting {
+        Counting::Angle => Form::Angle(order),
+        Counting::Amplitude => Form::Amplitude(order),
+    }
+}
+
+fn call(entry: &Entry) -> TokenStream {
+    let name = format_ident!("{}", entry.name);
+    quote!(self.#name(coordinates, momenta))
+}
+
+/// The forms in their order; none unless the exact one is there with others.
+fn complete(forms: BTreeMap<Form, TokenStream>) -> Option<Calls> {
+    let compared = forms.len() > 1 && forms.contains_key(&Form::Exact);
+    compared.then(|| forms.into_iter().collect())
+}

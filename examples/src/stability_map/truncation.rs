@@ -1,0 +1,223 @@
+//! Where does each truncation of W fail: amplitude of what it takes for small
+//! against the size of the motion that feeds it.
+
+use std::path::{Path, PathBuf};
+
+use branched_pendulum::analysis::truncation::{Background, PhaseAverage, logarithmic};
+use branched_pendulum::chart::{Axis, Chart, Color, Panel, Series, Symbol};
+use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::{TransferForm, TransferForms};
+
+use crate::branched_double::Failure;
+use crate::transfer_orders::Apparatus;
+
+/// Random states at each place.
+const STATES: usize = 400;
+
+/// Time after the release over which the in-phase motion is looked at, s.
+const BACKGROUND: f64 = 10.0;
+
+/// What a form of W is worth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Worth {
+    /// Within 1 % of the exact form, rms over rms.
+    Accurate,
+    /// Wrong by less than the transfer itself.
+    Bounded,
+    /// Wrong by more than the transfer itself.
+    Useless,
+}
+
+impl Worth {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Accurate, Self::Bounded, Self::Useless];
+
+    /// As the chart names it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Accurate => "accurate",
+            Self::Bounded => "bounded but wrong",
+            Self::Useless => "useless",
+        }
+    }
+
+    fn of(error: f64) -> Self {
+        if error <= 0.01 {
+            Self::Accurate
+        } else if error < 1.0 {
+            Self::Bounded
+        } else {
+            Self::Useless
+        }
+    }
+}
+
+/// The error of a form at an amplitude after a release.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The form.
+    pub form: TransferForm,
+    /// Amplitude of θ_d, rad.
+    pub amplitude: f64,
+    /// Release of the in-phase motion, degrees.
+    pub release: f64,
+    /// Rms of (W − W exact) over rms of W exact.
+    pub error: f64,
+}
+
+/// Computes the map of the paper's apparatus, on all cores.
+///
+/// # Errors
+/// [`Failure::Truncation`].
+pub fn map() -> Result<Vec<Place>, Failure> {
+    let releases: Vec<f64> = (1..=11).map(|k| 15.0 * f64::from(k)).collect();
+    let places = Ensemble::new().map(&releases, |_, &release| after(release));
+    let places: Result<Vec<_>, Failure> = places.into_iter().collect();
+    Ok(places?.concat())
+}
+
+/// The places of one release, degrees.
+///
+/// # Errors
+/// [`Failure::Truncation`].
+pub fn after(release: f64) -> Result<Vec<Place>, Failure> {
+    let model = Apparatus::new();
+    let start = [release.to_radians(), 0.0, 0.0];
+    let average = PhaseAverage {
+        amplitudes: logarithmic([0.01, 1.5], 20),
+        states: STATES,
+        background: Background::visited(&model, &start, BACKGROUND)?,
+    };
+    let mut places = Vec::new();
+    for curve in average.curves(&model)? {
+        for point in &curve.points {
+            let forms = curve.forms.iter().zip(&point.errors);
+            places.extend(forms.map(|(&form, &error)| Place {
+                form,
+                amplitude: point.amplitude,
+                release,
+                error,
+            }));
+        }
+    }
+    Ok(places)
+}
+
+fn forms() -> impl Iterator<Item = TransferForm> {
+    let forms = <Apparatus as TransferForms<f64>>::TRANSFER_FORMS.iter();
+    forms.copied().filter(|form| *form != TransferForm::Exact)
+}
+
+/// How many places of each form are worth what.
+pub fn table(places: &[Place]) -> String {
+    let mut text = format!(
+        "Truncations of W: amplitude of θ_d against release\n\n{:24}",
+        ""
+    );
+    for worth in Worth::ALL {
+        text.push_str(&format!("{:>18}", worth.name()));
+    }
+    text.push('\n');
+    for form in forms() {
+        text.push_str(&format!("{:24}", form.to_string()));
+        for worth in Worth::ALL {
+            let own = places.iter().filter(|place| place.form == form);
+            let count = own.filter(|place| Worth::of(place.error) == worth).count();
+            text.push_str(&format!("{count:>18}"));
+        }
+        text.push('\n');
+    }
+    text.push('\n');
+    text
+}
+
+/// Writes CSV file and chart, and returns the files.
+///
+/// # Errors
+/// [`Failure::Csv`] or [`Failure::Chart`].
+pub fn write(folder: &Path, places: &[Place]) -> Result<Vec<PathBuf>, Failure> {
+    let file = |extension: &str| folder.join(format!("stability-truncation.{extension}"));
+    let (csv, svg, png) = (file("csv"), file("svg"), file("png"));
+    let names: Vec<String> = forms()
+        .enumerate()
+        .map(|(index, form)| format!("{index} {form}"))
+        .collect();
+    let mut writer = CsvWriter::create(
+        &csv,
+        &[
+            Column::new(format!("form: {}", names.join("; ")), ""),
+            Column::new("amplitude", "rad"),
+            Column::new("release", "degrees"),
+            Column::new("relative error", ""),
+        ],
+    )?;
+    for place in places {
+        let form = forms().position(|form| form == place.form);
+        let form = form.map_or(f64::NAN, |index| index as f64);
+        writer.row(&[form, place.amplitude, place.release, place.error])?;
+    }
+    writer.finish()?;
+    let chart = chart(places);
+    chart.write_svg(&svg)?;
+    chart.write_png(&png)?;
+    Ok(vec![csv, svg, png])
+}
+
+fn chart(places: &[Place]) -> Chart {
+    let styles = [
+        (Color::rgb(0x1b, 0x7a, 0x3d), Symbol::Circle),
+        (Color::rgb(0x2b, 0x6c, 0xb8), Symbol::Square),
+        (Color::rgb(0xc0, 0x2a, 0x2a), Symbol::Cross),
+    ];
+    let title = "Truncations of W: amplitude of θ_d against release of the in-phase motion";
+    let height = 120.0 + 190.0 * forms().count() as f64;
+    let chart = Chart::new(title, Axis::log("amplitude of θ_d (rad)")).size(900.0, height);
+    forms().fold(chart, |chart, form| {
+        let panel = Panel::new(Axis::linear(format!("{form}: θ_1(0) (°)")).range(0.0, 180.0));
+        let panel = Worth::ALL
+            .iter()
+            .zip(styles)
+            .fold(panel, |panel, (worth, (color, symbol))| {
+                let own = places.iter().filter(|place| place.form == form);
+                let own = own.filter(|place| Worth::of(place.error) == *worth);
+                let (x, y): (Vec<f64>, Vec<f64>) =
+                    own.map(|place| (place.amplitude, place.release)).unzip();
+                if x.is_empty() {
+                    return panel;
+                }
+                panel.series(
+                    Series::points(worth.name(), &x, &y)
+                        .color(color)
+                        .symbol(symbol),
+                )
+            });
+        chart.panel(panel)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Worth, after};
+
+    /// The published form is never accurate; a higher order is never worth less
+    /// at small amplitudes; none helps at the largest.
+    #[test]
+    fn orders_reach_further_one_after_the_other() {
+        let places = after(45.0).unwrap();
+        let reach = |form: usize| {
+            let own = places.iter().skip(form).step_by(5);
+            own.take_while(|place| Worth::of(place.error) == Worth::Accurate)
+                .last()
+                .map_or(0.0, |place| place.amplitude)
+        };
+        let reaches: Vec<f64> = (0..5).map(reach).collect();
+        assert_eq!(reaches[0], 0.0);
+        assert!(
+            reaches.windows(2).all(|pair| pair[0] < pair[1]),
+            "{reaches:?}"
+        );
+        let last = &places[places.len() - 5..];
+        assert!(last.iter().all(|place| place.error > 0.1), "{last:?}");
+    }
+}

@@ -1,0 +1,74 @@
+//! The motion of everything that is not small.
+
+use core::ops::ControlFlow;
+
+use super::error::{TruncationError, check_length};
+use crate::integrate::{Options, Verner98};
+use crate::system::{Pendulum, State, SymmetricCoordinates};
+use crate::transfer_forms::TransferForms;
+
+/// Bounds of the background: random states have every coordinate and rate
+/// within them, with equal probability. One number for each symmetric
+/// coordinate; those of small differences are not used.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Background {
+    /// Largest absolute angles, rad.
+    pub angles: Vec<f64>,
+    /// Largest absolute rates, rad/s.
+    pub rates: Vec<f64>,
+}
+
+impl Background {
+    /// The same bounds for every coordinate: `angle` in rad, `rate` in rad/s.
+    #[must_use]
+    pub fn uniform<M: TransferForms<f64>>(angle: f64, rate: f64) -> Self {
+        let n = <M as Pendulum<f64>>::LINKS;
+        Self {
+            angles: vec![angle; n],
+            rates: vec![rate; n],
+        }
+    }
+
+    /// What the tree goes through in the time `duration` (s) after a release
+    /// from rest at the symmetric coordinates `release` (rad) with all small
+    /// differences at zero: the largest absolute values at the ends of steps.
+    ///
+    /// # Errors
+    ///
+    /// [`TruncationError::Length`] and [`TruncationError::Integration`].
+    pub fn visited<M: TransferForms<f64>>(
+        model: &M,
+        release: &[f64],
+        duration: f64,
+    ) -> Result<Self, TruncationError> {
+        let n = <M as Pendulum<f64>>::LINKS;
+        check_length("coordinates of the release", n, release)?;
+        let mut start = release.to_vec();
+        for &index in M::SMALL_SECTORS
+            .iter()
+            .flat_map(|sector| sector.coordinates)
+        {
+            if let Some(difference) = start.get_mut(index) {
+                *difference = 0.0;
+            }
+        }
+        let mut largest = start.iter().map(|value| value.abs()).collect::<Vec<_>>();
+        largest.resize(2 * n, 0.0);
+        Verner98::new(Options::with_tolerance(1e-10)).integrate(
+            &SymmetricCoordinates(model),
+            &State::at_rest(0.0, &start),
+            duration,
+            |step| {
+                for (largest, value) in largest.iter_mut().zip(step.end()) {
+                    *largest = largest.max(value.abs());
+                }
+                ControlFlow::Continue(())
+            },
+        )?;
+        let rates = largest.split_off(n);
+        Ok(Self {
+            angles: largest,
+            rates,
+        })
+    }
+}

@@ -1,0 +1,207 @@
+//! Relative error of W against amplitude.
+
+use core::fmt;
+
+use crate::transfer_forms::TransferForm;
+
+/// The error of each truncated form of W into one sector, by amplitude.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ErrorCurve {
+    /// Name of the sector that W flows into.
+    pub receiver: &'static str,
+    /// The truncated forms, in the order of [`ErrorPoint::errors`].
+    pub forms: Vec<TransferForm>,
+    /// By growing amplitude; amplitudes at which no energy flows are left out.
+    pub points: Vec<ErrorPoint>,
+}
+
+/// The error of each form over many states of about one amplitude.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ErrorPoint {
+    /// Amplitude, rad.
+    pub amplitude: f64,
+    /// Number of states.
+    pub states: u64,
+    /// Rms of (W − W exact) over rms of W exact.
+    pub errors: Vec<f64>,
+}
+
+impl ErrorCurve {
+    /// Error of the form with this index in [`forms`](Self::forms) at every
+    /// point; NaN where there is no such form.
+    #[must_use]
+    pub fn errors(&self, form: usize) -> Vec<f64> {
+        let error = |point: &ErrorPoint| point.errors.get(form).copied().unwrap_or(f64::NAN);
+        self.points.iter().map(error).collect()
+    }
+
+    /// Where the form with this index in [`forms`](Self::forms) first passes
+    /// `level`, between two points by a power law. None without points or such
+    /// a form.
+    #[must_use]
+    pub fn crossing(&self, form: usize, level: f64) -> Option<Crossing> {
+        let mut previous: Option<(f64, f64)> = None;
+        for point in &self.points {
+            let here = (point.amplitude, *point.errors.get(form)?);
+            if here.1 > level {
+                let Some(below) = previous else {
+                    return Some(Crossing::Below(here.0));
+                };
+                // A form may be exact up to here: then there is no power law.
+                let part = if below.1 > 0.0 {
+                    (level / below.1).ln() / (here.1 / below.1).ln()
+                } else {
+                    1.0
+                };
+                return Some(Crossing::At(below.0 * (here.0 / below.0).powf(part)));
+            }
+            previous = Some(here);
+        }
+        previous.map(|(amplitude, _)| Crossing::Above(amplitude))
+    }
+}
+
+/// Where an error passes a level, as the amplitude grows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Crossing {
+    /// Above the level from the smallest amplitude on, which is given, rad.
+    Below(f64),
+    /// It passes the level at this amplitude first, rad.
+    At(f64),
+    /// Not above the level up to the largest amplitude, which is given, rad.
+    Above(f64),
+}
+
+impl Crossing {
+    /// The amplitude, rad; none where the level is not passed in the range
+    /// looked at.
+    #[must_use]
+    pub fn amplitude(self) -> Option<f64> {
+        match self {
+            Self::At(amplitude) => Some(amplitude),
+            Self::Below(_) | Self::Above(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Crossing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Through `pad`, so that a width given by the caller is kept.
+        f.pad(&match self {
+            Self::Below(amplitude) => format!("< {amplitude:.3}"),
+            Self::At(amplitude) => format!("{amplitude:.3}"),
+            Self::Above(amplitude) => format!("> {amplitude:.2}"),
+        })
+    }
+}
+
+/// Sums of squares over states, for every sector.
+#[derive(Clone, Debug)]
+pub(super) struct Sums {
+    states: u64,
+    /// Of W exact, by sector.
+    exact: Vec<f64>,
+    /// Of the errors, by form, then by sector.
+    errors: Vec<f64>,
+}
+
+impl Sums {
+    pub(super) fn new(receivers: usize, forms: usize) -> Self {
+        Self {
+            states: 0,
+            exact: vec![0.0; receivers],
+            errors: vec![0.0; receivers * forms],
+        }
+    }
+
+    /// A state: W exact by sector, and of the forms one after the other.
+    pub(super) fn add(&mut self, exact: &[f64], forms: &[f64]) {
+        self.states += 1;
+        for (sum, exact) in self.exact.iter_mut().zip(exact) {
+            *sum += exact * exact;
+        }
+        let references = exact.iter().cycle();
+        for ((sum, form), exact) in self.errors.iter_mut().zip(forms).zip(references) {
+            *sum += (form - exact).powi(2);
+        }
+    }
+}
+
+/// One curve for each receiver from sums at growing amplitudes.
+pub(super) fn curves(
+    receivers: &[&'static str],
+    forms: &[TransferForm],
+    sums: &[(f64, Sums)],
+) -> Vec<ErrorCurve> {
+    let point = |receiver: usize, amplitude: f64, sums: &Sums| {
+        let exact = sums.exact.get(receiver).copied().unwrap_or(0.0);
+        let own = sums.errors.iter().skip(receiver).step_by(receivers.len());
+        (exact > 0.0).then(|| ErrorPoint {
+            amplitude,
+            states: sums.states,
+            errors: own.map(|sum| (sum / exact).sqrt()).collect(),
+        })
+    };
+    let curve = |(index, &receiver): (usize, &&'static str)| ErrorCurve {
+        receiver,
+        forms: forms.to_vec(),
+        points: sums
+            .iter()
+            .filter_map(|(amplitude, sums)| point(index, *amplitude, sums))
+            .collect(),
+    };
+    receivers.iter().enumerate().map(curve).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Crossing, ErrorCurve, ErrorPoint, Sums, curves};
+    use crate::analysis::truncation::logarithmic;
+    use crate::transfer_forms::TransferForm;
+
+    fn curve(exponent: i32) -> ErrorCurve {
+        let point = |amplitude: f64| ErrorPoint {
+            amplitude,
+            states: 1,
+            errors: vec![0.0, amplitude.powi(exponent)],
+        };
+        ErrorCurve {
+            receiver: "d",
+            forms: vec![TransferForm::Amplitude(2), TransferForm::Amplitude(4)],
+            points: logarithmic([1e-3, 1.5], 12)
+                .into_iter()
+                .map(point)
+                .collect(),
+        }
+    }
+
+    #[test]
+    fn a_power_law_is_interpolated_exactly() {
+        let crossing = curve(2).crossing(1, 0.01);
+        let amplitude = crossing.and_then(Crossing::amplitude).unwrap();
+        assert!((amplitude - 0.1).abs() < 1e-12, "{amplitude}");
+    }
+
+    #[test]
+    fn a_level_may_be_passed_outside_the_range() {
+        let crossing = |level| curve(2).crossing(1, level).unwrap().to_string();
+        assert_eq!(crossing(1e-7), "< 0.001");
+        assert_eq!(crossing(3.0), "> 1.50");
+        assert_eq!(curve(2).crossing(2, 1.0), None);
+        assert_eq!(curve(2).crossing(0, 0.5), Some(Crossing::Above(1.5)));
+    }
+
+    #[test]
+    fn errors_go_to_their_form_and_sector() {
+        let forms = [TransferForm::Angle(1), TransferForm::Amplitude(2)];
+        let mut sums = Sums::new(2, 2);
+        // Two states, W exact = 3 and 4 into the first sector, none into the second.
+        sums.add(&[3.0, 0.0], &[3.0, 0.0, 3.5, 1.0]);
+        sums.add(&[4.0, 0.0], &[4.0, 0.0, 4.0, 1.0]);
+        let curves = curves(&["a", "b"], &forms, &[(0.1, sums)]);
+        assert_eq!(curves[0].receiver, "a");
+        assert_eq!(curves[0].points[0].errors, [0.0, 0.1]);
+        assert_eq!(curves[0].points[0].states, 2);
+        assert!(curves[1].points.is_empty(), "no energy flows into `b`");
+    }
+}

@@ -1,0 +1,98 @@
+//! How wrong each form of an energy transfer W is, against the amplitude of
+//! what it takes for small.
+//!
+//! For any model that has W in several forms ([`TransferForms`]). Two averages,
+//! both rms of (W − W exact) over rms of W exact at one amplitude, sector by
+//! sector:
+//!
+//! - [`PhaseAverage`]: over random states whose differences oscillate with that
+//!   amplitude. The states of two amplitudes differ in nothing else, so that
+//!   the curves are smooth and slopes show the order of the remainder.
+//! - [`AlongTrajectories`]: over exact motions, binned by the amplitude at the
+//!   instant. These are the states that matter, in the proportions in which
+//!   they occur.
+//!
+//! *Amplitude* of a state, in rad: the largest √(q² + (q̇/Ω)²) of all small
+//! differences q, with the frequency Ω of their sector ([`sector_frequencies`]).
+//! For a sector of one coordinate it is the amplitude of the linear oscillation
+//! through the state. Everything that is not small is the *background*
+//! ([`Background`]): the means, and differences that the forms keep whole.
+//!
+//! An error is relative to W; W is of second order in the amplitude, so that a
+//! form through amplitude order N has an error of order N − 1 at least, and of
+//! order N where W has no odd orders (pairs without pairs in them).
+//!
+//! # Examples
+//!
+//! The pendulum of the paper, 1 % and 10 % of W into its antiphase motion:
+//!
+#![cfg_attr(feature = "macros", doc = "```")]
+#![cfg_attr(not(feature = "macros"), doc = "```ignore")]
+//! use branched_pendulum::analysis::truncation::{Background, Crossing, PhaseAverage, logarithmic};
+//! use branched_pendulum::prelude::*;
+//!
+//! #[branched_pendulum(
+//!     gravity = 9.80665,
+//!     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+//!         child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+//!     ],
+//!     emit(transfer(amplitude = 2, amplitude = 4, exact)),
+//! )]
+//! struct BranchedDouble;
+//!
+//! let model = BranchedDouble::new();
+//! let average = PhaseAverage {
+//!     amplitudes: logarithmic([0.01, 1.0], 21),
+//!     states: 1000,
+//!     background: Background::visited(&model, &[47.8_f64.to_radians(), 0.0, 0.0], 10.0)?,
+//! };
+//! let curves = average.curves(&model)?;
+//! assert_eq!(curves[0].receiver, "d");
+//! let Some(Crossing::At(amplitude)) = curves[0].crossing(0, 0.01) else { unreachable!() };
+//! assert!((amplitude - 0.16).abs() < 0.02);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod background;
+mod curve;
+mod error;
+mod motion;
+mod phase_average;
+mod random;
+mod trajectories;
+
+pub use background::Background;
+pub use curve::{Crossing, ErrorCurve, ErrorPoint};
+pub use error::TruncationError;
+pub use motion::{amplitude, sector_frequencies};
+pub use phase_average::{CanonicalState, PhaseAverage};
+pub use trajectories::AlongTrajectories;
+
+use crate::transfer_forms::TransferForm;
+#[cfg(doc)]
+use crate::transfer_forms::TransferForms;
+
+/// `count` values from `low` to `high`, both positive, with equal ratios.
+#[must_use]
+pub fn logarithmic([low, high]: [f64; 2], count: usize) -> Vec<f64> {
+    let last = count.saturating_sub(1).max(1) as f64;
+    (0..count)
+        .map(|index| low * (high / low).powf(index as f64 / last))
+        .collect()
+}
+
+/// Indices of the truncated forms and of the exact one.
+fn split(forms: &[TransferForm]) -> Result<(Vec<usize>, usize), TruncationError> {
+    let exact = forms.iter().position(|form| *form == TransferForm::Exact);
+    let exact = exact.ok_or(TruncationError::NoExactForm)?;
+    Ok((
+        (0..forms.len()).filter(|form| *form != exact).collect(),
+        exact,
+    ))
+}
+
+/// The truncated forms.
+fn truncated(forms: &[TransferForm]) -> Vec<TransferForm> {
+    let truncated = |form: &&TransferForm| **form != TransferForm::Exact;
+    forms.iter().filter(truncated).copied().collect()
+}

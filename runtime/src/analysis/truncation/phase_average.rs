@@ -1,0 +1,144 @@
+//! Errors over states with random phases.
+
+use core::f64::consts::PI;
+
+use super::background::Background;
+use super::curve::{ErrorCurve, Sums, curves};
+use super::error::{TruncationError, check_amplitudes, check_bounds, check_positive};
+use super::motion::{Powers, sector_frequencies};
+use super::random::Random;
+use super::truncated;
+use crate::system::Pendulum;
+use crate::transfer_forms::TransferForms;
+
+/// Relative error over random states: the background anywhere within its
+/// bounds, and every small difference in an oscillation of the amplitude asked
+/// for, with the frequency of its sector and at a random phase of its own.
+///
+/// The same states at each call, and at all amplitudes but for the amplitude.
+/// Cost: as many evaluations of every form as there are states and amplitudes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhaseAverage {
+    /// Amplitudes, rad, positive and growing; [`logarithmic`](super::logarithmic)
+    /// makes some.
+    pub amplitudes: Vec<f64>,
+    /// Number of states at each amplitude.
+    pub states: usize,
+    /// The motion of everything that is not small.
+    pub background: Background,
+}
+
+/// Symmetric coordinates (rad) and their momenta (kg m²/s).
+pub type CanonicalState = (Vec<f64>, Vec<f64>);
+
+impl PhaseAverage {
+    /// The error of every truncated form, one curve for each receiver.
+    ///
+    /// # Errors
+    ///
+    /// [`TruncationError`]: amplitudes or bounds that make no sense, a model
+    /// without the exact form, differences that do not oscillate.
+    pub fn curves<M: TransferForms<f64>>(
+        &self,
+        model: &M,
+    ) -> Result<Vec<ErrorCurve>, TruncationError> {
+        check_amplitudes(&self.amplitudes)?;
+        let mut powers = Powers::new(model)?;
+        let unit = self.unit_states(model)?;
+        let small = small_coordinates::<M>();
+        let mut all = Vec::with_capacity(self.amplitudes.len());
+        let n = <M as Pendulum<f64>>::LINKS;
+        let mut state = vec![0.0; 2 * n];
+        for &amplitude in &self.amplitudes {
+            let mut sums = Sums::new(M::RECEIVERS.len(), powers.count());
+            for unit in unit.chunks_exact(2 * n) {
+                scale(unit, &small, amplitude, &mut state);
+                let (coordinates, rates) = state.split_at(n);
+                powers.evaluate(coordinates, rates);
+                sums.add(&powers.exact, &powers.forms);
+            }
+            all.push((amplitude, sums));
+        }
+        let forms = truncated(M::TRANSFER_FORMS);
+        Ok(curves(M::RECEIVERS, &forms, &all))
+    }
+
+    /// The states of one amplitude (rad) in canonical variables: what a program
+    /// that measures the cost of the forms evaluates them at.
+    ///
+    /// # Errors
+    ///
+    /// As [`curves`](Self::curves).
+    pub fn canonical_states<M: TransferForms<f64>>(
+        &self,
+        model: &M,
+        amplitude: f64,
+    ) -> Result<Vec<CanonicalState>, TruncationError> {
+        check_positive("an amplitude", amplitude)?;
+        let unit = self.unit_states(model)?;
+        let small = small_coordinates::<M>();
+        let n = <M as Pendulum<f64>>::LINKS;
+        let canonical = |unit: &[f64]| {
+            let mut coordinates = vec![0.0; 2 * n];
+            scale(unit, &small, amplitude, &mut coordinates);
+            let rates = coordinates.split_off(n);
+            let mut momenta = vec![0.0; n];
+            model.symmetric_momenta_into(&coordinates, &rates, &mut momenta);
+            (coordinates, momenta)
+        };
+        Ok(unit.chunks_exact(2 * n).map(canonical).collect())
+    }
+
+    /// States of the amplitude 1 rad, coordinates and rates of one after those
+    /// of the other.
+    fn unit_states<M: TransferForms<f64>>(&self, model: &M) -> Result<Vec<f64>, TruncationError> {
+        let n = <M as Pendulum<f64>>::LINKS;
+        let Background { angles, rates } = &self.background;
+        check_bounds("bounds of the angles", n, angles)?;
+        check_bounds("bounds of the rates", n, rates)?;
+        let frequencies = sector_frequencies(model)?;
+        let small = small_coordinates::<M>();
+        let mut random = Random::new(0);
+        let mut states = Vec::with_capacity(2 * n * self.states);
+        for _ in 0..self.states {
+            let begin = states.len();
+            for (index, bound) in angles.iter().chain(rates).enumerate() {
+                states.push(if small[index % n] {
+                    0.0
+                } else {
+                    random.within(*bound)
+                });
+            }
+            for (sector, frequency) in M::SMALL_SECTORS.iter().zip(&frequencies) {
+                for &index in sector.coordinates {
+                    let (sin, cos) = random.within(PI).sin_cos();
+                    states[begin + index] = cos;
+                    states[begin + n + index] = frequency * sin;
+                }
+            }
+        }
+        Ok(states)
+    }
+}
+
+/// Which coordinates are small differences.
+fn small_coordinates<M: TransferForms<f64>>() -> Vec<bool> {
+    let mut small = vec![false; <M as Pendulum<f64>>::LINKS];
+    for &index in M::SMALL_SECTORS
+        .iter()
+        .flat_map(|sector| sector.coordinates)
+    {
+        if let Some(small) = small.get_mut(index) {
+            *small = true;
+        }
+    }
+    small
+}
+
+/// A unit state with its small differences made `amplitude` times as large.
+fn scale(unit: &[f64], small: &[bool], amplitude: f64, out: &mut [f64]) {
+    let small = small.iter().cycle();
+    for ((out, unit), small) in out.iter_mut().zip(unit).zip(small) {
+        *out = if *small { amplitude * unit } else { *unit };
+    }
+}

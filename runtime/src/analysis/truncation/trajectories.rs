@@ -1,0 +1,109 @@
+//! Errors along exact motions.
+
+use super::curve::{ErrorCurve, Sums, curves};
+use super::error::{TruncationError, check_length, check_positive};
+use super::motion::{Powers, amplitude, sector_frequencies};
+use super::truncated;
+use crate::integrate::{Options, Tolerance, Verner98};
+use crate::system::{Pendulum, State, SymmetricCoordinates};
+use crate::transfer_forms::TransferForms;
+
+/// Relative error along motions that are released from rest, by the amplitude
+/// at the instant.
+///
+/// While differences are small they grow by the same factors from any
+/// disturbance, so that few releases would show each amplitude at few instants
+/// of the background: many disturbances with equal ratios
+/// ([`logarithmic`](super::logarithmic)) show it everywhere. Friction and drive
+/// of the model are part of the motion.
+///
+/// Cost: an integration in symmetric coordinates by [`Verner98`] at the
+/// tolerance 1e-12 for each disturbance, and an evaluation of every form for
+/// each sample within the range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AlongTrajectories {
+    /// Symmetric coordinates at the release, rad. Small differences start from
+    /// the disturbances instead.
+    pub release: Vec<f64>,
+    /// Every small difference at the start, rad, one motion each.
+    pub disturbances: Vec<f64>,
+    /// Time followed after each release, s.
+    pub duration: f64,
+    /// Samples per second.
+    pub sampling: f64,
+    /// Smallest and largest amplitude looked at, rad.
+    pub amplitudes: [f64; 2],
+    /// Number of bins with equal ratios between them.
+    pub bins: usize,
+}
+
+impl AlongTrajectories {
+    /// The error of every truncated form, one curve for each receiver. A point
+    /// stands at the geometric centre of its bin; bins without samples are left
+    /// out.
+    ///
+    /// # Errors
+    ///
+    /// [`TruncationError`]: numbers that make no sense, a model without the
+    /// exact form, differences that do not oscillate, motions that cannot be
+    /// followed.
+    pub fn curves<M: TransferForms<f64>>(
+        &self,
+        model: &M,
+    ) -> Result<Vec<ErrorCurve>, TruncationError> {
+        let n = <M as Pendulum<f64>>::LINKS;
+        check_length("coordinates of the release", n, &self.release)?;
+        check_positive("the duration", self.duration)?;
+        check_positive("the number of samples per second", self.sampling)?;
+        let [low, high] = self.amplitudes;
+        super::error::check_amplitudes(&self.amplitudes)?;
+        let frequencies = sector_frequencies(model)?;
+        let mut powers = Powers::new(model)?;
+        let per_bin = (high / low).ln() / self.bins as f64;
+        let empty = Sums::new(M::RECEIVERS.len(), powers.count());
+        let mut bins = vec![empty; self.bins];
+        let samples = (self.duration * self.sampling).floor() as u64;
+        let times: Vec<f64> = (0..=samples)
+            .map(|sample| sample as f64 / self.sampling)
+            .collect();
+        let options = Options {
+            // Differences keep their relative accuracy while they are small.
+            absolute: Tolerance::Uniform(1e-15),
+            ..Options::with_tolerance(1e-12)
+        };
+        let method = Verner98::new(options);
+        for &disturbance in &self.disturbances {
+            let mut start = self.release.clone();
+            for &index in M::SMALL_SECTORS
+                .iter()
+                .flat_map(|sector| sector.coordinates)
+            {
+                if let Some(difference) = start.get_mut(index) {
+                    *difference = disturbance;
+                }
+            }
+            let start = State::at_rest(0.0, &start);
+            let visit = |_: f64, state: &[f64]| {
+                let (coordinates, rates) = state.split_at(n);
+                let size = amplitude::<M>(&frequencies, coordinates, rates);
+                let bin = ((size / low).ln() / per_bin).floor();
+                // Below the range it is negative, which the cast would make zero.
+                if bin >= 0.0
+                    && let Some(sums) = bins.get_mut(bin as usize)
+                {
+                    powers.evaluate(coordinates, rates);
+                    sums.add(&powers.exact, &powers.forms);
+                }
+            };
+            method.sample(&SymmetricCoordinates(model), &start, &times, visit)?;
+        }
+        let centre = |bin: usize| low * (per_bin * (bin as f64 + 0.5)).exp();
+        let sums: Vec<_> = bins
+            .into_iter()
+            .enumerate()
+            .map(|(bin, sums)| (centre(bin), sums))
+            .collect();
+        let forms = truncated(M::TRANSFER_FORMS);
+        Ok(curves(M::RECEIVERS, &forms, &sums))
+    }
+}

@@ -1,0 +1,315 @@
+//! Steps that end on a level set of a first integral.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::ControlFlow;
+
+use super::driver::{Failure, Grid, Stepper};
+use super::{Gauss, Rk4, gauss, rk4};
+use crate::integrate::dense::{DenseError, DenseStep, Interpolant};
+use crate::integrate::error::{InputError, IntegrationError};
+use crate::integrate::integrator::Integrator;
+use crate::integrate::report::{Report, Solution};
+use crate::scalar::Real;
+use crate::system::{FirstIntegral, Ode, State};
+
+/// A method whose state is projected onto the level set of a first integral
+/// after every step: the energy at the end of each step is that of the start,
+/// to rounding.
+///
+/// An option, and no remedy: the projection moves the state along the gradient
+/// of the integral until its *value* is right. The order of the method stays
+/// what it is. All else does not: a Gauss method with it is neither symplectic
+/// nor symmetric, so that other invariants and the structure of phase space
+/// may drift which it would have kept; an error across the gradient, in phase,
+/// stays; and the energy says nothing any more about the accuracy of the run.
+/// Gauss methods do not need it for their energy not to drift. It serves
+/// methods that do drift ([`Rk4`]), and comparisons.
+///
+/// With g the gradient at the end ỹ of the step, y = ỹ + λ g is solved for the
+/// level by Newton's method with the derivative at ỹ: one or two evaluations of
+/// the integral a step beyond the first. Distances are Euclidean in the units of
+/// the state. Inside a step the correction grows in proportion to the time.
+/// Memory: four vectors of the state's length beyond the method's; steps allocate
+/// nothing.
+///
+/// A state that cannot be projected (the gradient vanishes, as at an equilibrium,
+/// or the level is not reached) is treated as a step that is not solved: it is
+/// halved as often as the method allows, then the run ends with
+/// [`IntegrationError::NotProjected`].
+///
+/// Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd
+/// edition, Springer 2006, section IV.4, algorithm 4.2; section V.4.1 on what
+/// it costs in structure.
+///
+/// # Examples
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use branched_pendulum::integrate::Projected;
+/// use branched_pendulum::prelude::*;
+///
+/// // A pendulum: H = p²/2 − cos q.
+/// let pendulum = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+///     rates[0] = y[1];
+///     rates[1] = -y[0].sin();
+/// });
+/// let energy = |y: &[f64], gradient: &mut [f64]| {
+///     gradient[0] = y[0].sin();
+///     gradient[1] = y[1];
+///     0.5 * y[1] * y[1] - y[0].cos()
+/// };
+/// let start = State::at_rest(0.0, &[2.0]);
+/// let method = Projected::new(Rk4::new(0.1), &energy);
+/// let end = method.integrate(&pendulum, &start, 1000.0, |_| ControlFlow::Continue(()))?;
+/// let mut gradient = [0.0; 2];
+/// let error = energy(&end.state.values, &mut gradient) - energy(&start.values, &mut gradient);
+/// assert!(error.abs() < 1e-14);
+/// # Ok::<(), IntegrationError<f64>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Projected<M, I, T = f64> {
+    /// The method.
+    pub method: M,
+    /// What is kept.
+    pub integral: I,
+    /// Largest deviation from the level that counts as none, relative to the
+    /// larger of |level| and Σ |g_i y_i|, by which rounding of the state alone
+    /// moves the integral.
+    pub tolerance: T,
+    /// Newton iterations after which a state counts as not projected.
+    pub iteration_limit: u32,
+}
+
+impl<M, I, T: Real> Projected<M, I, T> {
+    /// The method `method` with the integral kept to a tolerance of eight
+    /// [`Real::EPSILON`], in at most ten iterations.
+    pub fn new(method: M, integral: I) -> Self {
+        Self {
+            method,
+            integral,
+            tolerance: T::from_f64(8.0) * T::EPSILON,
+            iteration_limit: 10,
+        }
+    }
+
+    fn run<O: Ode<T> + ?Sized, S: Corrected<T, O>>(
+        &self,
+        grid: Grid<T>,
+        ode: &O,
+        start: &State<T>,
+        end: T,
+        new: impl FnOnce() -> S,
+        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Solution<T>, IntegrationError<T>>
+    where
+        I: FirstIntegral<T>,
+    {
+        let value = self.tolerance;
+        if !(value.is_finite() && value > T::ZERO) {
+            let name = "projection";
+            let component = 0;
+            return Err(InputError::Tolerance {
+                name,
+                component,
+                value,
+            }
+            .into());
+        }
+        let n = start.values.len();
+        let new = || Memory {
+            steps: new(),
+            follows: S::FOLLOWS,
+            projection: Projection {
+                integral: &self.integral,
+                tolerance: self.tolerance,
+                iteration_limit: self.iteration_limit,
+                level: T::ZERO,
+                gradient: vec![T::ZERO; n],
+                trial: vec![T::ZERO; n],
+                trial_gradient: vec![T::ZERO; n],
+                correction: vec![T::ZERO; n],
+            },
+        };
+        grid.run(ode, start, end, new, observer)
+    }
+}
+
+impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T>> Integrator<T, O>
+    for Projected<Gauss<T>, I, T>
+{
+    fn integrate(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        end: T,
+        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Solution<T>, IntegrationError<T>> {
+        let new = || gauss::Memory::new(&self.method, &start.values);
+        self.run(self.method.grid(), ode, start, end, new, observer)
+    }
+}
+
+impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T>> Integrator<T, O>
+    for Projected<Rk4<T>, I, T>
+{
+    fn integrate(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        end: T,
+        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Solution<T>, IntegrationError<T>> {
+        let new = || rk4::Memory::new(&start.values);
+        self.run(self.method.grid(), ode, start, end, new, observer)
+    }
+}
+
+/// A method whose end of a step may be moved.
+pub(super) trait Corrected<T: Real, O: ?Sized>: Stepper<T, O> + Interpolant<T> {
+    /// Whether the values inside a step follow its end when that is moved.
+    const FOLLOWS: bool;
+
+    /// Adds `correction` to the end of the step, at the time `time`.
+    fn correct(
+        &mut self,
+        ode: &O,
+        time: T,
+        correction: &[T],
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>>;
+}
+
+/// The method's memory, and what the projection needs beside it.
+struct Memory<'i, T, S, I> {
+    steps: S,
+    projection: Projection<'i, T, I>,
+    /// Whether a correction is to be added inside the step.
+    follows: bool,
+}
+
+struct Projection<'i, T, I> {
+    integral: &'i I,
+    tolerance: T,
+    iteration_limit: u32,
+    /// Value of the integral at the start of the run.
+    level: T,
+    gradient: Vec<T>,
+    trial: Vec<T>,
+    trial_gradient: Vec<T>,
+    correction: Vec<T>,
+}
+
+impl<T: Real, I: FirstIntegral<T>> Projection<'_, T, I> {
+    /// Writes what brings the state `end` to the level to `correction`.
+    fn project(&mut self, time: T, end: &[T]) -> Result<(), Failure<T>> {
+        self.correction.fill(T::ZERO);
+        let mut deviation = self.integral.evaluate(end, &mut self.gradient) - self.level;
+        let (mut square, mut size) = (T::ZERO, T::ZERO);
+        for (&slope, &value) in self.gradient.iter().zip(end) {
+            square += slope * slope;
+            size += (slope * value).abs();
+        }
+        if !(deviation.is_finite() && square.is_finite()) {
+            return Err(Failure::NonFinite {
+                time,
+                values: end.to_vec(),
+            });
+        }
+        let tolerated = self.tolerance * size.max(self.level.abs());
+        let mut part = T::ZERO;
+        let mut iterations = 0;
+        while deviation.abs() > tolerated {
+            let next = part - deviation / square;
+            for ((trial, &value), &slope) in self.trial.iter_mut().zip(end).zip(&self.gradient) {
+                *trial = value + next * slope;
+            }
+            let reached = self
+                .integral
+                .evaluate(&self.trial, &mut self.trial_gradient)
+                - self.level;
+            iterations += 1;
+            // No progress: rounding, or a level that is not there; NaN where the
+            // gradient vanishes.
+            let nearer = reached.abs() < deviation.abs();
+            if !nearer || iterations > self.iteration_limit {
+                return Err(Failure::NotProjected {
+                    iterations,
+                    deviation,
+                });
+            }
+            (part, deviation) = (next, reached);
+        }
+        for (correction, &slope) in self.correction.iter_mut().zip(&self.gradient) {
+            *correction = part * slope;
+        }
+        Ok(())
+    }
+}
+
+impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> Stepper<T, O>
+    for Memory<'_, T, S, I>
+{
+    fn begin(&mut self, ode: &O, time: T, report: &mut Report<T>) -> Result<(), Failure<T>> {
+        let Projection {
+            integral,
+            level,
+            gradient,
+            ..
+        } = &mut self.projection;
+        let start = self.steps.start();
+        *level = integral.evaluate(start, gradient);
+        if !level.is_finite() {
+            return Err(Failure::NonFinite {
+                time,
+                values: start.to_vec(),
+            });
+        }
+        self.steps.begin(ode, time, report)
+    }
+
+    fn make(
+        &mut self,
+        ode: &O,
+        time: T,
+        step: T,
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>> {
+        self.steps.make(ode, time, step, report)?;
+        let end_time = time + step;
+        self.projection.project(end_time, self.steps.end())?;
+        let correction = &self.projection.correction;
+        self.steps.correct(ode, end_time, correction, report)
+    }
+
+    fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
+        self
+    }
+
+    fn advance(&mut self) {
+        self.steps.advance();
+    }
+}
+
+impl<T: Real, S: Interpolant<T>, I> Interpolant<T> for Memory<'_, T, S, I> {
+    fn start(&self) -> &[T] {
+        self.steps.start()
+    }
+
+    fn end(&self) -> &[T] {
+        self.steps.end()
+    }
+
+    fn prepare(&mut self) -> Result<u64, DenseError<T>> {
+        self.steps.prepare()
+    }
+
+    fn value(&self, fraction: T, out: &mut [T]) {
+        self.steps.value(fraction, out);
+        if !self.follows {
+            for (value, &correction) in out.iter_mut().zip(&self.projection.correction) {
+                *value += fraction * correction;
+            }
+        }
+    }
+}

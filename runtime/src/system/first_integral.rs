@@ -1,0 +1,46 @@
+//! Quantities that a motion keeps.
+
+use super::{Canonical, Energy};
+use crate::scalar::Scalar;
+
+/// A function of the state that is constant along every motion, with its
+/// gradient: what [`Projected`](crate::integrate::Projected) holds a state to.
+///
+/// A function `(state, gradient) -> value` is one.
+pub trait FirstIntegral<T> {
+    /// The value at `state`; its derivatives by the components of the state go to
+    /// `gradient`, of the same length.
+    fn evaluate(&self, state: &[T], gradient: &mut [T]) -> T;
+}
+
+impl<T, F: Fn(&[T], &mut [T]) -> T> FirstIntegral<T> for F {
+    fn evaluate(&self, state: &[T], gradient: &mut [T]) -> T {
+        self(state, gradient)
+    }
+}
+
+/// The energy of a pendulum in canonical variables, H = K + U, with the gradient
+/// (−p', q') of Hamilton's equations.
+///
+/// For conservative pendulums: where friction or a drive are part of p', H is no
+/// first integral, and what this writes is not its gradient.
+#[derive(Clone, Copy, Debug)]
+pub struct CanonicalEnergy<'a, P>(pub &'a P);
+
+impl<T: Scalar, P: Canonical<T> + Energy<T>> FirstIntegral<T> for CanonicalEnergy<'_, P> {
+    fn evaluate(&self, state: &[T], gradient: &mut [T]) -> T {
+        let n = self.0.freedoms();
+        if state.len() != 2 * n || gradient.len() != 2 * n {
+            gradient.fill(T::from_f64(f64::NAN));
+            return T::from_f64(f64::NAN);
+        }
+        let (q, p) = state.split_at(n);
+        let (slopes, velocities) = gradient.split_at_mut(n);
+        let time = T::from_f64(0.0);
+        self.0.canonical_rates(time, q, p, velocities, slopes);
+        for slope in slopes {
+            *slope = -*slope;
+        }
+        self.0.kinetic_energy_of(q, velocities) + self.0.potential_energy_of(q)
+    }
+}

@@ -1,0 +1,117 @@
+//! Several forms of the same energy transfers W, to be compared.
+
+use core::fmt;
+
+use crate::model::Transfer;
+use crate::scalar::Scalar;
+use crate::system::SymmetricPendulum;
+
+/// A form of W: what it takes for small, and the highest order that it keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TransferForm {
+    /// Orders of the angles of the differences are counted; their momenta stay
+    /// whole. Order 1 is the published form.
+    Angle(u32),
+    /// Orders of the amplitude are counted: angles and momenta of the
+    /// differences alike.
+    Amplitude(u32),
+    /// Nothing is small.
+    Exact,
+}
+
+impl TransferForm {
+    /// The order that is kept; none where nothing is left out.
+    #[must_use]
+    pub fn order(self) -> Option<u32> {
+        match self {
+            Self::Angle(order) | Self::Amplitude(order) => Some(order),
+            Self::Exact => None,
+        }
+    }
+}
+
+impl fmt::Display for TransferForm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Angle(order) => write!(f, "angle order {order}"),
+            Self::Amplitude(order) => write!(f, "amplitude order {order}"),
+            Self::Exact => f.write_str("exact"),
+        }
+    }
+}
+
+/// Differences that truncated forms of W take for small.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SmallSector {
+    /// Name of the sector: that of its uppermost difference.
+    pub name: &'static str,
+    /// Indices of its symmetric coordinates, from the root outwards.
+    pub coordinates: &'static [usize],
+}
+
+/// A model that has W in several forms, the exact one among them.
+///
+/// Emitted where a description asks for truncated forms beside the exact one:
+/// `transfer(amplitude = 2, exact)`, or `budget(canonical, amplitude = 2)`; of a
+/// description that asks for both, the budget's. What is made of it:
+/// `analysis::truncation`, the error of each form against amplitude.
+///
+/// # Examples
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::{SymmetricPendulum, TransferForm, TransferForms, prelude::*};
+///
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+///         child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+///     ],
+///     emit(transfer(angle = 1, amplitude = 4, exact)),
+/// )]
+/// struct BranchedDouble;
+///
+/// let model = BranchedDouble::new();
+/// let forms = <BranchedDouble as TransferForms<f64>>::TRANSFER_FORMS;
+/// let names: Vec<String> = forms.iter().map(|form| form.to_string()).collect();
+/// assert_eq!(names, ["angle order 1", "amplitude order 4", "exact"]);
+/// assert_eq!(<BranchedDouble as TransferForms<f64>>::RECEIVERS, ["d"]);
+///
+/// let coordinates = [0.4, 0.3, 0.01];
+/// let mut momenta = [0.0; 3];
+/// model.symmetric_momenta_into(&coordinates, &[1.0, -2.0, 0.05], &mut momenta);
+/// let mut exact = [Transfer::default()];
+/// model.transfers_into(2, &coordinates, &momenta, &mut exact);
+/// assert_eq!(exact[0], model.transfer_exact(&coordinates, &momenta));
+/// ```
+pub trait TransferForms<T: Scalar>: SymmetricPendulum<T> {
+    /// The forms: angle orders, then amplitude orders, both from the lowest, and
+    /// [`TransferForm::Exact`] last.
+    const TRANSFER_FORMS: &'static [TransferForm];
+
+    /// Names of the sectors that W flows into.
+    const RECEIVERS: &'static [&'static str];
+
+    /// The differences that the truncated forms take for small.
+    const SMALL_SECTORS: &'static [SmallSector];
+
+    /// Writes W (in W) into each of [`RECEIVERS`](Self::RECEIVERS) by the form
+    /// number `form` of [`TRANSFER_FORMS`](Self::TRANSFER_FORMS), at symmetric
+    /// coordinates (rad) and their momenta (kg m²/s).
+    ///
+    /// A form that there is not, and slices of other lengths than
+    /// [`LINKS`](crate::Pendulum::LINKS) and that of the receivers, are
+    /// answered with NaN.
+    fn transfers_into(
+        &self,
+        form: usize,
+        coordinates: &[T],
+        momenta: &[T],
+        transfers: &mut [Transfer<T>],
+    );
+
+    /// Writes the momenta (kg m²/s) that belong to symmetric coordinates (rad)
+    /// with the velocities `rates` (rad/s); NaN for slices of other lengths than
+    /// [`LINKS`](crate::Pendulum::LINKS).
+    fn symmetric_momenta_into(&self, coordinates: &[T], rates: &[T], momenta: &mut [T]);
+}
