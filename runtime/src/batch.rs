@@ -234,30 +234,28 @@ where
         while next < self.count {
             // The last block overlaps the one before, where it would not be full:
             // some states are computed twice.
-            let start = next.min(last);
+            let end = next.min(last) + R::LANES;
             pendulum.evaluate(
                 time,
-                |link| load(theta, link, start),
-                |link| load(omega, link, start),
+                |link| load(theta, link, end),
+                |link| load(omega, link, end),
                 |link, value: R| {
                     if let Some(slice) = alpha.get_mut(link) {
-                        value.store(slice.as_mut().get_mut(start..).unwrap_or_default());
+                        value.store_last(slice.as_mut().get_mut(..end).unwrap_or_default());
                     }
                 },
             );
-            next = start + R::LANES;
+            next = end;
         }
         self.count
     }
 }
 
-/// One register of one link.
+/// One register of one link, that ends before state `end`.
 #[inline(always)]
-fn load<R: Register>(slices: &[impl AsRef<[R::Lane]>], link: usize, start: usize) -> R {
-    let block = slices
-        .get(link)
-        .and_then(|slice| slice.as_ref().get(start..));
-    match R::load(block.unwrap_or_default()) {
+fn load<R: Register>(slices: &[impl AsRef<[R::Lane]>], link: usize, end: usize) -> R {
+    let block = slices.get(link).and_then(|slice| slice.as_ref().get(..end));
+    match R::load_last(block.unwrap_or_default()) {
         Some(register) => register,
         // Lengths have been checked.
         None => R::from_f64(f64::NAN),

@@ -35,6 +35,9 @@ pub trait Pendulum<T: Scalar> {
     /// Writes the angular accelerations, in rad/s², of a pendulum with angles
     /// `theta` (rad) and angular velocities `omega` (rad/s) at `time` (s).
     ///
+    /// Emitted models in `f64` and `f32` fuse products with sums where the machine
+    /// can: [`scalar`](crate::scalar#which-bits).
+    ///
     /// All three slices have length [`LINKS`](Self::LINKS). An implementation
     /// must stay memory-safe for other lengths and must not make up values;
     /// filling `alpha` with NaN is the way to say that there is no answer.

@@ -82,8 +82,8 @@ pub(crate) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
     machine::run_fused(kernel)
 }
 
-/// Runs `kernel` in a function of its own with AVX2 and FMA, if the machine has
-/// them.
+/// Runs `kernel` in a function of its own with AVX2 and FMA. For types that exist
+/// where the machine has them, and for their methods alone.
 #[inline(always)]
 pub(crate) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
     machine::outlined_avx2(kernel)
@@ -201,21 +201,16 @@ mod machine {
 
     #[inline(always)]
     pub(super) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
-        match widest() {
-            // Never: a type that asks for this was made where the machine has it.
-            InstructionSet::Build => build(kernel),
-            // SAFETY: `widest` has asked for AVX2 and FMA.
-            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { avx2(kernel) },
-        }
+        // SAFETY: asked for by types that exist in computations alone which
+        // `run_fused` or `run_in_registers` has started, where the machine has
+        // these instructions.
+        unsafe { avx2(kernel) }
     }
 
     #[inline(always)]
     pub(super) fn outlined_avx512<K: Kernel>(kernel: K) -> K::Output {
-        match widest() {
-            // SAFETY: `widest` has asked for AVX-512.
-            InstructionSet::Avx512 => unsafe { avx512(kernel) },
-            _ => build(kernel),
-        }
+        // SAFETY: likewise.
+        unsafe { avx512(kernel) }
     }
 
     /// As for `run`.

@@ -30,9 +30,11 @@ pub trait Sealed: Sized {
 /// evaluation of emitted code is then one of `N` states.
 ///
 /// A plain array and loops over it, which the compiler turns into vector
-/// instructions: `Lanes<f64, 4>` and `Lanes<f32, 8>` fill a register of AVX2,
-/// `Lanes<f64, 8>` and `Lanes<f32, 16>` one of AVX-512. Lane `i` of a result
-/// has the bits that the scalar computation gives.
+/// instructions where functions are short: for any emitted function, with the
+/// instructions of the build. Lane `i` of a result has the bits that the scalar
+/// computation gives. For the accelerations of many states take a
+/// [`Batch`](crate::batch::Batch), which needs no model in lanes and chooses
+/// registers at run time.
 ///
 /// # Examples
 ///

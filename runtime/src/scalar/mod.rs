@@ -14,8 +14,28 @@
 //! | [`Double`] | 106 bits in two `f64` | references |
 //!
 //! Sines and cosines of `f64` and `f32` are this crate's own: faster than the
-//! system's several at a time, equal in all types and on all machines to the
-//! last bit, less than 0.9 units in the last place from the true value.
+//! system's several at a time, less than 0.9 units in the last place from the true
+//! value.
+//!
+//! # Which bits
+//!
+//! Emitted code says with [`Scalar::mul_add`] where a product and a sum may be one
+//! operation, rounded once: wherever a product feeds nothing but sums, but never
+//! in a difference of two products, which must vanish where they are equal. What
+//! comes of it depends on the numbers that the code computes with:
+//!
+//! - `f64`, `f32`, [`Lanes`], [`Dual`] and [`Double`] do not fuse. A function of a
+//!   model, such as its own `accelerations`, gives the same bits on every machine.
+//! - [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into) of an
+//!   emitted model in `f64` or `f32`, which integrators call, and
+//!   [`Batch`](crate::batch::Batch) fuse on x86-64 machines with AVX2 and FMA, in
+//!   builds with `std`. They give equal bits to a state, alone or in a batch,
+//!   with AVX2 or AVX-512: the same on every machine that has these, and other last
+//!   bits than on those that do not. There, and for a batch with
+//!   [`InstructionSet::Build`], the bits are those of the functions above.
+//!
+//! Sines and cosines follow: one angle has the same two values in all types that
+//! do not fuse, and the same two in all that do.
 
 pub(crate) mod dispatch;
 mod dual;

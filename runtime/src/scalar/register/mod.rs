@@ -39,6 +39,12 @@ pub trait Register: Scalar {
 
     /// Writes the numbers to the front of a slice. A slice too short gets none.
     fn store(self, numbers: &mut [Self::Lane]);
+
+    /// The last numbers of a slice, if it has enough.
+    fn load_last(numbers: &[Self::Lane]) -> Option<Self>;
+
+    /// Writes the numbers to the end of a slice. A slice too short gets none.
+    fn store_last(self, numbers: &mut [Self::Lane]);
 }
 
 /// The registers of instruction sets that this crate has no type for.
@@ -61,6 +67,18 @@ impl<T: Lane, const N: usize> Register for Lanes<T, N> {
     fn store(self, numbers: &mut [T]) {
         if let Some(front) = numbers.first_chunk_mut() {
             *front = self.0;
+        }
+    }
+
+    #[inline(always)]
+    fn load_last(numbers: &[T]) -> Option<Self> {
+        numbers.last_chunk().copied().map(Self)
+    }
+
+    #[inline(always)]
+    fn store_last(self, numbers: &mut [T]) {
+        if let Some(back) = numbers.last_chunk_mut() {
+            *back = self.0;
         }
     }
 }

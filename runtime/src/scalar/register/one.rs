@@ -92,9 +92,26 @@ macro_rules! fused {
                     *front = self.0;
                 }
             }
+
+            #[inline(always)]
+            fn load_last(numbers: &[$float]) -> Option<Self> {
+                numbers.last().copied().map(Self)
+            }
+
+            #[inline(always)]
+            fn store_last(self, numbers: &mut [$float]) {
+                if let Some(back) = numbers.last_mut() {
+                    *back = self.0;
+                }
+            }
         }
 
         impl fused::Pack for Fused<$float> {
+            #[inline(always)]
+            fn larger(self, other: Self) -> Self {
+                Self(self.0.abs().max(other.0.abs()))
+            }
+
             type Array = [$float; 1];
 
             #[inline(always)]

@@ -85,6 +85,18 @@ macro_rules! register {
                     *front = self.to_array();
                 }
             }
+
+            #[inline(always)]
+            fn load_last(numbers: &[$lane]) -> Option<Self> {
+                numbers.last_chunk().copied().map(Self::from_array)
+            }
+
+            #[inline(always)]
+            fn store_last(self, numbers: &mut [$lane]) {
+                if let Some(back) = numbers.last_chunk_mut() {
+                    *back = self.to_array();
+                }
+            }
         }
     };
     ($name:ident, $trait:ident, $function:ident, $instruction:ident) => {
@@ -268,6 +280,18 @@ impl double::Pack for F64x4 {
 }
 
 impl fused::Pack for F64x4 {
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        // SAFETY: see the top.
+        unsafe {
+            let sign = _mm256_set1_pd(-0.0);
+            Self(_mm256_max_pd(
+                _mm256_andnot_pd(sign, self.0),
+                _mm256_andnot_pd(sign, other.0),
+            ))
+        }
+    }
+
     type Array = [f64; 4];
 
     #[inline(always)]
@@ -315,6 +339,18 @@ impl fused::Pack for F64x4 {
 }
 
 impl fused::Pack for F32x8 {
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        // SAFETY: see the top.
+        unsafe {
+            let sign = _mm256_set1_ps(-0.0);
+            Self(_mm256_max_ps(
+                _mm256_andnot_ps(sign, self.0),
+                _mm256_andnot_ps(sign, other.0),
+            ))
+        }
+    }
+
     type Array = [f32; 8];
 
     #[inline(always)]
@@ -360,10 +396,19 @@ impl fused::Pack for F32x8 {
     }
 }
 
+/// The larger of two sizes, for the instruction that chooses among ranges.
+const LARGER_SIZE: i32 = 0b1011;
+
 /// a ⊕ (b ∧ c), bit by bit, as the table of a ternary instruction.
 const XOR_AND: i32 = 0x78;
 
 impl fused::Pack for F64x8 {
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        // SAFETY: see the top.
+        Self(unsafe { _mm512_range_pd::<LARGER_SIZE>(self.0, other.0) })
+    }
+
     type Array = [f64; 8];
 
     #[inline(always)]
@@ -409,6 +454,12 @@ impl fused::Pack for F64x8 {
 }
 
 impl fused::Pack for F32x16 {
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        // SAFETY: see the top.
+        Self(unsafe { _mm512_range_ps::<LARGER_SIZE>(self.0, other.0) })
+    }
+
     type Array = [f32; 16];
 
     #[inline(always)]

@@ -24,6 +24,10 @@ pub trait Pack: Register<Lane: Float> {
     /// cosine, and their second bits say the signs.
     fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self);
 
+    /// The larger size, lane by lane; any of the two, or either, where one is no
+    /// number.
+    fn larger(self, other: Self) -> Self;
+
     /// Whether the sizes of all numbers are below `limit`.
     fn all_below(self, limit: Self::Lane) -> bool;
 
@@ -139,44 +143,81 @@ impl Float for f32 {
     }
 }
 
-/// Sine and cosine in the common range.
+/// Angles that are computed step by step together: while the result of one
+/// operation is awaited, the others keep the processor busy.
+const GROUP: usize = 4;
+
+/// An array of what the expression gives for each index: a plain loop, because
+/// closures are not sure to be compiled for the surrounding instructions.
+macro_rules! for_each {
+    ($zero:expr; $i:ident => $value:expr) => {{
+        let mut values = [$zero; G];
+        for $i in 0..G {
+            values[$i] = $value;
+        }
+        values
+    }};
+}
+
+/// Sines and cosines in the common range.
 #[inline(always)]
-fn common<P: Pack>(angle: P) -> (P, P) {
-    let [part_1, part_2, part_3] = P::Lane::HALF_PI.map(P::splat);
+fn common<P: Pack, const G: usize>(angles: [P; G]) -> ([P; G], [P; G]) {
+    let [part_1, part_2, part_3] = P::Lane::HALF_PI;
+    let (part_1, part_2, part_3) = (P::splat(part_1), P::splat(part_2), P::splat(part_3));
     let round = P::splat(P::Lane::ROUND);
-    let quarter = angle.mul_add(P::splat(P::Lane::TURNS), round);
-    let n = quarter - round;
+    let turns = P::splat(P::Lane::TURNS);
+    let quarters = for_each!(round; i => angles[i].mul_add(turns, round));
+    let n = for_each!(round; i => quarters[i] - round);
     // Exact: a multiple of the last place of π/2 that is below one.
-    let first = (-n).mul_add(part_1, angle);
-    let high = (-n).mul_add(part_2, first);
-    let low = n.mul_add(part_3, n.mul_add(part_2, high - first));
-    turn(quarter, high, low)
+    let first = for_each!(round; i => (-n[i]).mul_add(part_1, angles[i]));
+    let high = for_each!(round; i => (-n[i]).mul_add(part_2, first[i]));
+    let low = for_each!(round; i => high[i] - first[i]);
+    let low = for_each!(round; i => n[i].mul_add(part_2, low[i]));
+    let low = for_each!(round; i => n[i].mul_add(part_3, low[i]));
+    turn(quarters, high, low)
 }
 
-/// Sine and cosine of quarter turns plus `high − low`.
+/// Sines and cosines of quarter turns plus `high − low`.
 #[inline(always)]
-fn turn<P: Pack>(quarter: P, high: P, low: P) -> (P, P) {
-    // (high − low)², but for low².
-    let square = high.mul_add(high, -(high * (low + low)));
-    let tail = polynomial(square, P::Lane::SINE);
-    // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
-    let sine = high - (-(high * square)).mul_add(tail, low);
-    let tail = polynomial(square, P::Lane::COSINE);
+fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) -> ([P; G], [P; G]) {
+    let one = P::from_f64(1.0);
     let half = P::from_f64(-0.5);
-    let cosine = square.mul_add(square.mul_add(tail, half), P::from_f64(1.0));
-    P::exchange(quarter, sine, cosine)
+    // (high − low)², but for low².
+    let twice = for_each!(one; i => high[i] * (low[i] + low[i]));
+    let square = for_each!(one; i => high[i].mul_add(high[i], -twice[i]));
+    let tail = polynomial(square, P::Lane::SINE);
+    let cube = for_each!(one; i => high[i] * square[i]);
+    // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
+    let lost = for_each!(one; i => (-cube[i]).mul_add(tail[i], low[i]));
+    let sine = for_each!(one; i => high[i] - lost[i]);
+    let tail = polynomial(square, P::Lane::COSINE);
+    let tail = for_each!(one; i => square[i].mul_add(tail[i], half));
+    let cosine = for_each!(one; i => square[i].mul_add(tail[i], one));
+    let (mut sines, mut cosines) = (sine, cosine);
+    for i in 0..G {
+        (sines[i], cosines[i]) = P::exchange(quarters[i], sine[i], cosine[i]);
+    }
+    (sines, cosines)
 }
 
 #[inline(always)]
-fn polynomial<P: Pack>(x: P, coefficients: &[P::Lane]) -> P {
+fn polynomial<P: Pack, const G: usize>(x: [P; G], coefficients: &[P::Lane]) -> [P; G] {
     match *coefficients {
-        [a, b, c] => x.mul_add(x.mul_add(P::splat(c), P::splat(b)), P::splat(a)),
+        [a, b, c] => {
+            let (a, b, c) = (P::splat(a), P::splat(b), P::splat(c));
+            let high = for_each!(a; i => x[i].mul_add(c, b));
+            for_each!(a; i => x[i].mul_add(high[i], a))
+        }
         [a, b, c, d, e, f] => {
-            let second = x * x;
-            let low = x.mul_add(P::splat(b), P::splat(a));
-            let middle = x.mul_add(P::splat(d), P::splat(c));
-            let high = x.mul_add(P::splat(f), P::splat(e));
-            second.mul_add(second.mul_add(high, middle), low)
+            // Pairs of terms: half the latency of Horner's scheme.
+            let (a, b, c) = (P::splat(a), P::splat(b), P::splat(c));
+            let (d, e, f) = (P::splat(d), P::splat(e), P::splat(f));
+            let second = for_each!(a; i => x[i] * x[i]);
+            let high = for_each!(a; i => x[i].mul_add(f, e));
+            let middle = for_each!(a; i => x[i].mul_add(d, c));
+            let low = for_each!(a; i => x[i].mul_add(b, a));
+            let high = for_each!(a; i => second[i].mul_add(high[i], middle[i]));
+            for_each!(a; i => second[i].mul_add(high[i], low[i]))
         }
         _ => unreachable!("polynomials have three or six coefficients"),
     }
@@ -187,12 +228,23 @@ fn polynomial<P: Pack>(x: P, coefficients: &[P::Lane]) -> P {
 pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
     let zero = P::from_f64(0.0);
     let (mut sines, mut cosines) = ([zero; N], [zero; N]);
-    let mut all_common = true;
-    for i in 0..N {
-        all_common &= angles[i].all_below(P::Lane::LIMIT);
-        (sines[i], cosines[i]) = common(angles[i]);
+    // What is no number may get lost here: its sine is none in either way.
+    let mut largest = zero;
+    for &angle in angles {
+        largest = largest.larger(angle);
     }
-    if !all_common {
+    let mut start = 0;
+    while start + GROUP <= N {
+        group::<P, GROUP>(angles, &mut sines, &mut cosines, start);
+        start += GROUP;
+    }
+    match N % GROUP {
+        0 => {}
+        1 => group::<P, 1>(angles, &mut sines, &mut cosines, start),
+        2 => group::<P, 2>(angles, &mut sines, &mut cosines, start),
+        _ => group::<P, 3>(angles, &mut sines, &mut cosines, start),
+    }
+    if !largest.all_below(P::Lane::LIMIT) {
         // Copies for this block alone: were angles and results themselves lent
         // out, they would live in memory on the common path too.
         let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
@@ -203,6 +255,16 @@ pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; 
         }
     }
     (sines, cosines)
+}
+
+/// The `G` angles from `start` on.
+#[inline(always)]
+fn group<P: Pack, const G: usize>(angles: &[P], sines: &mut [P], cosines: &mut [P], start: usize) {
+    let group = for_each!(angles[start]; i => angles[start + i]);
+    let (some_sines, some_cosines) = common(group);
+    for i in 0..G {
+        (sines[start + i], cosines[start + i]) = (some_sines[i], some_cosines[i]);
+    }
 }
 
 /// The same one by one, with angles outside the common range among them.
@@ -224,14 +286,14 @@ fn beyond<P: Pack, const N: usize>(angles: &[P; N], sines: &mut [P; N], cosines:
 /// One angle anywhere.
 #[inline(always)]
 fn one<T: Float>(angle: T) -> (T, T) {
-    let (sine, cosine) = if T::One::splat(angle).all_below(T::LIMIT) {
-        common(T::One::splat(angle))
+    let ([sine], [cosine]) = if T::One::splat(angle).all_below(T::LIMIT) {
+        common([T::One::splat(angle)])
     } else {
         let (quarter, [high, low]) = T::far(angle);
         turn(
-            T::One::splat(quarter),
-            T::One::splat(high),
-            T::One::splat(low),
+            [T::One::splat(quarter)],
+            [T::One::splat(high)],
+            [T::One::splat(low)],
         )
     };
     let number = |value: T::One| {
@@ -256,7 +318,7 @@ where
         return each(angles);
     }
     let lanes = T::Several::LANES;
-    let mut all_common = true;
+    let mut largest = T::Several::from_f64(0.0);
     let mut start = 0;
     while start < N {
         let first = start.min(N.saturating_sub(lanes));
@@ -265,8 +327,8 @@ where
             *number = angle.0;
         }
         let pack = T::Several::from_numbers(numbers);
-        all_common &= pack.all_below(T::LIMIT);
-        let (sine, cosine) = common(pack);
+        largest = largest.larger(pack);
+        let ([sine], [cosine]) = common([pack]);
         let (sine, cosine) = (sine.to_numbers(), cosine.to_numbers());
         let results = sines[first..].iter_mut().zip(&mut cosines[first..]);
         let found = sine.as_ref().iter().zip(cosine.as_ref());
@@ -275,7 +337,7 @@ where
         }
         start += lanes;
     }
-    if !all_common {
+    if !largest.all_below(T::LIMIT) {
         let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
         let angles = black_box(*angles);
         beyond(&angles, &mut far_sines, &mut far_cosines);

@@ -1,4 +1,6 @@
-//! Sine and cosine of several angles at once, for `f64` and `f32`.
+//! Sine and cosine of several angles at once, for `f64` and `f32`: portable, and in
+//! fused arithmetic ([`fused`]). What follows is about the portable ones, but for
+//! the accuracy.
 //!
 //! An angle within the common range (2¹⁶ quarter turns, 10⁵ rad, for `f64`)
 //! takes no branch and no table: reduction by Cody and Waite, two polynomials,
@@ -16,7 +18,7 @@
 //! # Accuracy
 //! Less than 0.9 units in the last place for `f64` and 0.502 for `f32`, over all
 //! of their ranges (the largest among 1.2 million values of each: 0.872 and
-//! 0.5009). sin(−x) = −sin(x), also for zeros; cos(−x) = cos(x).
+//! 0.5009); fused, less than 0.9 for both (0.82 and 0.81 among 32,000 values of each). sin(−x) = −sin(x), also for zeros; cos(−x) = cos(x).
 //! Infinite angles and NaN give NaN.
 //!
 //! # Sources
