@@ -14,10 +14,12 @@ mod drive;
 mod entries;
 mod handed;
 mod interpret;
+mod live;
 mod lower;
 mod named;
 mod observables;
 mod pair;
+mod passes;
 mod rebuild;
 mod recursion;
 mod sectors;
@@ -31,6 +33,7 @@ mod verify;
 pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
+pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
 pub use verify::Fault;
 
@@ -42,7 +45,13 @@ use crate::scene::Scene;
 ///
 /// Linear in the size of the mechanics, times a logarithm.
 pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
+    lower_without(None, scene, mechanics)
+}
+
+/// The same without one of the passes, to see what it is worth.
+fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
     let mut lowering = lower::Lowering::new(mechanics);
+    lowering.builder.off = off;
     let (entries, choice) = entries::entries(scene, &mut lowering);
     lowering.builder.finish(entries, choice)
 }
