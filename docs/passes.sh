@@ -11,16 +11,13 @@ for scene in paper nested; do
 done
 folder=$(mktemp -d)
 trap 'rm -r "$folder"' EXIT
-for generations in 4 5; do
-    printf 'binary tree of %s generations\n\n' "$generations"
-    cat > "$folder/tree.rs" <<RUST
+printf 'binary tree of 5 generations\n\n'
+cat > "$folder/tree.rs" <<'RUST'
 #[branched_pendulum(
     gravity = 9.80665,
-    tree: generations(count = $generations, branching = 2, shape = rod, mass = 0.12,
+    tree: generations(count = 5, branching = 2, shape = rod, mass = 0.12,
         length = 0.3, mass_ratio = 0.5, length_ratio = 0.7),
 )]
 pub struct Tree;
 RUST
-    "$expand" --stage passes "$folder/tree.rs"
-    printf '\n'
-done
+"$expand" --stage passes "$folder/tree.rs"
