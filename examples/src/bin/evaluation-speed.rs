@@ -5,14 +5,14 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use branched_pendulum_examples::evaluation_speed::{measure, output};
+use branched_pendulum_examples::evaluation_speed::{accuracy, measure, output};
 use branched_pendulum_examples::exit;
 
 const HELP: &str = "\
 What do the accelerations of one state cost, in emitted code one by one and in
 batches, against the system's sines and cosines alone, code written by hand for
 the paper's pendulum, a recursion that takes any tree as a table, and the
-textbook's dense matrix?
+textbook's dense matrix? And how far is each from the truth?
 
 Usage: evaluation-speed [--output FOLDER]
 
@@ -22,6 +22,9 @@ Usage: evaluation-speed [--output FOLDER]
 
 /// Passes over the states.
 const REPEATS: usize = 301;
+
+/// States at which errors are looked at.
+const STATES: usize = 2000;
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -39,7 +42,8 @@ fn main() -> ExitCode {
         }
     };
     let rows = measure::all(REPEATS);
-    print!("{}", output::table(&rows));
+    println!("{}", output::table(&rows));
+    print!("{}", output::errors(&accuracy::all(STATES)));
     exit::of_run(
         "evaluation-speed",
         match folder {

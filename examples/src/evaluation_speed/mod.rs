@@ -1,6 +1,7 @@
 //! What one evaluation of the accelerations costs, against what else one could
 //! write.
 
+pub mod accuracy;
 pub mod articulated;
 pub mod by_hand;
 pub mod dense;
