@@ -86,6 +86,7 @@ pub mod chart;
 pub mod data;
 #[cfg(feature = "std")]
 pub mod ensemble;
+pub mod generations;
 pub mod integrate;
 pub mod model;
 pub mod prelude;

@@ -1,10 +1,17 @@
 //! The machine's own numbers.
 
+use core::marker::PhantomData;
+
+use super::dispatch::{Kernel, run_widest};
 use super::lanes::{Lane, Sealed};
 use super::{Real, Scalar, sincos};
+use crate::generations::{Eight, Sixteen, SliceKernel};
+
+/// A computation over slices of `T`, to be compiled for wide registers.
+struct InVectors<K, T>(K, PhantomData<T>);
 
 macro_rules! implement_scalar {
-    ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident) => {
+    ($float:ident, $vectors:ty, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident) => {
         impl Scalar for $float {
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
@@ -29,6 +36,20 @@ macro_rules! implement_scalar {
                 return $float::sqrt(self);
                 #[cfg(all(feature = "libm", not(feature = "std")))]
                 return libm::$sqrt(self);
+            }
+
+            #[inline]
+            fn over_slices<K: SliceKernel<Self>>(kernel: K) {
+                run_widest(InVectors(kernel, PhantomData::<$float>));
+            }
+        }
+
+        impl<K: SliceKernel<$float>> Kernel for InVectors<K, $float> {
+            type Output = ();
+
+            #[inline(always)]
+            fn run(self) {
+                self.0.run::<$vectors>();
             }
         }
 
@@ -73,8 +94,15 @@ macro_rules! implement_scalar {
     };
 }
 
-implement_scalar!(f64, sincos::sin_cos_f64, sincos::several_f64, sqrt, pow);
-implement_scalar!(f32, sincos::sin_cos_f32, sincos::several_f32, sqrtf, powf);
+implement_scalar!(
+    f64,
+    Eight,
+    sincos::sin_cos_f64,
+    sincos::several_f64,
+    sqrt,
+    pow
+);
+implement_scalar!(f32, Sixteen, sincos::sin_cos_f32, sincos::several_f32, sqrtf, powf);
 
 #[cfg(test)]
 mod tests {

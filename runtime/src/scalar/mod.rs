@@ -31,6 +31,7 @@ pub use dual::Dual;
 pub use lanes::{Lane, Lanes};
 pub use wide::Double;
 
+use crate::generations::{Single, SliceKernel};
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -89,6 +90,14 @@ pub trait Scalar:
 
     /// Square root.
     fn sqrt(self) -> Self;
+
+    /// Computes over slices of such numbers, several at a time where the type
+    /// can.
+    #[doc(hidden)]
+    #[inline]
+    fn over_slices<K: SliceKernel<Self>>(kernel: K) {
+        kernel.run::<Single>();
+    }
 }
 
 /// A real number with an order: what step-size control needs besides
