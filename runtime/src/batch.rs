@@ -1,75 +1,92 @@
 //! Accelerations of many states at once.
 //!
 //! States lie as a structure of arrays: for each link a slice with its angle in
-//! every state. [`Batch`] takes them `N` at a time through the emitted code, in
-//! [`Lanes`], with the widest vector instructions that the machine has.
+//! every state. [`Batch`] takes as many at a time as fit into the widest vector
+//! registers that the machine has. The states are read and written where they
+//! lie.
 //!
 //! ```
-//! # use branched_pendulum::{Pendulum, Scalar};
+//! # use branched_pendulum::{Pendulum, Rescale, Scalar};
 //! use branched_pendulum::batch::Batch;
-//! use branched_pendulum::scalar::Lanes;
 //! # struct Rod<T>(T);
 //! # impl<T: Scalar> Pendulum<T> for Rod<T> {
 //! #     const LINKS: usize = 1;
 //! #     const LINK_NAMES: &'static [&'static str] = &["rod"];
-//! #     #[inline(always)]
-//! #     fn accelerations_into(&self, _time: T, theta: &[T], _omega: &[T], alpha: &mut [T]) {
-//! #         for (alpha, theta) in alpha.iter_mut().zip(theta) {
-//! #             *alpha = -(self.0 * theta.sin_cos().0);
-//! #         }
+//! #     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+//! #         T::accelerate(self, time, theta, omega, alpha);
+//! #     }
+//! # }
+//! # impl<T: Scalar> Rescale<T> for Rod<T> {
+//! #     type Of<S: Scalar> = Rod<S>;
+//! #     fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
+//! #         Rod(convert(self.0))
+//! #     }
+//! #     fn evaluate(
+//! #         &self,
+//! #         _time: T,
+//! #         theta: impl Fn(usize) -> T,
+//! #         _omega: impl Fn(usize) -> T,
+//! #         mut alpha: impl FnMut(usize, T),
+//! #     ) {
+//! #         alpha(0, -(self.0 * theta(0).sin_cos().0));
 //! #     }
 //! # }
 //!
-//! // A pendulum of one link, in eight lanes; emitted models have `default()`.
-//! let model = Rod(Lanes::<f64, 8>::splat(9.80665));
+//! // A pendulum of one link, or any model that the attribute writes.
+//! let model = Rod(9.80665);
 //! let theta = [vec![0.1; 1001]];
 //! let omega = [vec![0.0; 1001]];
 //! let mut alpha = [vec![0.0; 1001]];
 //! Batch::new(&model).accelerations(0.0, &theta, &omega, &mut alpha)?;
-//! assert_eq!(alpha[0][1000], -9.80665 * Scalar::sin_cos(0.1_f64).0);
+//! let mut alone = [0.0];
+//! model.accelerations_into(0.0, &[0.1], &[0.0], &mut alone);
+//! assert_eq!(alpha[0][1000], alone[0]);
 //! # Ok::<(), branched_pendulum::batch::BatchError>(())
 //! ```
 
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::scalar::dispatch::{self, Kernel};
-use crate::scalar::{InstructionSet, Lane, Lanes};
-use crate::system::Pendulum;
+use crate::scalar::dispatch::{self, RegisterKernel};
+use crate::scalar::register::Register;
+use crate::scalar::{InstructionSet, Lane};
+use crate::system::Rescale;
 
-/// Evaluates a pendulum for any number of states, `N` at a time.
+/// Room for the widest register.
+const MOST_LANES: usize = 16;
+
+/// Evaluates a pendulum for any number of states, a register at a time.
 ///
 /// Room for one block is allocated when it is built, and nothing later. Each
-/// state gets the bits that the same model gives it alone, whatever its place
-/// in the batch and whatever the instruction set.
-#[derive(Debug)]
-pub struct Batch<'m, P, T, const N: usize> {
-    model: &'m P,
+/// state gets the bits that
+/// [`accelerations_into`](crate::Pendulum::accelerations_into) gives it alone,
+/// whatever its place in the batch.
+#[derive(Clone, Debug)]
+pub struct Batch<'m, P, T> {
+    pendulum: &'m P,
     instructions: InstructionSet,
-    theta: Vec<Lanes<T, N>>,
-    omega: Vec<Lanes<T, N>>,
-    alpha: Vec<Lanes<T, N>>,
+    /// A last block that is not full: angles, velocities, accelerations.
+    rest: [Vec<T>; 3],
 }
 
-impl<'m, P: Pendulum<Lanes<T, N>>, T: Lane, const N: usize> Batch<'m, P, T, N> {
-    /// For a `model` whose constants are in lanes. Uses the widest instructions
-    /// that the machine has.
+impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
+    /// For a `pendulum` in `f64` or `f32`. Uses the widest registers that the
+    /// machine has.
     ///
     /// # Examples
     /// See the [module](self).
     #[must_use]
-    pub fn new(model: &'m P) -> Self {
-        let zeros = || alloc::vec![Lanes::splat(T::from_f64(0.0)); P::LINKS];
+    pub fn new(pendulum: &'m P) -> Self {
         Self {
-            model,
+            pendulum,
             instructions: InstructionSet::widest(),
-            theta: zeros(),
-            omega: zeros(),
-            alpha: zeros(),
+            rest: core::array::from_fn(|_| alloc::vec![T::from_f64(0.0); P::LINKS * MOST_LANES]),
         }
     }
 
-    /// Uses instructions that are no wider than `instructions`, for comparison.
+    /// Uses instructions that are no wider than `instructions`. With
+    /// [`InstructionSet::Build`] nothing is fused, and the results have the same
+    /// bits on every machine.
     #[must_use]
     pub fn no_wider_than(mut self, instructions: InstructionSet) -> Self {
         self.instructions = instructions.min(InstructionSet::widest());
@@ -99,33 +116,19 @@ impl<'m, P: Pendulum<Lanes<T, N>>, T: Lane, const N: usize> Batch<'m, P, T, N> {
         alpha: &mut [impl AsMut<[T]>],
     ) -> Result<(), BatchError> {
         let count = theta.first().map_or(0, |angles| angles.as_ref().len());
-        check(
-            P::LINKS,
-            count,
-            "theta",
-            theta.len(),
-            theta.iter().map(|s| s.as_ref().len()),
-        )?;
-        check(
-            P::LINKS,
-            count,
-            "omega",
-            omega.len(),
-            omega.iter().map(|s| s.as_ref().len()),
-        )?;
+        let lengths = theta.iter().map(|s| s.as_ref().len());
+        check(P::LINKS, count, "theta", theta.len(), lengths)?;
+        let lengths = omega.iter().map(|s| s.as_ref().len());
+        check(P::LINKS, count, "omega", omega.len(), lengths)?;
         let outputs = alpha.len();
-        check(
-            P::LINKS,
-            count,
-            "alpha",
-            outputs,
-            alpha.iter_mut().map(|s| s.as_mut().len()),
-        )?;
-        dispatch::run(
+        let lengths = alpha.iter_mut().map(|s| s.as_mut().len());
+        check(P::LINKS, count, "alpha", outputs, lengths)?;
+        dispatch::run_in_registers(
             self.instructions,
             Blocks {
-                batch: self,
-                time: Lanes::splat(time),
+                pendulum: self.pendulum,
+                rest: &mut self.rest,
+                time,
                 count,
                 theta,
                 omega,
@@ -164,18 +167,19 @@ fn check(
 }
 
 /// The whole evaluation, lengths checked.
-struct Blocks<'a, 'm, P, T, const N: usize, In, On, Out> {
-    batch: &'a mut Batch<'m, P, T, N>,
-    time: Lanes<T, N>,
+struct Blocks<'a, P, T, In, On, Out> {
+    pendulum: &'a P,
+    rest: &'a mut [Vec<T>; 3],
+    time: T,
     count: usize,
     theta: &'a [In],
     omega: &'a [On],
     alpha: &'a mut [Out],
 }
 
-impl<P, T, const N: usize, In, On, Out> Kernel for Blocks<'_, '_, P, T, N, In, On, Out>
+impl<P, T, In, On, Out> RegisterKernel<T> for Blocks<'_, P, T, In, On, Out>
 where
-    P: Pendulum<Lanes<T, N>>,
+    P: Rescale<T>,
     T: Lane,
     In: AsRef<[T]>,
     On: AsRef<[T]>,
@@ -184,57 +188,72 @@ where
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
-        let Batch {
-            model,
-            instructions: _,
-            theta,
-            omega,
-            alpha,
-        } = self.batch;
+    fn run<R: Register<Lane = T>>(self) {
+        let pendulum = self.pendulum.rescale(R::splat);
+        let [rest_theta, rest_omega, rest_alpha] = self.rest;
         let mut start = 0;
         while start < self.count {
-            load(theta, self.theta, start);
-            load(omega, self.omega, start);
-            model.accelerations_into(self.time, theta, omega, alpha);
-            store(alpha, self.alpha, start);
-            start += N;
+            let full = self.count - start >= R::LANES;
+            if !full {
+                fill::<R>(rest_theta, self.theta, start);
+                fill::<R>(rest_omega, self.omega, start);
+            }
+            // One body serves both kinds of blocks: they differ in where the
+            // numbers lie.
+            pendulum.evaluate(
+                R::splat(self.time),
+                |link| load(self.theta, rest_theta, link, start, full),
+                |link| load(self.omega, rest_omega, link, start, full),
+                |link, value: R| {
+                    let block = match self.alpha.get_mut(link) {
+                        Some(slice) if full => slice.as_mut().get_mut(start..),
+                        _ => rest_alpha.get_mut(link * R::LANES..),
+                    };
+                    value.store(block.unwrap_or_default());
+                },
+            );
+            if !full {
+                for (link, slice) in self.alpha.iter_mut().enumerate() {
+                    let from = rest_alpha.get(link * R::LANES..).unwrap_or_default();
+                    let to = slice.as_mut().get_mut(start..).unwrap_or_default();
+                    for (to, from) in to.iter_mut().zip(from) {
+                        *to = *from;
+                    }
+                }
+            }
+            start += R::LANES;
         }
     }
 }
 
-/// Fills lanes from `start` on. Past the end they repeat the last state, which
-/// costs nothing beside it, while a number made up might be slow.
+/// One register of one link.
 #[inline(always)]
-fn load<T: Lane, const N: usize>(
-    lanes: &mut [Lanes<T, N>],
-    slices: &[impl AsRef<[T]>],
+fn load<R: Register>(
+    slices: &[impl AsRef<[R::Lane]>],
+    rest: &[R::Lane],
+    link: usize,
     start: usize,
-) {
-    for (lanes, slice) in lanes.iter_mut().zip(slices) {
-        let rest = slice.as_ref().get(start..).unwrap_or_default();
-        if let Some(whole) = rest.first_chunk() {
-            lanes.0 = *whole;
-        } else if let Some((&last, _)) = rest.split_last() {
-            lanes.0 = core::array::from_fn(|i| rest.get(i).copied().unwrap_or(last));
-        }
+    full: bool,
+) -> R {
+    let block = match slices.get(link) {
+        Some(slice) if full => slice.as_ref().get(start..),
+        _ => rest.get(link * R::LANES..),
+    };
+    match R::load(block.unwrap_or_default()) {
+        Some(register) => register,
+        // Lengths have been checked.
+        None => R::from_f64(f64::NAN),
     }
 }
 
-/// Writes lanes from `start` on, as many as there are states.
-#[inline(always)]
-fn store<T: Lane, const N: usize>(
-    lanes: &[Lanes<T, N>],
-    slices: &mut [impl AsMut<[T]>],
-    start: usize,
-) {
-    for (lanes, slice) in lanes.iter().zip(slices) {
-        let rest = slice.as_mut().get_mut(start..).unwrap_or_default();
-        if let Some(whole) = rest.first_chunk_mut() {
-            *whole = lanes.0;
-        } else {
-            for (out, value) in rest.iter_mut().zip(lanes.0) {
-                *out = value;
+/// The last states, a register a link. Past the end they repeat the last state,
+/// which costs nothing beside it, while a number made up might be slow.
+fn fill<R: Register>(rest: &mut [R::Lane], slices: &[impl AsRef<[R::Lane]>], start: usize) {
+    for (block, slice) in rest.chunks_exact_mut(R::LANES).zip(slices) {
+        let states = slice.as_ref().get(start..).unwrap_or_default();
+        if let Some(&last) = states.last() {
+            for (i, number) in block.iter_mut().enumerate() {
+                *number = states.get(i).copied().unwrap_or(last);
             }
         }
     }

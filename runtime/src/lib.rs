@@ -99,7 +99,7 @@ pub mod taylor;
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
-pub use system::{Canonical, Energy, Pendulum, SymmetricPendulum, TaylorPendulum};
+pub use system::{Canonical, Energy, Pendulum, Rescale, SymmetricPendulum, TaylorPendulum};
 
 #[cfg(feature = "macros")]
 #[doc = include_str!("attribute.md")]

@@ -10,6 +10,6 @@ pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
 pub use crate::sectors::{Budget, Sectors};
 pub use crate::system::{
-    AbsoluteAngles, Canonical, CanonicalVariables, Energy, Ode, OdeFn, Pendulum, State,
+    AbsoluteAngles, Canonical, CanonicalVariables, Energy, Ode, OdeFn, Pendulum, Rescale, State,
     SymmetricCoordinates, SymmetricPendulum, TaylorOde, TaylorPendulum,
 };

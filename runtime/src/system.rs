@@ -7,6 +7,7 @@
 //! [`SymmetricCoordinates`] turn one into the other.
 
 mod canonical;
+pub(crate) mod rescale;
 mod taylor;
 
 use alloc::vec::Vec;
@@ -15,6 +16,7 @@ use core::fmt;
 use crate::scalar::Scalar;
 
 pub use canonical::{Canonical, CanonicalVariables};
+pub use rescale::Rescale;
 pub use taylor::{TaylorOde, TaylorPendulum};
 
 /// Equations of motion in absolute angles.

@@ -63,10 +63,12 @@ impl Emission<'_> {
         let formulas = self.formulas(entry.purpose);
         self.show(&formulas, &mut lines);
         lines.push(String::new());
-        lines.push(format!(
-            "Cost: {}.",
-            self.program.operations(&entry.outputs)
-        ));
+        let fused = match self.program.fused(entry).len() {
+            0 => String::new(),
+            count => format!("; {count} of the ± take a × along where the scalar fuses"),
+        };
+        let operations = self.program.operations(&entry.outputs);
+        lines.push(format!("Cost: {operations}{fused}."));
         doc_lines(&lines)
     }
 

@@ -4,7 +4,7 @@ use super::Emission;
 use super::names::Locals;
 use super::parts::{Line, MOST_LINES};
 use crate::exact::Rational;
-use crate::program::{Argument, Entry, Op, Purpose, Shape, ValueId};
+use crate::program::{Argument, Entry, Fused, Op, Purpose, Shape, ValueId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
@@ -291,9 +291,33 @@ impl Emission<'_> {
         }
     }
 
+    /// `x.mul_add(y, z)`, which is x y + z.
+    fn fused(&self, fused: &Fused, locals: &Locals) -> TokenStream {
+        let Op::Mul(x, y) = *self.op(fused.product) else {
+            unreachable!("products alone are fused");
+        };
+        let x = if fused.minus_product {
+            let x = self.bound(x, locals, Binding::Atom);
+            quote!((-#x))
+        } else {
+            self.bound(x, locals, Binding::Atom)
+        };
+        let y = self.bound(y, locals, Binding::Sum);
+        let z = if fused.minus_addend {
+            let z = self.bound(fused.addend, locals, Binding::Atom);
+            quote!(-#z)
+        } else {
+            self.bound(fused.addend, locals, Binding::Sum)
+        };
+        quote!(#x.mul_add(#y, #z))
+    }
+
     /// A value's definition. Sums and products associate to the left, so that
     /// only right operands need parentheses.
     fn definition(&self, id: ValueId, locals: &Locals) -> (TokenStream, Binding) {
+        if let Some(fused) = locals.fused.get(&id) {
+            return (self.fused(fused, locals), Binding::Atom);
+        }
         let at = |id: ValueId, place: Binding| self.bound(id, locals, place);
         match *self.op(id) {
             Op::Constant(constant) => {

@@ -1,7 +1,7 @@
 //! Names of the local values of an emitted function.
 
 use super::Emission;
-use crate::program::{Argument, Entry, Op, ValueId};
+use crate::program::{Argument, Entry, Fused, Op, ValueId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longer generated names say less than a number.
@@ -14,17 +14,31 @@ const DEEPEST: usize = 16;
 /// Which values of a function get a `let`, and what they are called.
 pub(super) struct Locals {
     pub(super) names: BTreeMap<ValueId, String>,
+    /// Sums that are written with a product in them.
+    pub(super) fused: BTreeMap<ValueId, Fused>,
     used: BTreeSet<String>,
 }
 
 impl Emission<'_> {
     /// Names every input, every named value and every value used more than
-    /// once; all others are written in place.
+    /// once; all others are written in place, and so are products that are fused
+    /// with their sums.
     pub(super) fn locals(&self, entry: &Entry, needed: &[ValueId]) -> Locals {
+        let fused = self.program.fused(entry);
+        let products: BTreeSet<ValueId> = fused.values().map(|sum| sum.product).collect();
         let mut uses: BTreeMap<ValueId, usize> = BTreeMap::new();
-        for &id in needed {
+        for &id in needed.iter().filter(|id| !products.contains(id)) {
             for operand in self.op(id).operands() {
-                *uses.entry(operand).or_default() += 1;
+                let factors = products.contains(&operand).then(|| self.op(operand));
+                let factors: Vec<ValueId> = factors.into_iter().flat_map(Op::operands).collect();
+                let written = if factors.is_empty() {
+                    vec![operand]
+                } else {
+                    factors
+                };
+                for value in written {
+                    *uses.entry(value).or_default() += 1;
+                }
             }
         }
         for &output in &entry.outputs {
@@ -32,6 +46,7 @@ impl Emission<'_> {
         }
         let mut locals = Locals {
             names: BTreeMap::new(),
+            fused,
             used: entry
                 .arguments
                 .iter()
@@ -46,6 +61,10 @@ impl Emission<'_> {
                 .operands()
                 .filter_map(|operand| depths.get(&operand));
             let depth = 1 + inside.copied().max().unwrap_or(0);
+            if products.contains(&id) {
+                depths.insert(id, depth);
+                continue;
+            }
             let several = uses.get(&id).is_some_and(|count| *count > 1) || depth > DEEPEST;
             let wanted = match (&definition.op, &definition.name) {
                 (Op::Constant(_), _) => continue,

@@ -4,7 +4,7 @@
 use super::Emission;
 use super::function::ident;
 use super::names::Locals;
-use crate::program::{Entry, Op, ValueId};
+use crate::program::{Entry, Op, Purpose, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
@@ -52,17 +52,20 @@ impl Part {
     /// The line that stands for the part in the whole.
     fn call(&self, entry: &Entry) -> TokenStream {
         let (name, receives, returns) = (self.name(entry), &self.receives, &self.returns);
-        quote!(let [#(#returns),*] = self.#name([#(#receives),*]);)
+        let call = outlined(entry, quote!(self.#name([#(#receives),*])));
+        quote!(let [#(#returns),*] = #call;)
     }
 
     fn function(&self, entry: &Entry) -> TokenStream {
         let name = self.name(entry);
         let docs = format!(" Part {} of [`{1}`](Self::{1}).", self.number, entry.name);
         let (receives, returns, lines) = (&self.receives, &self.returns, &self.lines);
+        let inline = inlined(entry);
         let taken = Literal::usize_unsuffixed(receives.len());
         let given = Literal::usize_unsuffixed(returns.len());
         quote! {
             #[doc = #docs]
+            #inline
             fn #name(&self, [#(#receives),*]: [T; #taken]) -> [T; #given] {
                 #(#lines)*
                 [#(#returns),*]
@@ -78,11 +81,13 @@ impl Part {
             self.number, entry.name
         );
         let size = Literal::usize_unsuffixed(places.len());
+        let inline = inlined(entry);
         let taken = taken(&self.receives, places);
         let given = given(&self.returns, places);
         let lines = &self.lines;
         quote! {
             #[doc = #docs]
+            #inline
             fn #name(&self, shared_values: &mut [T; #size]) {
                 #(#taken)*
                 #(#lines)*
@@ -90,6 +95,21 @@ impl Part {
             }
         }
     }
+}
+
+/// A call of a part. Those of the accelerations are functions of the instructions
+/// that the scalar stands for.
+fn outlined(entry: &Entry, call: TokenStream) -> TokenStream {
+    if entry.purpose == Purpose::Accelerations {
+        quote!(T::outlined(|| #call))
+    } else {
+        call
+    }
+}
+
+/// What makes [`outlined`] possible.
+fn inlined(entry: &Entry) -> Option<TokenStream> {
+    (entry.purpose == Purpose::Accelerations).then(|| quote!(#[inline(always)]))
 }
 
 /// `let x = shared_values[3];`
@@ -131,7 +151,8 @@ impl Parts {
         lines.extend(given(&inputs, places));
         lines.extend(self.parts.iter().map(|part| {
             let name = part.name(entry);
-            quote!(self.#name(&mut shared_values);)
+            let call = outlined(entry, quote!(self.#name(&mut shared_values)));
+            quote!(#call;)
         }));
         lines.extend(taken(&outputs, places));
         lines

@@ -110,6 +110,20 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             fn accelerations_into(&self, _: T, _: &[T], _: &[T], _: &mut [T]) {}
         }
 
+        impl<T: #runtime::Scalar> #runtime::Rescale<T> for #name<T> {
+            type Of<S: #runtime::Scalar> = #name<S>;
+            fn rescale<S: #runtime::Scalar>(
+                &self, _: impl ::core::ops::Fn(T) -> S,
+            ) -> #name<S> { ::core::unimplemented!() }
+            fn evaluate(
+                &self,
+                _: T,
+                _: impl ::core::ops::Fn(usize) -> T,
+                _: impl ::core::ops::Fn(usize) -> T,
+                _: impl ::core::ops::FnMut(usize, T),
+            ) {}
+        }
+
         impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {
             const COORDINATE_NAMES: &'static [&'static str] = &[];
             fn symmetric_accelerations_into(&self, _: T, _: &[T], _: &[T], _: &mut [T]) {}

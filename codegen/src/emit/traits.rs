@@ -82,27 +82,59 @@ impl Emission<'_> {
     fn pendulum(&self) -> TokenStream {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let link_names = self.scene.links.iter().map(|link| &link.name);
-        let output = Ident::new("alpha", Span::call_site());
-        let driven = self.mechanics.drive.is_some();
-        let body = self.fill(
-            &output,
-            &["theta", "omega"],
-            match driven {
-                true => quote!(self.accelerations(time, theta, omega)),
-                false => quote!(self.accelerations(theta, omega)),
-            },
-        );
+        let call = match self.mechanics.drive.is_some() {
+            true => quote!(self.accelerations(time, &theta, &omega)),
+            false => quote!(self.accelerations(&theta, &omega)),
+        };
         let time = self.time_name();
+        let fields: Vec<Ident> = self
+            .stored_constants()
+            .into_iter()
+            .map(|id| self.field(id))
+            .collect();
+        let unused = fields.is_empty().then(|| quote!(let _ = convert;));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
                 const LINKS: usize = #links;
                 const LINK_NAMES: &'static [&'static str] = &[#(#link_names),*];
 
-                // Always: a caller compiled for wider registers must be
-                // able to compile this body for them.
+                // In fused arithmetic where the machine has it.
+                #[inline]
+                fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+                    T::accelerate(self, time, theta, omega, alpha);
+                }
+            }
+
+            impl<T: #runtime::Scalar> #runtime::Rescale<T> for #name<T> {
+                type Of<S: #runtime::Scalar> = #name<S>;
+
                 #[inline(always)]
-                fn accelerations_into(&self, #time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-                    #body
+                fn rescale<S: #runtime::Scalar>(
+                    &self,
+                    convert: impl ::core::ops::Fn(T) -> S,
+                ) -> #name<S> {
+                    #unused
+                    #name { #(#fields: convert(self.#fields)),* }
+                }
+
+                #[inline(always)]
+                fn evaluate(
+                    &self,
+                    #time: T,
+                    theta: impl ::core::ops::Fn(usize) -> T,
+                    omega: impl ::core::ops::Fn(usize) -> T,
+                    mut alpha: impl ::core::ops::FnMut(usize, T),
+                ) {
+                    let (theta, omega) = (
+                        ::core::array::from_fn(theta),
+                        ::core::array::from_fn(omega),
+                    );
+                    let values = #call;
+                    for (link, value) in ::core::iter::Iterator::enumerate(
+                        ::core::iter::IntoIterator::into_iter(values),
+                    ) {
+                        alpha(link, value);
+                    }
                 }
             }
         }

@@ -56,11 +56,35 @@ impl Program {
         parameters: &[f64],
         input: impl Fn(Argument, usize) -> f64,
     ) -> Option<Vec<f64>> {
+        let unfused = |x: f64, y: f64, z: f64| x * y + z;
+        self.evaluate_fused(sin_cos, unfused, entry, parameters, input)
+    }
+
+    /// The same with a fused multiply-add `x * y + z` of the caller's, wherever
+    /// emitted code has one.
+    pub fn evaluate_fused(
+        &self,
+        sin_cos: impl Fn(f64) -> (f64, f64),
+        mul_add: impl Fn(f64, f64, f64) -> f64,
+        entry: &str,
+        parameters: &[f64],
+        input: impl Fn(Argument, usize) -> f64,
+    ) -> Option<Vec<f64>> {
         let entry = self.entry(entry)?;
+        let fused = self.fused(entry);
         let constants = self.setup.evaluate(parameters);
         let mut values: Vec<f64> = vec![0.0; self.definitions.len()];
         for id in self.needed(&entry.outputs) {
             let at = |id: ValueId| values[id.0 as usize];
+            if let Some(sum) = fused.get(&id)
+                && let Op::Mul(x, y) = self.definition(sum.product).op
+            {
+                let signed = |value: f64, minus: bool| if minus { -value } else { value };
+                let x = signed(at(x), sum.minus_product);
+                let addend = signed(at(sum.addend), sum.minus_addend);
+                values[id.0 as usize] = mul_add(x, at(y), addend);
+                continue;
+            }
             let value = match self.definition(id).op {
                 Op::Input(argument, index) => input(argument, index),
                 Op::Constant(constant) => constants[constant.0 as usize],

@@ -11,6 +11,7 @@ mod copies;
 mod count;
 mod drive;
 mod entries;
+mod fuse;
 mod handed;
 mod interpret;
 mod lower;
@@ -27,6 +28,7 @@ mod verify;
 
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
+pub use fuse::Fused;
 pub use rebuild::Rebuilt;
 pub use verify::Fault;
 

@@ -3,9 +3,9 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use branched_pendulum::Pendulum;
 use branched_pendulum::batch::Batch;
-use branched_pendulum::scalar::{Lane, Lanes};
+use branched_pendulum::scalar::Lane;
+use branched_pendulum::{Pendulum, Rescale};
 
 use super::articulated::Articulated;
 use super::by_hand::ByHand;
@@ -50,20 +50,14 @@ pub fn all(repeats: usize) -> Vec<Row> {
     let paper = batches::<3, Paper<_>, Paper<_>>(Paper::default(), Paper::default());
     let tree7 = batches::<7, Tree7<_>, Tree7<_>>(Tree7::default(), Tree7::default());
     let tree15 = batches::<15, Tree15<_>, Tree15<_>>(Tree15::default(), Tree15::default());
-    // Batches of larger trees take the compiler minutes; `docs/performance.md`.
+    let tree31 = batches::<31, Tree31<_>, Tree31<_>>(Tree31::default(), Tree31::default());
     let mut with_hand = paper;
     with_hand[4] = Some(by_hand());
     vec![
         row::<3>("paper", with_hand, Paper::new(), &table::paper(), repeats),
         row::<7>("tree", tree7, Tree7::new(), &table::tree(3), repeats),
         row::<15>("tree", tree15, Tree15::new(), &table::tree(4), repeats),
-        row::<31>(
-            "tree",
-            Default::default(),
-            Tree31::new(),
-            &table::tree(5),
-            repeats,
-        ),
+        row::<31>("tree", tree31, Tree31::new(), &table::tree(5), repeats),
         row::<127>(
             "tree",
             Default::default(),
@@ -175,21 +169,18 @@ fn by_hand() -> Pass {
 
 fn batches<const N: usize, P, Q>(double: P, single: Q) -> Passes
 where
-    P: Pendulum<Lanes<f64, 8>> + 'static,
-    Q: Pendulum<Lanes<f32, 16>> + 'static,
+    P: Rescale<f64> + 'static,
+    Q: Rescale<f32> + 'static,
 {
     let mut passes = Passes::default();
-    passes[2] = Some(Box::new(batch::<N, _, _, 8>(double, |x| x)));
-    passes[3] = Some(Box::new(batch::<N, _, _, 16>(single, |x| x as f32)));
+    passes[2] = Some(Box::new(batch::<N, _, _>(double, |x| x)));
+    passes[3] = Some(Box::new(batch::<N, _, _>(single, |x| x as f32)));
     passes
 }
 
-fn batch<const N: usize, P, T, const M: usize>(
-    model: P,
-    convert: fn(f64) -> T,
-) -> impl FnMut() + 'static
+fn batch<const N: usize, P, T>(model: P, convert: fn(f64) -> T) -> impl FnMut() + 'static
 where
-    P: Pendulum<Lanes<T, M>> + 'static,
+    P: Rescale<T> + 'static,
     T: Lane,
 {
     let (theta, omega) = inputs::<N>();

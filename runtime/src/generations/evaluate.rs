@@ -1,87 +1,26 @@
-//! One evaluation: the whole tree at once, or part by part where it is large.
+//! Accelerations of one state: the tree in one piece, or part by part where it
+//! is large.
 
 use core::marker::PhantomData;
-use alloc::vec::Vec;
+use core::ops::Range;
 
-use super::part::{Part, Run, Shape};
+use super::part::{Part, Run};
+use super::plan::{Plan, WIDTH};
 use super::recursion::Recursion;
+use super::shared::Shared;
 use super::sweep::{Memory, Sweep};
 use super::vector::{SliceKernel, Vectors};
 use crate::scalar::Scalar;
 
-/// Trees of up to so many links are computed in one piece: their numbers fit
-/// into the second cache.
-pub(super) const WHOLE: usize = 8192;
-
-/// Neighbours in a part of a larger tree: whole vectors, and runs that are long
-/// enough to be fetched ahead.
-const WIDTH: usize = 64;
-
-/// How a tree is taken apart.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Plan {
-    pub(super) counts: Vec<usize>,
-    pub(super) starts: Vec<usize>,
-    /// The generation in which the parts start; none where the tree is one.
-    pub(super) cut: Option<usize>,
-}
-
-impl Plan {
-    pub(super) fn new(copies: &[usize]) -> Self {
-        let (mut counts, mut starts) = (Vec::new(), Vec::new());
-        let (mut count, mut start) = (1, 0);
-        for &copies in copies {
-            count *= copies;
-            counts.push(count);
-            starts.push(start);
-            start += count;
-        }
-        let mut cut = None;
-        if start > WHOLE {
-            // The longest subtrees that fit, with as many neighbours.
-            let last = copies.len().saturating_sub(2);
-            let fits = |generation: usize| {
-                let below: usize = counts[generation..].iter().sum();
-                counts[generation] >= WIDTH
-                    && (below / counts[generation]).saturating_mul(WIDTH) <= WHOLE
-            };
-            cut = (1..=last).find(|&generation| fits(generation)).or((last > 0).then_some(last));
-        }
-        Self { counts, starts, cut }
-    }
-
-    pub(super) fn links(&self) -> usize {
-        self.counts.iter().sum()
-    }
-
-    fn shape(&self) -> Shape<'_> {
-        Shape {
-            counts: &self.counts,
-            starts: &self.starts,
-        }
-    }
-
-    /// The generations above the cut, or the whole tree.
-    fn top(&self) -> Part<'_> {
-        Part {
-            shape: self.shape(),
-            first: 0,
-            end: self.cut.unwrap_or(self.counts.len()),
-            start: 0,
-            width: 1,
-        }
-    }
-
-    /// The parts below the cut.
-    fn window(&self, cut: usize, start: usize) -> Part<'_> {
-        Part {
-            shape: self.shape(),
-            first: cut,
-            end: self.counts.len(),
-            start,
-            width: WIDTH.min(self.counts[cut] - start),
-        }
-    }
+/// What does not change during an evaluation.
+#[derive(Debug)]
+pub(super) struct Given<'a, T, const C: usize> {
+    pub(super) plan: &'a Plan,
+    pub(super) constants: &'a [[T; C]],
+    /// Acceleration of the root's pivot.
+    pub(super) root: [T; 2],
+    pub(super) theta: &'a [T],
+    pub(super) omega: &'a [T],
 }
 
 /// Numbers of a part: of all its links, and of those with answers.
@@ -97,7 +36,9 @@ fn length<const R: usize, const K: usize>(part: &Part<'_>, joints: bool) -> usiz
 
 /// Takes `length` numbers off the front.
 fn take<'a, T>(buffer: &mut &'a mut [T], length: usize) -> &'a mut [T] {
-    let (front, rest) = core::mem::take(buffer).split_at_mut(length);
+    let whole = core::mem::take(buffer);
+    let length = length.min(whole.len());
+    let (front, rest) = whole.split_at_mut(length);
     *buffer = rest;
     front
 }
@@ -121,118 +62,206 @@ fn memory<'a, T, const R: usize, const K: usize>(
     }
 }
 
-impl Plan {
-    pub(super) fn workspace<const R: usize, const K: usize>(&self, joints: bool) -> usize {
-        let top = length::<R, K>(&self.top(), joints);
-        match self.cut {
-            None => top,
-            Some(cut) => {
-                let window = self.window(cut, 0);
-                top + length::<R, K>(&window, joints) + window.own(window.end)
-            }
-        }
+/// How many numbers an evaluation needs room for, on so many threads.
+pub(super) fn workspace<const R: usize, const K: usize>(
+    plan: &Plan,
+    joints: bool,
+    threads: usize,
+) -> usize {
+    let top = length::<R, K>(&plan.top(), joints);
+    match plan.cut {
+        None => top,
+        Some(cut) => top + plan.count(cut) * R + threads * worker::<R, K>(plan, cut, joints),
     }
 }
 
-/// An evaluation of accelerations.
-pub(super) struct Evaluation<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
-    pub(super) plan: &'a Plan,
-    pub(super) constants: &'a [[T; C]],
-    pub(super) root: [T; 2],
-    pub(super) theta: &'a [T],
-    pub(super) omega: &'a [T],
-    pub(super) alpha: &'a mut [T],
-    pub(super) buffer: &'a mut [T],
-    pub(super) recursion: PhantomData<P>,
+/// The same for one thread alone.
+fn worker<const R: usize, const K: usize>(plan: &Plan, cut: usize, joints: bool) -> usize {
+    let window = plan.window(cut, 0);
+    // A line more, so that two threads never write to one.
+    length::<R, K>(&window, joints) + window.own(window.end) + 16
+}
+
+/// One way through the top of the tree, or through some of the parts below.
+enum Pass<'a, T> {
+    /// Up and down again, the whole tree or what is above the parts, whose
+    /// answers are in memory.
+    Top { alpha: &'a mut [T] },
+    /// Up through the parts that start with these links of their generation. A
+    /// part's answers stand together.
+    Up {
+        cut: usize,
+        links: Range<usize>,
+        answers: &'a mut [T],
+    },
+    /// Down through them, from the accelerations of their pivots. What was
+    /// formed on the way up is formed again: that takes less time than writing
+    /// it to memory and reading it back.
+    Down {
+        cut: usize,
+        links: Range<usize>,
+        pivots: [&'a [T]; 2],
+        alpha: Shared<'a, T>,
+    },
+}
+
+struct Job<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
+    given: &'a Given<'a, T, C>,
+    pass: Pass<'a, T>,
+    buffer: &'a mut [T],
+    recursion: PhantomData<P>,
 }
 
 impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
-    for Evaluation<'_, P, T, C, L, R, K>
+    for Job<'_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
     #[inline(always)]
-    fn run<W: Vectors<T>>(self) {
-        let Self {
+    fn run<W: Vectors<T>>(mut self) {
+        let &Given {
             plan,
             constants,
             root,
             theta,
             omega,
-            alpha,
-            mut buffer,
-            recursion,
-        } = self;
-        let top = plan.top();
-        let own = take(&mut buffer, length::<R, K>(&top, P::JOINTS));
-        let mut tree = Sweep::<P, T, C, L, R, K> {
-            part: top,
-            constants,
-            theta,
-            omega,
-            memory: memory(&top, P::JOINTS, own),
-            recursion,
+        } = self.given;
+        let mut next = match &self.pass {
+            Pass::Top { .. } => 0..1,
+            Pass::Up { links, .. } | Pass::Down { links, .. } => links.clone(),
         };
-        let Some(cut) = plan.cut else {
-            tree.prepare::<W>();
-            tree.up::<W>();
-            for (pivot, value) in tree.memory.pivots.iter_mut().zip(root) {
-                pivot[0] = value;
-            }
-            tree.down::<W>(alpha);
-            return;
-        };
-        let count = plan.counts[cut];
-        let window = plan.window(cut, 0);
-        let own = take(&mut buffer, length::<R, K>(&window, P::JOINTS));
-        let turned = take(&mut buffer, window.own(window.end));
-        let boundary = tree.part.own(cut);
-        let mut start = 0;
-        while start < count {
-            let part = plan.window(cut, start);
-            let mut subtree = Sweep::<P, T, C, L, R, K> {
+        // The passes share one loop: each one's code is long.
+        while !next.is_empty() {
+            let part = match self.pass {
+                Pass::Top { .. } => plan.top(),
+                Pass::Up { cut, .. } | Pass::Down { cut, .. } => plan.window(cut, next.start),
+            };
+            let mut buffer = &mut *self.buffer;
+            let own = take(&mut buffer, length::<R, K>(&part, P::JOINTS));
+            let mut sweep = Sweep::<P, T, C, L, R, K> {
                 part,
                 constants,
                 theta,
                 omega,
                 memory: memory(&part, P::JOINTS, own),
-                recursion,
+                recursion: PhantomData,
             };
-            subtree.prepare::<W>();
-            subtree.up::<W>();
-            for (all, answers) in tree.memory.answers.iter_mut().zip(&subtree.memory.answers) {
-                all[boundary + start..][..part.width].copy_from_slice(&answers[..part.width]);
+            sweep.prepare::<W>();
+            sweep.up::<W>();
+            let width = part.width;
+            match &mut self.pass {
+                Pass::Top { .. } => fill_front(&mut sweep.memory.pivots, root),
+                Pass::Up { answers, .. } => {
+                    for own in &sweep.memory.answers {
+                        copy(take(answers, width), own);
+                    }
+                    next.start += width;
+                    continue;
+                }
+                Pass::Down { pivots, .. } => {
+                    for (own, all) in sweep.memory.pivots.iter_mut().zip(pivots) {
+                        copy(own, all.get(next.start..next.start + width).unwrap_or_default());
+                    }
+                }
             }
-            start += part.width;
-        }
-        tree.prepare::<W>();
-        tree.up::<W>();
-        for (pivot, value) in tree.memory.pivots.iter_mut().zip(root) {
-            pivot[0] = value;
-        }
-        tree.down::<W>(alpha);
-        let mut start = 0;
-        while start < count {
-            let part = plan.window(cut, start);
-            let mut subtree = Sweep::<P, T, C, L, R, K> {
-                part,
-                constants,
-                theta,
-                omega,
-                memory: memory(&part, P::JOINTS, own),
-                recursion,
+            let scattered = match &self.pass {
+                Pass::Down { alpha, .. } => Some(*alpha),
+                _ => None,
             };
-            subtree.prepare::<W>();
-            subtree.up::<W>();
-            for (pivots, all) in subtree.memory.pivots.iter_mut().zip(&tree.memory.pivots) {
-                pivots[..part.width].copy_from_slice(&all[boundary + start..][..part.width]);
+            let turned = match &mut self.pass {
+                Pass::Top { alpha } => &mut **alpha,
+                _ => buffer,
+            };
+            sweep.down::<W>(turned);
+            if let Some(mut alpha) = scattered {
+                for Run { own, whole, length, .. } in part.all() {
+                    alpha.write(whole, turned.get(own..own + length).unwrap_or_default());
+                }
             }
-            subtree.down::<W>(turned);
-            for Run { own, whole, length, .. } in part.all() {
-                alpha[whole..][..length].copy_from_slice(&turned[own..][..length]);
-            }
-            start += part.width;
+            next.start += width;
         }
     }
+}
+
+fn fill_front<T: Copy>(arrays: &mut [&mut [T]; 2], values: [T; 2]) {
+    for (array, value) in arrays.iter_mut().zip(values) {
+        if let Some(first) = array.first_mut() {
+            *first = value;
+        }
+    }
+}
+
+/// As many numbers as both have.
+fn copy<T: Copy>(to: &mut [T], from: &[T]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Writes the accelerations to `alpha`. The tree has two generations at least,
+/// all slices one number a link, `buffer` has room for [`workspace`].
+pub(super) fn accelerations<P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    given: &Given<'_, T, C>,
+    alpha: &mut [T],
+    buffer: &mut [T],
+    threads: usize,
+) where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    let plan = given.plan;
+    let run = |pass: Pass<'_, T>, buffer: &mut [T]| {
+        T::over_slices(Job::<P, T, C, L, R, K> {
+            given,
+            pass,
+            buffer,
+            recursion: PhantomData,
+        });
+    };
+    let top = plan.top();
+    let mut buffer = buffer;
+    let above = take(&mut buffer, length::<R, K>(&top, P::JOINTS));
+    let Some(cut) = plan.cut else {
+        run(Pass::Top { alpha }, above);
+        return;
+    };
+    let count = plan.count(cut);
+    let answers = take(&mut buffer, count * R);
+    let size = worker::<R, K>(plan, cut, P::JOINTS);
+    let parts = count.div_ceil(WIDTH);
+    let each = parts.div_ceil(threads.max(1)) * WIDTH;
+    {
+        let (mut answers, mut buffer) = (&mut *answers, &mut *buffer);
+        let jobs = (0..count).step_by(each).map(|start| {
+            let links = start..(start + each).min(count);
+            let answers = take(&mut answers, links.len() * R);
+            let pass = Pass::Up { cut, links, answers };
+            (pass, take(&mut buffer, size))
+        });
+        super::threads::all(jobs, |(pass, buffer)| run(pass, buffer));
+    }
+    let boundary = top.own(cut);
+    let mut memory = memory::<T, R, K>(&top, P::JOINTS, above);
+    let mut rest = &*answers;
+    for start in (0..count).step_by(WIDTH) {
+        let width = WIDTH.min(count - start);
+        for all in &mut memory.answers {
+            let (own, others) = rest.split_at(width.min(rest.len()));
+            rest = others;
+            copy(all.get_mut(boundary + start..).unwrap_or_default(), own);
+        }
+    }
+    run(Pass::Top { alpha: &mut *alpha }, above);
+    let memory = self::memory::<T, R, K>(&top, P::JOINTS, above);
+    let pivots = memory.pivots.map(|pivots| &*pivots);
+    let pivots = pivots.map(|pivots| pivots.get(boundary..boundary + count).unwrap_or_default());
+    let alpha = Shared::new(alpha);
+    let mut buffer = &mut *buffer;
+    let jobs = (0..count).step_by(each).map(|start| {
+        let links = start..(start + each).min(count);
+        let pass = Pass::Down { cut, links, pivots, alpha };
+        (pass, take(&mut buffer, size))
+    });
+    super::threads::all(jobs, |(pass, buffer)| run(pass, buffer));
 }

@@ -220,7 +220,11 @@ fn motion<T, V: Vector<T>, const R: usize, const K: usize>(
 
 #[inline(always)]
 fn load_all<T, V: Vector<T>, const N: usize>(arrays: &[&mut [T]; N], at: usize) -> [V; N] {
-    core::array::from_fn(|i| V::load(arrays[i], at))
+    let mut values = [V::from_f64(0.0); N];
+    for i in 0..N {
+        values[i] = V::load(arrays[i], at);
+    }
+    values
 }
 
 #[inline(always)]
@@ -229,14 +233,27 @@ fn store_all<T, V: Vector<T>, const N: usize>(
     arrays: &mut [&mut [T]; N],
     at: usize,
 ) {
-    for (value, array) in values.into_iter().zip(arrays) {
-        value.store(array, at);
+    for i in 0..N {
+        values[i].store(arrays[i], at);
     }
 }
 
 #[inline(always)]
-fn sum<V: Scalar, const N: usize>(a: [V; N], b: [V; N]) -> [V; N] {
-    core::array::from_fn(|i| a[i] + b[i])
+fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
+    for i in 0..N {
+        a[i] = a[i] + b[i];
+    }
+    a
+}
+
+// Loops: `map` and `from_fn` are not always inlined, and must be.
+#[inline(always)]
+fn splat<T: Copy, V: Vector<T>, const N: usize>(numbers: &[T; N]) -> [V; N] {
+    let mut values = [V::from_f64(0.0); N];
+    for i in 0..N {
+        values[i] = V::splat(numbers[i]);
+    }
+    values
 }
 
 /// Links above leaves, and these, on the way up.
@@ -251,6 +268,20 @@ struct Stems<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const
     recursion: PhantomData<P>,
 }
 
+impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize>
+    Stems<'_, '_, P, T, C, L, R, K>
+where
+    P: Recursion<C, L, R, K>,
+{
+    #[inline(always)]
+    fn leaf<V: Vector<T>>(&self, copy: usize, index: usize) -> [V; L] {
+        let own = self.run.child_own + copy * self.run.next_own + index;
+        let whole = self.run.child_whole + copy * self.run.next_whole + index;
+        let link = motion(self.memory, self.theta, self.omega, own, whole);
+        P::leaf(&splat::<T, V, C>(&self.leaf_constants), link)
+    }
+}
+
 impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize> Step<T>
     for Stems<'_, '_, P, T, C, L, R, K>
 where
@@ -259,20 +290,13 @@ where
     #[inline(always)]
     fn at<V: Vector<T>>(&mut self, index: usize) {
         let run = self.run;
-        let constants = self.leaf_constants.map(V::splat);
-        let answer = |copy: usize| {
-            let own = run.child_own + copy * run.next_own + index;
-            let whole = run.child_whole + copy * run.next_whole + index;
-            let link = motion(self.memory, self.theta, self.omega, own, whole);
-            P::leaf(&constants, link)
-        };
-        let mut below = answer(0);
+        let mut below = self.leaf(0, index);
         for copy in 1..self.copies {
-            below = sum(below, answer(copy));
+            below = sum(below, self.leaf(copy, index));
         }
         let (own, whole) = (run.own + index, run.whole + index);
         let link = motion(self.memory, self.theta, self.omega, own, whole);
-        let (answers, kept) = P::stem(&self.constants.map(V::splat), link, below);
+        let (answers, kept) = P::stem(&splat::<T, V, C>(&self.constants), link, below);
         store_all(answers, &mut self.memory.answers, own);
         store_all(kept, &mut self.memory.kept, own);
     }
@@ -297,19 +321,15 @@ where
     #[inline(always)]
     fn at<V: Vector<T>>(&mut self, index: usize) {
         let run = self.run;
-        let answer = |copy: usize| -> [V; R] {
-            load_all(
-                &self.memory.answers,
-                run.child_own + copy * run.next_own + index,
-            )
-        };
-        let mut below = answer(0);
-        for copy in 1..self.copies {
-            below = sum(below, answer(copy));
+        let mut child = run.child_own + index;
+        let mut below = load_all(&self.memory.answers, child);
+        for _ in 1..self.copies {
+            child += run.next_own;
+            below = sum(below, load_all(&self.memory.answers, child));
         }
         let (own, whole) = (run.own + index, run.whole + index);
         let link = motion(self.memory, self.theta, self.omega, own, whole);
-        let (answers, kept) = P::inner(&self.constants.map(V::splat), link, below);
+        let (answers, kept) = P::inner(&splat::<T, V, C>(&self.constants), link, below);
         store_all(answers, &mut self.memory.answers, own);
         store_all(kept, &mut self.memory.kept, own);
     }
@@ -340,9 +360,9 @@ where
         let link = motion(self.memory, self.theta, self.omega, own, whole);
         let kept: [V; K] = load_all(&self.memory.kept, own);
         let pivot = load_all(&self.memory.pivots, own);
-        let (acceleration, below) = P::turn(&self.constants.map(V::splat), link, kept, pivot);
+        let (acceleration, below) = P::turn(&splat::<T, V, C>(&self.constants), link, kept, pivot);
         acceleration.store(self.alpha, own);
-        let constants = self.leaf_constants.map(V::splat);
+        let constants = splat::<T, V, C>(&self.leaf_constants);
         for copy in 0..self.copies {
             let own = run.child_own + copy * run.next_own + index;
             let whole = run.child_whole + copy * run.next_whole + index;
@@ -376,7 +396,7 @@ where
         let link = motion(self.memory, self.theta, self.omega, own, whole);
         let kept: [V; K] = load_all(&self.memory.kept, own);
         let pivot = load_all(&self.memory.pivots, own);
-        let (acceleration, below) = P::turn(&self.constants.map(V::splat), link, kept, pivot);
+        let (acceleration, below) = P::turn(&splat::<T, V, C>(&self.constants), link, kept, pivot);
         acceleration.store(self.alpha, own);
         for copy in 0..self.copies {
             let own = run.child_own + copy * run.next_own + index;

@@ -71,10 +71,10 @@ impl<T: Lane, const N: usize> Vector<T> for Lanes<T, N> {
 pub trait Vectors<T>: 'static {
     /// The widest.
     type Wide: Vector<T>;
-    /// Half as many numbers.
-    type Half: Vector<T>;
-    /// A quarter.
-    type Quarter: Vector<T>;
+    /// Narrower ones.
+    type Narrow: Vector<T>;
+    /// One number.
+    type One: Vector<T>;
 }
 
 /// Numbers one by one.
@@ -83,28 +83,8 @@ pub struct Single;
 
 impl<T: Scalar> Vectors<T> for Single {
     type Wide = T;
-    type Half = T;
-    type Quarter = T;
-}
-
-/// Eight numbers at a time: `f64` in AVX-512.
-#[derive(Clone, Copy, Debug)]
-pub struct Eight;
-
-impl<T: Lane> Vectors<T> for Eight {
-    type Wide = Lanes<T, 8>;
-    type Half = Lanes<T, 4>;
-    type Quarter = Lanes<T, 2>;
-}
-
-/// Sixteen numbers at a time: `f32` in AVX-512.
-#[derive(Clone, Copy, Debug)]
-pub struct Sixteen;
-
-impl<T: Lane> Vectors<T> for Sixteen {
-    type Wide = Lanes<T, 16>;
-    type Half = Lanes<T, 8>;
-    type Quarter = Lanes<T, 4>;
+    type Narrow = T;
+    type One = T;
 }
 
 /// A computation over slices that is compiled for several vectors.
@@ -125,12 +105,10 @@ pub(super) trait Step<T> {
 pub(super) fn each<T: Scalar, W: Vectors<T>>(count: usize, step: &mut impl Step<T>) {
     if count >= W::Wide::LANES {
         cover::<T, W::Wide>(count, step);
-    } else if count >= W::Half::LANES {
-        cover::<T, W::Half>(count, step);
-    } else if count >= W::Quarter::LANES {
-        cover::<T, W::Quarter>(count, step);
+    } else if count >= W::Narrow::LANES {
+        cover::<T, W::Narrow>(count, step);
     } else {
-        cover::<T, T>(count, step);
+        cover::<T, W::One>(count, step);
     }
 }
 

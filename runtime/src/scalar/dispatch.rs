@@ -2,10 +2,17 @@
 //!
 //! A build for x86-64 may use SSE2 only, unless it names a newer processor.
 //! [`run`] compiles a computation three times, with wider instructions allowed,
-//! and takes the copy that the machine can run. The results have equal bits:
-//! each instruction set computes the same IEEE 754 operations, none is fused.
+//! and takes the copy that the machine can run. The results have equal bits: each
+//! instruction set computes the same IEEE 754 operations.
+//!
+//! [`run_in_registers`] hands a computation the registers to compute with. The
+//! wide ones fuse products with sums, and so does [`run_fused`] for one number at
+//! a time: these two have equal bits for AVX2 and AVX-512, and others without.
 
 use core::fmt;
+
+use super::lanes::Sealed;
+use super::register::Register;
 
 /// Vector instructions that a build can choose among at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -13,9 +20,9 @@ use core::fmt;
 pub enum InstructionSet {
     /// Those that the build was made for: SSE2 for x86-64 by default.
     Build,
-    /// AVX2, registers of 256 bits.
+    /// AVX2 and FMA, registers of 256 bits.
     Avx2,
-    /// AVX-512 (F, VL, DQ and BW), registers of 512 bits.
+    /// AVX-512 (F, VL, DQ and BW) besides, registers of 512 bits.
     Avx512,
 }
 
@@ -54,7 +61,7 @@ pub(crate) trait Kernel {
 
 /// Runs `kernel` with the instructions of `set`, or with the widest that the
 /// machine has, if these are narrower.
-#[inline(always)]
+#[cfg(test)]
 pub(crate) fn run<K: Kernel>(set: InstructionSet, kernel: K) -> K::Output {
     machine::run(set.min(InstructionSet::widest()), kernel)
 }
@@ -65,12 +72,79 @@ pub(crate) fn run_widest<K: Kernel>(kernel: K) -> K::Output {
     machine::run(InstructionSet::widest(), kernel)
 }
 
+/// Runs `kernel` with AVX2 and FMA, for [`Fused`](super::register::Fused)
+/// numbers.
+///
+/// # Errors
+/// Gives the kernel back if the machine has not got them.
+#[inline(always)]
+pub(crate) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
+    machine::run_fused(kernel)
+}
+
+/// `part` in a function of its own with AVX2 and FMA, if the machine has them.
+#[inline(always)]
+pub(crate) fn outlined_avx2<R>(part: impl FnOnce() -> R) -> R {
+    machine::outlined_avx2(part)
+}
+
+/// The same with AVX-512.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(crate) fn outlined_avx512<R>(part: impl FnOnce() -> R) -> R {
+    machine::outlined_avx512(part)
+}
+
+/// A closure as a kernel.
+struct Part<F>(F);
+
+impl<R, F: FnOnce() -> R> Kernel for Part<F> {
+    type Output = R;
+
+    #[inline(always)]
+    fn run(self) -> R {
+        (self.0)()
+    }
+}
+
+/// A computation in registers.
+pub(crate) trait RegisterKernel<T> {
+    /// What it returns.
+    type Output;
+
+    /// Computes with one kind of registers.
+    fn run<R: Register<Lane = T>>(self) -> Self::Output;
+}
+
+/// Runs `kernel` with the registers of `set`, or with the widest that the
+/// machine has, if these are narrower.
+#[inline(always)]
+pub(crate) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
+    set: InstructionSet,
+    kernel: K,
+) -> K::Output {
+    machine::run_in_registers(set.min(InstructionSet::widest()), kernel)
+}
+
+/// A kernel whose registers are chosen.
+struct Chosen<K, R>(K, core::marker::PhantomData<R>);
+
+impl<K: RegisterKernel<R::Lane>, R: Register> Kernel for Chosen<K, R> {
+    type Output = K::Output;
+
+    #[inline(always)]
+    fn run(self) -> K::Output {
+        self.0.run::<R>()
+    }
+}
+
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[allow(unsafe_code)]
 mod machine {
+    use core::marker::PhantomData;
     use core::sync::atomic::{AtomicU8, Ordering};
 
-    use super::{InstructionSet, Kernel};
+    use super::{Chosen, InstructionSet, Kernel, Part, RegisterKernel, Sealed};
 
     /// 0 before the first question, then 1 + the answer.
     static WIDEST: AtomicU8 = AtomicU8::new(0);
@@ -91,7 +165,7 @@ mod machine {
     fn detect() -> InstructionSet {
         let (code, set) = if has_avx512() {
             (3, InstructionSet::Avx512)
-        } else if std::is_x86_feature_detected!("avx2") {
+        } else if has_avx2() {
             (2, InstructionSet::Avx2)
         } else {
             (1, InstructionSet::Build)
@@ -100,8 +174,12 @@ mod machine {
         set
     }
 
+    fn has_avx2() -> bool {
+        std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
+    }
+
     fn has_avx512() -> bool {
-        std::is_x86_feature_detected!("avx2")
+        has_avx2()
             && std::is_x86_feature_detected!("avx512f")
             && std::is_x86_feature_detected!("avx512vl")
             && std::is_x86_feature_detected!("avx512dq")
@@ -123,17 +201,62 @@ mod machine {
         }
     }
 
+    #[inline(always)]
+    pub(super) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
+        match widest() {
+            InstructionSet::Build => Err(kernel),
+            // SAFETY: `widest` has asked for AVX2 and FMA.
+            InstructionSet::Avx2 | InstructionSet::Avx512 => Ok(unsafe { avx2(kernel) }),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn outlined_avx2<R>(part: impl FnOnce() -> R) -> R {
+        match widest() {
+            // Never: a type that asks for this was made where the machine has it.
+            InstructionSet::Build => build(Part(part)),
+            // SAFETY: `widest` has asked for AVX2 and FMA.
+            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { avx2(Part(part)) },
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn outlined_avx512<R>(part: impl FnOnce() -> R) -> R {
+        match widest() {
+            // SAFETY: `widest` has asked for AVX-512.
+            InstructionSet::Avx512 => unsafe { avx512(Part(part)) },
+            _ => build(Part(part)),
+        }
+    }
+
+    /// As for `run`.
+    #[inline(always)]
+    pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
+        set: InstructionSet,
+        kernel: K,
+    ) -> K::Output {
+        match set {
+            InstructionSet::Build => build(Chosen::<K, T::Build>(kernel, PhantomData)),
+            // SAFETY: as in `run`.
+            InstructionSet::Avx2 => unsafe { avx2(Chosen::<K, T::Avx2>(kernel, PhantomData)) },
+            // SAFETY: likewise.
+            InstructionSet::Avx512 => unsafe {
+                avx512(Chosen::<K, T::Avx512>(kernel, PhantomData))
+            },
+        }
+    }
+
     #[inline(never)]
     fn build<K: Kernel>(kernel: K) -> K::Output {
         kernel.run()
     }
 
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,fma")]
     fn avx2<K: Kernel>(kernel: K) -> K::Output {
         kernel.run()
     }
 
-    #[target_feature(enable = "avx2,avx512f,avx512vl,avx512dq,avx512bw")]
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
     fn avx512<K: Kernel>(kernel: K) -> K::Output {
         kernel.run()
     }
@@ -141,7 +264,9 @@ mod machine {
 
 #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
 mod machine {
-    use super::{InstructionSet, Kernel};
+    use core::marker::PhantomData;
+
+    use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed};
 
     #[inline(always)]
     pub(super) fn widest() -> InstructionSet {
@@ -151,5 +276,29 @@ mod machine {
     #[inline(always)]
     pub(super) fn run<K: Kernel>(_set: InstructionSet, kernel: K) -> K::Output {
         kernel.run()
+    }
+
+    #[inline(always)]
+    pub(super) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
+        Err(kernel)
+    }
+
+    #[inline(always)]
+    pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
+        _set: InstructionSet,
+        kernel: K,
+    ) -> K::Output {
+        Chosen::<K, T::Build>(kernel, PhantomData).run()
+    }
+
+    #[inline(always)]
+    pub(super) fn outlined_avx2<R>(part: impl FnOnce() -> R) -> R {
+        super::Part(part).run()
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    pub(super) fn outlined_avx512<R>(part: impl FnOnce() -> R) -> R {
+        super::Part(part).run()
     }
 }

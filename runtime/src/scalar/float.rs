@@ -1,17 +1,17 @@
 //! The machine's own numbers.
 
-use core::marker::PhantomData;
-
-use super::dispatch::{Kernel, run_widest};
+#[cfg(not(target_arch = "x86_64"))]
+use super::Lanes;
 use super::lanes::{Lane, Sealed};
+#[cfg(target_arch = "x86_64")]
+use super::register;
 use super::{Real, Scalar, sincos};
-use crate::generations::{Eight, Sixteen, SliceKernel};
-
-/// A computation over slices of `T`, to be compiled for wide registers.
-struct InVectors<K, T>(K, PhantomData<T>);
+use crate::generations::{SliceKernel, vectors};
+use crate::system::rescale::{self, Rescale};
 
 macro_rules! implement_scalar {
-    ($float:ident, $vectors:ty, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident) => {
+    ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
+     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident) => {
         impl Scalar for $float {
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
@@ -40,16 +40,18 @@ macro_rules! implement_scalar {
 
             #[inline]
             fn over_slices<K: SliceKernel<Self>>(kernel: K) {
-                run_widest(InVectors(kernel, PhantomData::<$float>));
+                vectors::run(kernel);
             }
-        }
-
-        impl<K: SliceKernel<$float>> Kernel for InVectors<K, $float> {
-            type Output = ();
 
             #[inline(always)]
-            fn run(self) {
-                self.0.run::<$vectors>();
+            fn accelerate<P: Rescale<Self>>(
+                pendulum: &P,
+                time: Self,
+                theta: &[Self],
+                omega: &[Self],
+                alpha: &mut [Self],
+            ) {
+                rescale::fused(pendulum, time, theta, omega, alpha);
             }
         }
 
@@ -60,7 +62,16 @@ macro_rules! implement_scalar {
             }
         }
 
-        impl Sealed for $float {}
+        impl Sealed for $float {
+            #[cfg(target_arch = "x86_64")]
+            type Build = register::$build;
+            #[cfg(target_arch = "x86_64")]
+            type Avx2 = register::$avx2;
+            #[cfg(target_arch = "x86_64")]
+            type Avx512 = register::$avx512;
+            #[cfg(not(target_arch = "x86_64"))]
+            type Build = Lanes<$float, $lanes>;
+        }
 
         impl Real for $float {
             const ZERO: Self = 0.0;
@@ -96,13 +107,26 @@ macro_rules! implement_scalar {
 
 implement_scalar!(
     f64,
-    Eight,
     sincos::sin_cos_f64,
     sincos::several_f64,
     sqrt,
-    pow
+    pow,
+    4,
+    F64x2,
+    F64x4,
+    F64x8
 );
-implement_scalar!(f32, Sixteen, sincos::sin_cos_f32, sincos::several_f32, sqrtf, powf);
+implement_scalar!(
+    f32,
+    sincos::sin_cos_f32,
+    sincos::several_f32,
+    sqrtf,
+    powf,
+    8,
+    F32x4,
+    F32x8,
+    F32x16
+);
 
 #[cfg(test)]
 mod tests {

@@ -3,6 +3,7 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Scalar;
+use super::register::Register;
 
 /// A number that has lanes: `f64` or `f32`.
 pub trait Lane: Scalar + Sealed {
@@ -12,8 +13,18 @@ pub trait Lane: Scalar + Sealed {
     fn sin_cos_lanes<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]);
 }
 
-/// Keeps other crates from implementing [`Lane`].
-pub trait Sealed {}
+/// Keeps other crates from implementing [`Lane`]; the registers of each
+/// instruction set.
+pub trait Sealed: Sized {
+    /// Those of the build.
+    type Build: Register<Lane = Self>;
+    /// Those of AVX2.
+    #[cfg(target_arch = "x86_64")]
+    type Avx2: Register<Lane = Self>;
+    /// Those of AVX-512.
+    #[cfg(target_arch = "x86_64")]
+    type Avx512: Register<Lane = Self>;
+}
 
 /// `N` numbers that go through the same operations, each in its lane: one
 /// evaluation of emitted code is then one of `N` states.

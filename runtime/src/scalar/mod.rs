@@ -23,6 +23,7 @@ mod float;
 mod lanes;
 #[cfg(test)]
 mod reference;
+pub(crate) mod register;
 mod sincos;
 mod wide;
 
@@ -31,9 +32,11 @@ pub use dual::Dual;
 pub use lanes::{Lane, Lanes};
 pub use wide::Double;
 
-use crate::generations::{Single, SliceKernel};
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+use crate::generations::{Single, SliceKernel};
+use crate::system::rescale::{self, Rescale};
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
@@ -66,6 +69,8 @@ pub trait Scalar:
     + Mul<Output = Self>
     + Div<Output = Self>
     + Neg<Output = Self>
+    + Send
+    + Sync
     + 'static
 {
     /// The value of this type nearest to `value`; for lanes, the same value in
@@ -97,6 +102,42 @@ pub trait Scalar:
     #[inline]
     fn over_slices<K: SliceKernel<Self>>(kernel: K) {
         kernel.run::<Single>();
+    }
+
+    /// `self * factor + addend`, fused where the type says so: rounded once then,
+    /// and twice by default.
+    ///
+    /// `f64`, `f32` and [`Lanes`] do not fuse, so that they have the same bits on
+    /// every machine. What [`Pendulum`](crate::Pendulum) and
+    /// [`Batch`](crate::batch::Batch) compute with, where the machine has wider
+    /// registers, does.
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        self * factor + addend
+    }
+
+    /// Calls `part` in a function of its own, which is compiled for the
+    /// instructions that the type stands for: a part of emitted code that is too
+    /// long to be inlined.
+    #[doc(hidden)]
+    #[inline(never)]
+    fn outlined<R>(part: impl FnOnce() -> R) -> R {
+        part()
+    }
+
+    /// What [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into)
+    /// of emitted models does: their arithmetic in these numbers, or in those of
+    /// the machine that are sooner done.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn accelerate<P: Rescale<Self>>(
+        pendulum: &P,
+        time: Self,
+        theta: &[Self],
+        omega: &[Self],
+        alpha: &mut [Self],
+    ) {
+        rescale::straight(pendulum, time, theta, omega, alpha);
     }
 }
 

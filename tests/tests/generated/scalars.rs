@@ -3,9 +3,12 @@
 
 use branched_pendulum::batch::{Batch, BatchError};
 use branched_pendulum::scalar::{Double, Dual, InstructionSet, Lane, Lanes};
-use branched_pendulum::{Pendulum, Scalar};
+use branched_pendulum::{Pendulum, Rescale, Scalar};
 use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::scenes::{chain::Chain, paper::Paper, triplet::Triplet};
+use branched_pendulum_tests::scenes::{
+    chain::Chain, generations::Generations, paper::Paper, triplet::Triplet,
+};
+use std::array::from_fn;
 
 /// Angles and velocities of `count` states, link by link.
 fn states(links: usize, count: usize) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
@@ -22,21 +25,18 @@ fn states(links: usize, count: usize) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     (columns(40.0), columns(9.0))
 }
 
-/// Batches of every count up to three blocks and a half, for every instruction
-/// set, against one state after the other.
-fn batch_agrees<T, P, B, const N: usize>(
-    plain: &P,
-    lanes: &B,
+/// Batches of every count up to two blocks and a half, for every instruction
+/// set, against one state after the other: through `accelerations_into` where
+/// the registers fuse, by the plain function where they do not.
+fn batch_agrees<T: Lane, P: Rescale<T>, const N: usize>(
+    model: &P,
+    plain: impl Fn(&[T; N], &[T; N]) -> [T; N],
     convert: fn(f64) -> T,
     bits: fn(T) -> u64,
-) where
-    T: Lane,
-    P: Pendulum<T>,
-    B: Pendulum<Lanes<T, N>>,
-{
+) {
     let number = |column: Vec<f64>| -> Vec<T> { column.into_iter().map(convert).collect() };
-    for count in 0..3 * N + N / 2 {
-        let (theta, omega) = states(P::LINKS, count);
+    for count in 0..40 {
+        let (theta, omega) = states(N, count);
         let mut theta: Vec<Vec<T>> = theta.into_iter().map(number).collect();
         let omega: Vec<Vec<T>> = omega.into_iter().map(number).collect();
         if let Some(angle) = theta[0].get_mut(2) {
@@ -44,73 +44,83 @@ fn batch_agrees<T, P, B, const N: usize>(
             *angle = convert(1e9);
         }
         for set in InstructionSet::ALL {
-            let mut alpha = vec![vec![convert(0.0); count]; P::LINKS];
-            let mut batch = Batch::new(lanes).no_wider_than(set);
+            let mut alpha = vec![vec![convert(0.0); count]; N];
+            let mut batch = Batch::new(model).no_wider_than(set);
             batch
                 .accelerations(convert(0.0), &theta, &omega, &mut alpha)
                 .unwrap();
             for i in 0..count {
-                let at = |columns: &[Vec<T>]| -> Vec<T> { columns.iter().map(|c| c[i]).collect() };
-                let mut expected = vec![convert(0.0); P::LINKS];
-                plain.accelerations_into(convert(0.0), &at(&theta), &at(&omega), &mut expected);
-                let expected: Vec<u64> = expected.into_iter().map(bits).collect();
-                let found: Vec<u64> = at(&alpha).into_iter().map(bits).collect();
-                assert_eq!(found, expected, "state {i} of {count}, {set}");
+                let at = |columns: &[Vec<T>]| -> [T; N] { from_fn(|link| columns[link][i]) };
+                let expected = if batch.instructions() == InstructionSet::Build {
+                    plain(&at(&theta), &at(&omega))
+                } else {
+                    let mut alpha = [convert(0.0); N];
+                    model.accelerations_into(convert(0.0), &at(&theta), &at(&omega), &mut alpha);
+                    alpha
+                };
+                assert_eq!(
+                    at(&alpha).map(bits),
+                    expected.map(bits),
+                    "state {i} of {count}, {set}"
+                );
             }
         }
     }
 }
 
+macro_rules! batches_agree {
+    ($model:ident, $n:literal) => {
+        let model = $model::<f64>::new();
+        batch_agrees::<f64, _, $n>(
+            &model,
+            |t, w| model.accelerations(t, w),
+            |x| x,
+            f64::to_bits,
+        );
+        let model = $model::<f32>::default();
+        batch_agrees::<f32, _, $n>(
+            &model,
+            |t, w| model.accelerations(t, w),
+            |x| x as f32,
+            |x| u64::from(x.to_bits()),
+        );
+    };
+}
+
 #[test]
 fn batches_have_the_bits_of_single_states() {
-    let single = |x: f64| x as f32;
-    let single_bits = |x: f32| u64::from(x.to_bits());
-    let double = |x: f64| x;
-    batch_agrees::<f64, _, _, 4>(
-        &Paper::<f64>::new(),
-        &Paper::default(),
-        double,
-        f64::to_bits,
-    );
-    batch_agrees::<f64, _, _, 8>(
-        &Paper::<f64>::new(),
-        &Paper::default(),
-        double,
-        f64::to_bits,
-    );
-    batch_agrees::<f64, _, _, 8>(
-        &Chain::<f64>::new(),
-        &Chain::default(),
-        double,
-        f64::to_bits,
-    );
-    batch_agrees::<f64, _, _, 8>(
-        &Triplet::<f64>::new(),
-        &Triplet::default(),
-        double,
-        f64::to_bits,
-    );
-    batch_agrees::<f32, _, _, 8>(
-        &Paper::<f32>::default(),
-        &Paper::default(),
-        single,
-        single_bits,
-    );
-    batch_agrees::<f32, _, _, 16>(
-        &Paper::<f32>::default(),
-        &Paper::default(),
-        single,
-        single_bits,
-    );
+    batches_agree!(Paper, 3);
+    batches_agree!(Chain, 2);
+    batches_agree!(Triplet, 4);
+    batches_agree!(Generations, 15);
+}
+
+/// Lanes do not fuse: each has the bits of a plain number.
+#[test]
+fn lanes_have_the_bits_of_plain_numbers() {
+    let (plain, lanes) = (Paper::new(), Paper::<Lanes<f64, 8>>::default());
+    let (theta, omega) = states(3, 8);
+    let all = |columns: &[Vec<f64>]| -> [Lanes<f64, 8>; 3] {
+        from_fn(|link| Lanes(from_fn(|i| columns[link][i])))
+    };
+    let alpha = lanes.accelerations(&all(&theta), &all(&omega));
+    for i in 0..8 {
+        let at = |columns: &[Vec<f64>]| -> [f64; 3] { from_fn(|link| columns[link][i]) };
+        let expected = plain.accelerations(&at(&theta), &at(&omega));
+        assert_eq!(
+            alpha.map(|lanes| lanes.0[i].to_bits()),
+            expected.map(f64::to_bits)
+        );
+    }
 }
 
 #[test]
 fn a_state_without_answer_spoils_no_other() {
-    let lanes = Paper::<Lanes<f64, 8>>::default();
+    let model = Paper::new();
     let (mut theta, omega) = states(3, 11);
     theta[1][4] = f64::NAN;
     let mut alpha = vec![vec![0.0; 11]; 3];
-    Batch::new(&lanes)
+    Batch::new(&model)
         .accelerations(0.0, &theta, &omega, &mut alpha)
         .unwrap();
     for column in &alpha {
@@ -122,8 +132,8 @@ fn a_state_without_answer_spoils_no_other() {
 
 #[test]
 fn a_batch_that_does_not_fit_is_refused() {
-    let lanes = Paper::<Lanes<f64, 8>>::default();
-    let mut batch = Batch::new(&lanes);
+    let model = Paper::new();
+    let mut batch = Batch::new(&model);
     let three = [[0.0; 5]; 3];
     let mut alpha = [[1.0; 5]; 3];
     let links = batch

@@ -9,7 +9,7 @@ use super::reduction;
 /// The common range. Up to 2¹⁶ quarter turns the products with the parts of π/2
 /// below are exact, and no angle comes closer to a multiple of π/2 than 2⁻⁶¹
 /// (29 quarter turns, found by trying all), where 2⁻¹²⁵ is left out.
-pub(super) const LIMIT: f64 = 102_943.0;
+pub(in crate::scalar) const LIMIT: f64 = 102_943.0;
 
 /// π/2 = PART_1 + PART_2 + PART_3 up to 2⁻¹³⁰; 37, 37 and 53 bits.
 const PART_1: f64 = f64::from_bits(0x3ff9_21fb_5444_0000);
@@ -22,7 +22,7 @@ const ROUND: f64 = 6_755_399_441_055_744.0;
 const SIGN: u64 = 1 << 63;
 
 /// sin x = x + x³ (S1 + S2 x² + … + S6 x¹⁰) up to 2⁻⁵⁸ x for |x| ≤ π/4.
-const SINE: [f64; 6] = [
+pub(super) const SINE: [f64; 6] = [
     -1.666_666_666_666_663_2e-1,
     8.333_333_333_322_49e-3,
     -1.984_126_982_985_795e-4,
@@ -32,7 +32,7 @@ const SINE: [f64; 6] = [
 ];
 
 /// cos x = 1 − x²/2 + x⁴ (C1 + C2 x² + … + C6 x¹⁰) up to 2⁻⁵⁸ for |x| ≤ π/4.
-const COSINE: [f64; 6] = [
+pub(super) const COSINE: [f64; 6] = [
     4.166_666_666_666_66e-2,
     -1.388_888_888_887_411e-3,
     2.480_158_728_947_673e-5,
@@ -43,7 +43,7 @@ const COSINE: [f64; 6] = [
 
 /// What one written order of operations computes with: a number, or several in
 /// one register.
-pub(super) trait Pack:
+pub(in crate::scalar) trait Pack:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     /// The same number everywhere.
@@ -78,7 +78,7 @@ impl Pack for f64 {
 /// two bits of `quarter` which multiple. `low` is below 2⁻⁵³, and below 2⁻⁹ of
 /// `high`.
 #[derive(Clone, Copy)]
-pub(super) struct Reduced<P> {
+pub(in crate::scalar) struct Reduced<P> {
     quarter: P,
     high: P,
     low: P,
@@ -94,14 +94,7 @@ pub(in crate::scalar) fn sin_cos_f64<const N: usize>(angles: [f64; N]) -> ([f64;
     let mut sines = [0.0; N];
     let mut cosines = [0.0; N];
     if !common {
-        // Copies for this block alone: were angles and results themselves lent out,
-        // they would live in memory on the common path too.
-        let (mut far_sines, mut far_cosines) = ([0.0; N], [0.0; N]);
-        beyond(black_box(angles), &mut far_sines, &mut far_cosines);
-        for i in 0..N {
-            (sines[i], cosines[i]) = (far_sines[i], far_cosines[i]);
-        }
-        return (sines, cosines);
+        return far(angles);
     }
     for i in 0..N {
         (sines[i], cosines[i]) = turn(reduce(angles[i]));
@@ -110,13 +103,18 @@ pub(in crate::scalar) fn sin_cos_f64<const N: usize>(angles: [f64; N]) -> ([f64;
 }
 
 /// The same, with angles outside the common range among them.
+#[inline(always)]
+pub(in crate::scalar) fn far<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
+    // Copies for this block alone: were angles and results themselves lent out,
+    // they would live in memory on the common path too.
+    let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
+    beyond(black_box(angles), &mut sines, &mut cosines);
+    (sines, cosines)
+}
+
 #[cold]
 #[inline(never)]
-pub(super) fn beyond<const N: usize>(
-    angles: [f64; N],
-    sines: &mut [f64; N],
-    cosines: &mut [f64; N],
-) {
+fn beyond<const N: usize>(angles: [f64; N], sines: &mut [f64; N], cosines: &mut [f64; N]) {
     for i in 0..N {
         let angle = angles[i];
         if angle.abs() < LIMIT {
@@ -136,7 +134,7 @@ pub(super) fn beyond<const N: usize>(
 
 /// Cody and Waite's reduction, for the common range.
 #[inline(always)]
-pub(super) fn reduce<P: Pack>(angle: P) -> Reduced<P> {
+pub(in crate::scalar) fn reduce<P: Pack>(angle: P) -> Reduced<P> {
     let quarter = angle * P::splat(FRAC_2_PI) + P::splat(ROUND);
     let n = quarter - P::splat(ROUND);
     // Both products and the first difference are exact.
@@ -153,7 +151,7 @@ pub(super) fn reduce<P: Pack>(angle: P) -> Reduced<P> {
 
 /// Sine and cosine of quarter turns plus a small angle.
 #[inline(always)]
-pub(super) fn turn<P: Pack>(angle: Reduced<P>) -> (P, P) {
+pub(in crate::scalar) fn turn<P: Pack>(angle: Reduced<P>) -> (P, P) {
     let Reduced { quarter, high, low } = angle;
     let square = high * high;
     let fourth = square * square;

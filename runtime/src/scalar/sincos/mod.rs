@@ -30,7 +30,8 @@
 //! Permission to use, copy, modify, and distribute this software is freely
 //! granted, provided that this notice is preserved.
 
-mod double;
+pub(super) mod double;
+pub(super) mod fused;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod quad;
 pub(super) mod reduction;

@@ -101,18 +101,18 @@ mod few {
         }))
     }
 
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,fma")]
     fn avx2<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {
         quads(angles)
     }
 
-    #[target_feature(enable = "avx2,avx512f,avx512vl,avx512dq")]
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq")]
     fn avx512<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {
         quads(angles)
     }
 
     /// The last of several blocks overlaps the one before.
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,fma")]
     #[inline]
     fn quads<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {
         let (mut sines, mut cosines) = ([0.0; M], [0.0; M]);

@@ -67,18 +67,24 @@ pub(in crate::scalar) fn sin_cos_f32<const N: usize>(angles: [f32; N]) -> ([f32;
 #[inline(never)]
 fn beyond<const N: usize>(angles: [f32; N], sines: &mut [f32; N], cosines: &mut [f32; N]) {
     for i in 0..N {
-        let angle = angles[i];
-        let (quarter, rest) = if angle.abs() < LIMIT {
-            reduce(angle)
-        } else if angle.is_finite() {
-            let (quarter, [rest, ..]) = reduction::modulo_half_pi(f64::from(angle));
-            (quarter, rest)
+        (sines[i], cosines[i]) = if angles[i].is_finite() {
+            let (quarter, rest) = reduce_any(angles[i]);
+            turn(quarter, rest)
         } else {
-            (sines[i], cosines[i]) = (f32::NAN, f32::NAN);
-            continue;
+            (f32::NAN, f32::NAN)
         };
-        (sines[i], cosines[i]) = turn(quarter, rest);
     }
+}
+
+/// The number of the nearest multiple of π/2 in the lowest bits, and the distance
+/// of a finite angle from it.
+#[inline(always)]
+pub(super) fn reduce_any(angle: f32) -> (u64, f64) {
+    if angle.abs() < LIMIT {
+        return reduce(angle);
+    }
+    let (quarter, [rest, ..]) = reduction::modulo_half_pi(f64::from(angle));
+    (quarter, rest)
 }
 
 /// Cody and Waite's reduction, for the common range.

@@ -2,9 +2,10 @@ use core::array::from_fn;
 use std::vec::Vec;
 
 use super::{sin_cos_f32, sin_cos_f64};
-use crate::scalar::dispatch::{Kernel, run};
+use crate::scalar::dispatch::{Kernel, RegisterKernel, run, run_fused, run_in_registers};
 use crate::scalar::reference::{Reference, Signed, angles, parts};
-use crate::scalar::{InstructionSet, Lanes, Scalar};
+use crate::scalar::register::{Fused, Register};
+use crate::scalar::{InstructionSet, Lane, Lanes, Scalar};
 
 /// Error of `value` in units in the last place of a type of `digits` bits,
 /// counted at the reference.
@@ -49,6 +50,202 @@ fn f32_is_nearly_always_rounded_correctly() {
         }
     }
     std::println!("worst error of f32: {:.6} ulp at {:e}", worst.0, worst.1);
+}
+
+/// Angles of one state and of lanes in fused arithmetic.
+struct InFused<T, const N: usize>([T; N]);
+
+impl<T: Lane, const N: usize> Kernel for InFused<T, N>
+where
+    Fused<T>: Scalar,
+{
+    type Output = ([T; N], [T; N]);
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let (sines, cosines) = Fused::sin_cos_each(&self.0.map(Fused));
+        (sines.map(|x| x.0), cosines.map(|x| x.0))
+    }
+}
+
+/// The first angles that fill a register.
+struct InRegister<'a, T>(&'a [T]);
+
+impl<T: Lane> RegisterKernel<T> for InRegister<'_, T> {
+    type Output = Vec<(T, T)>;
+
+    #[inline(always)]
+    fn run<R: Register<Lane = T>>(self) -> Self::Output {
+        let (sines, cosines) = R::load(self.0).unwrap().sin_cos();
+        let mut all = [
+            std::vec![self.0[0]; R::LANES],
+            std::vec![self.0[0]; R::LANES],
+        ];
+        sines.store(&mut all[0]);
+        cosines.store(&mut all[1]);
+        let [sines, cosines] = all;
+        sines.into_iter().zip(cosines).collect()
+    }
+}
+
+/// Whether the machine fuses; says so where it does not.
+fn fuses() -> bool {
+    let fuses = InstructionSet::widest() > InstructionSet::Build;
+    if !fuses {
+        std::println!("skipped: no fused multiply-add in registers here");
+    }
+    fuses
+}
+
+#[test]
+fn fused_f64_is_right_to_an_ulp_everywhere() {
+    let reference = Reference::new();
+    let mut worst = (0.0, 0.0);
+    for angle in angles(4000) {
+        let Ok(([sine], [cosine])) = run_fused(InFused([angle])) else {
+            fuses();
+            return;
+        };
+        let (exact_sine, exact_cosine) = reference.sin_cos(&[angle]);
+        for (value, exact) in [(sine, exact_sine), (cosine, exact_cosine)] {
+            let error = ulps(value, &exact, 53, -1074);
+            assert!(error < 0.9, "{angle:e}: {error} ulp");
+            if error > worst.0 {
+                worst = (error, angle);
+            }
+        }
+    }
+    std::println!(
+        "worst error of fused f64: {:.4} ulp at {:e}",
+        worst.0,
+        worst.1
+    );
+}
+
+#[test]
+fn fused_f32_is_right_to_an_ulp_everywhere() {
+    let reference = Reference::new();
+    let mut worst = (0.0, 0.0);
+    let angles = angles(4000).into_iter().map(|angle| angle as f32);
+    for angle in angles.filter(|angle| angle.is_finite()).chain([f32::MAX]) {
+        let Ok(([sine], [cosine])) = run_fused(InFused([angle])) else {
+            fuses();
+            return;
+        };
+        let (exact_sine, exact_cosine) = reference.sin_cos(&[f64::from(angle)]);
+        for (value, exact) in [(sine, exact_sine), (cosine, exact_cosine)] {
+            let error = ulps(f64::from(value), &exact, 24, -149);
+            assert!(error < 0.9, "{angle:e}: {error} ulp");
+            if error > worst.0 {
+                worst = (error, f64::from(angle));
+            }
+        }
+    }
+    std::println!(
+        "worst error of fused f32: {:.4} ulp at {:e}",
+        worst.0,
+        worst.1
+    );
+}
+
+/// Zeros, tiny angles, no angles, and both signs.
+#[test]
+fn fused_sines_are_odd() {
+    for angle in signed() {
+        let Ok(([sine], [cosine])) = run_fused(InFused([angle])) else {
+            fuses();
+            return;
+        };
+        let Ok(([minus_sine], [same_cosine])) = run_fused(InFused([-angle])) else {
+            return;
+        };
+        assert_eq!(bits((-sine, cosine)), bits((minus_sine, same_cosine)));
+    }
+    let one = |angle: f64| run_fused(InFused([angle])).ok().unwrap();
+    let one_single = |angle: f32| run_fused(InFused([angle])).ok().unwrap();
+    assert_eq!(one(0.0).0[0].to_bits(), 0);
+    assert_eq!(one(-0.0).0[0].to_bits(), (-0.0_f64).to_bits());
+    assert_eq!(one_single(0.0).0[0].to_bits(), 0);
+    assert_eq!(one_single(-0.0).0[0].to_bits(), (-0.0_f32).to_bits());
+    let mut tiny = 2.0_f64.powi(-27);
+    while tiny > 0.0 {
+        assert_eq!(one(tiny), ([tiny], [1.0]));
+        tiny *= 0.49;
+    }
+    for angle in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        let ([sine], [cosine]) = one(angle);
+        assert!(sine.is_nan() && cosine.is_nan());
+        let ([sine], [cosine]) = one_single(angle as f32);
+        assert!(sine.is_nan() && cosine.is_nan());
+    }
+}
+
+fn fused_agrees<const N: usize>() {
+    let all = signed();
+    for block in all.chunks_exact(N) {
+        let angles: [f64; N] = from_fn(|i| block[i]);
+        let small = angles.map(|angle| angle as f32);
+        let (Ok((sines, cosines)), Ok(single)) =
+            (run_fused(InFused(angles)), run_fused(InFused(small)))
+        else {
+            fuses();
+            return;
+        };
+        for i in 0..N {
+            let Ok(([sine], [cosine])) = run_fused(InFused([angles[i]])) else {
+                return;
+            };
+            assert_eq!(bits((sines[i], cosines[i])), bits((sine, cosine)));
+            let Ok(([sine], [cosine])) = run_fused(InFused([small[i]])) else {
+                return;
+            };
+            assert_eq!(
+                (single.0[i].to_bits(), single.1[i].to_bits()),
+                (sine.to_bits(), cosine.to_bits())
+            );
+        }
+    }
+}
+
+#[test]
+fn one_angle_has_the_same_fused_bits_in_any_company() {
+    fused_agrees::<2>();
+    fused_agrees::<3>();
+    fused_agrees::<4>();
+    fused_agrees::<5>();
+    fused_agrees::<7>();
+    fused_agrees::<15>();
+    fused_agrees::<31>();
+}
+
+#[test]
+fn registers_have_the_bits_of_one_angle() {
+    for block in signed().chunks_exact(16) {
+        for set in InstructionSet::ALL {
+            let found = run_in_registers(set, InRegister(block));
+            for (&angle, found) in block.iter().zip(found) {
+                let alone = match run_fused(InFused([angle])) {
+                    Ok(([sine], [cosine])) if set > InstructionSet::Build => (sine, cosine),
+                    _ => Scalar::sin_cos(angle),
+                };
+                assert_eq!(bits(found), bits(alone), "{angle:e}, {set}");
+            }
+            let small: Vec<f32> = block.iter().map(|angle| *angle as f32).collect();
+            let found = run_in_registers(set, InRegister(&small));
+            for (&angle, (sine, cosine)) in small.iter().zip(found) {
+                let alone = match run_fused(InFused([angle])) {
+                    Ok(([sine], [cosine])) if set > InstructionSet::Build => (sine, cosine),
+                    _ => Scalar::sin_cos(angle),
+                };
+                let alone = (alone.0.to_bits(), alone.1.to_bits());
+                assert_eq!(
+                    (sine.to_bits(), cosine.to_bits()),
+                    alone,
+                    "{angle:e}, {set}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

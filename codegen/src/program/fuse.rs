@@ -1,0 +1,99 @@
+//! Which products are fused with the sums that they feed.
+//!
+//! # Rule
+//! A product that sums alone use, each of them formed anew from it, is part of
+//! these sums: x y + z, x y − z or z − x y, rounded once where the scalar fuses,
+//! and twice, as if it stood alone, where it does not. Of two such products in
+//! one sum the second is taken.
+//!
+//! A difference of two products is never fused. It is zero where the products
+//! are equal: that sin θ_i cos θ_j − cos θ_i sin θ_j vanishes for equal angles
+//! keeps motions in phase for ever.
+
+use super::{Entry, Op, Program, Purpose, ValueId};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A sum with a product in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fused {
+    /// The product.
+    pub product: ValueId,
+    /// Whether it is subtracted.
+    pub minus_product: bool,
+    /// What it is added to.
+    pub addend: ValueId,
+    /// Whether that is subtracted.
+    pub minus_addend: bool,
+}
+
+impl Program {
+    /// The fused sums of an entry point, which are those of accelerations: other
+    /// functions run in plain numbers. Linear in the program's length, times a
+    /// logarithm.
+    pub fn fused(&self, entry: &Entry) -> BTreeMap<ValueId, Fused> {
+        if entry.purpose != Purpose::Accelerations {
+            return BTreeMap::new();
+        }
+        let needed = self.needed(&entry.outputs);
+        // Products that something else than a sum needs.
+        let mut kept: BTreeSet<ValueId> = entry.outputs.iter().copied().collect();
+        let mut sums = self.sums(&needed, &kept);
+        loop {
+            let taken: BTreeMap<ValueId, ValueId> = sums
+                .iter()
+                .map(|(sum, fused)| (*sum, fused.product))
+                .collect();
+            let before = kept.len();
+            for &id in &needed {
+                for operand in self.definition(id).op.operands() {
+                    if self.is_product(operand) && taken.get(&id) != Some(&operand) {
+                        kept.insert(operand);
+                    }
+                }
+            }
+            if kept.len() == before {
+                return sums;
+            }
+            sums = self.sums(&needed, &kept);
+        }
+    }
+
+    fn is_product(&self, id: ValueId) -> bool {
+        matches!(self.definition(id).op, Op::Mul(..))
+    }
+
+    /// The fused sums, if the products in `kept` are formed alone.
+    fn sums(&self, needed: &[ValueId], kept: &BTreeSet<ValueId>) -> BTreeMap<ValueId, Fused> {
+        let free = |id: ValueId| self.is_product(id) && !kept.contains(&id);
+        let fused = |id: ValueId| {
+            let (a, b, minus) = match self.definition(id).op {
+                Op::Add(a, b) => (a, b, false),
+                Op::Sub(a, b) if !(self.is_product(a) && self.is_product(b)) => (a, b, true),
+                _ => return None,
+            };
+            if a == b {
+                None
+            } else if free(b) {
+                Some(Fused {
+                    product: b,
+                    minus_product: minus,
+                    addend: a,
+                    minus_addend: false,
+                })
+            } else if free(a) {
+                Some(Fused {
+                    product: a,
+                    minus_product: false,
+                    addend: b,
+                    minus_addend: minus,
+                })
+            } else {
+                None
+            }
+        };
+        needed
+            .iter()
+            .filter_map(|&id| Some((id, fused(id)?)))
+            .collect()
+    }
+}

@@ -1,0 +1,71 @@
+//! Vector registers as numbers.
+//!
+//! [`Lanes`](super::Lanes) are arrays, which the compiler takes apart into
+//! numbers and puts together into registers again: well for short functions,
+//! badly and slowly for long ones. The types here are registers from the start.
+//! They exist inside computations that [`dispatch`](super::dispatch) starts, and
+//! nowhere else: no public function returns one.
+
+// The types appear in the interface of a sealed trait, so that they must be
+// `pub`, and can be reached by no one.
+#![allow(unreachable_pub)]
+
+mod one;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub use one::Fused;
+#[cfg(target_arch = "x86_64")]
+pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
+
+use super::{Lane, Lanes, Scalar};
+use crate::generations::{Vectors, With};
+
+/// Several numbers in one register, each in its lane.
+///
+/// The wide ones fuse products with sums; the ones of the build do not. See
+/// [`Scalar::mul_add`].
+pub trait Register: Scalar {
+    /// A number in it.
+    type Lane: Lane;
+
+    /// How many.
+    const LANES: usize;
+
+    /// This register, and narrower ones for fewer numbers.
+    type Vectors: Vectors<Self::Lane>;
+
+    /// The same number in every lane.
+    fn splat(value: Self::Lane) -> Self;
+
+    /// The first numbers of a slice, if it has enough.
+    fn load(numbers: &[Self::Lane]) -> Option<Self>;
+
+    /// Writes the numbers to the front of a slice. A slice too short gets none.
+    fn store(self, numbers: &mut [Self::Lane]);
+}
+
+/// The registers of instruction sets that this crate has no type for.
+impl<T: Lane, const N: usize> Register for Lanes<T, N> {
+    type Lane = T;
+    type Vectors = With<Self>;
+
+    const LANES: usize = N;
+
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Lanes::splat(value)
+    }
+
+    #[inline(always)]
+    fn load(numbers: &[T]) -> Option<Self> {
+        numbers.first_chunk().copied().map(Self)
+    }
+
+    #[inline(always)]
+    fn store(self, numbers: &mut [T]) {
+        if let Some(front) = numbers.first_chunk_mut() {
+            *front = self.0;
+        }
+    }
+}

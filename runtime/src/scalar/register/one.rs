@@ -1,0 +1,138 @@
+//! One number that fuses.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::super::Scalar;
+use super::super::dispatch;
+use super::super::sincos::fused;
+use super::Register;
+use crate::generations::Single;
+
+/// A plain number whose [`Scalar::mul_add`] is fused: what a lane of the wide
+/// registers computes, for one state.
+///
+/// Exists only in functions compiled for AVX2 and FMA ([`dispatch`]); elsewhere
+/// its products would be right, but slow.
+///
+/// [`dispatch`]: super::super::dispatch
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct Fused<T>(pub T);
+
+macro_rules! fused {
+    ($float:ident, $sign:literal) => {
+        fused!($float, Add, add, +);
+        fused!($float, Sub, sub, -);
+        fused!($float, Mul, mul, *);
+        fused!($float, Div, div, /);
+
+        impl Neg for Fused<$float> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Self(-self.0)
+            }
+        }
+
+        impl Scalar for Fused<$float> {
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                Self(<$float as Scalar>::from_f64(value))
+            }
+
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                Self(fused::Float::fused(self.0, factor.0, addend.0))
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                let ([sine], [cosine]) = Self::sin_cos_each(&[self]);
+                (sine, cosine)
+            }
+
+            #[inline(always)]
+            fn sin_cos_each<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
+                fused::several(angles)
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self(Scalar::sqrt(self.0))
+            }
+
+            #[inline(always)]
+            fn outlined<R>(part: impl FnOnce() -> R) -> R {
+                dispatch::outlined_avx2(part)
+            }
+        }
+
+        impl Register for Fused<$float> {
+            type Lane = $float;
+            type Vectors = Single;
+
+            const LANES: usize = 1;
+
+            #[inline(always)]
+            fn splat(value: $float) -> Self {
+                Self(value)
+            }
+
+            #[inline(always)]
+            fn load(numbers: &[$float]) -> Option<Self> {
+                numbers.first().copied().map(Self)
+            }
+
+            #[inline(always)]
+            fn store(self, numbers: &mut [$float]) {
+                if let Some(front) = numbers.first_mut() {
+                    *front = self.0;
+                }
+            }
+        }
+
+        impl fused::Pack for Fused<$float> {
+            type Array = [$float; 1];
+
+            #[inline(always)]
+            fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
+                let (quarter, sine, cosine) =
+                    (quarter.0.to_bits(), sine.0.to_bits(), cosine.0.to_bits());
+                let sign = (-0.0 as $float).to_bits();
+                let exchange = (quarter & 1).wrapping_neg() & (sine ^ cosine);
+                let sine = sine ^ exchange ^ ((quarter << $sign) & sign);
+                let cosine = cosine ^ exchange ^ ((quarter.wrapping_add(1) << $sign) & sign);
+                (Self($float::from_bits(sine)), Self($float::from_bits(cosine)))
+            }
+
+            #[inline(always)]
+            fn all_below(self, limit: $float) -> bool {
+                self.0.abs() < limit
+            }
+
+            #[inline(always)]
+            fn from_numbers([number]: [$float; 1]) -> Self {
+                Self(number)
+            }
+
+            #[inline(always)]
+            fn to_numbers(self) -> [$float; 1] {
+                [self.0]
+            }
+        }
+    };
+    ($float:ident, $trait:ident, $function:ident, $operator:tt) => {
+        impl $trait for Fused<$float> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self(self.0 $operator other.0)
+            }
+        }
+    };
+}
+
+fused!(f64, 62);
+fused!(f32, 30);

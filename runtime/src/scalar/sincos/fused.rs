@@ -1,0 +1,285 @@
+//! Sine and cosine with fused multiply-adds: what the wide registers and
+//! [`Fused`] numbers use. Fewer operations than the portable ones and other last
+//! bits; less than one unit in the last place from the true value.
+//!
+//! The first part of π/2 has all of its digits here: a fused product minus the
+//! angle is exact without zeros at its end.
+
+// As for the registers.
+#![allow(unreachable_pub)]
+
+use core::hint::black_box;
+
+use super::super::register::{Fused, Register};
+use super::super::{Lane, Scalar};
+use super::reduction;
+
+/// What one order of operations computes with.
+pub trait Pack: Register<Lane: Float> {
+    /// As many numbers as it has lanes.
+    type Array: Copy + AsRef<[Self::Lane]> + AsMut<[Self::Lane]>;
+
+    /// The results of a turn by a number of quarters, which stands in the lowest
+    /// bits of `quarter`, from those without it: odd numbers exchange sine and
+    /// cosine, and their second bits say the signs.
+    fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self);
+
+    /// Whether the sizes of all numbers are below `limit`.
+    fn all_below(self, limit: Self::Lane) -> bool;
+
+    /// From numbers in their order.
+    fn from_numbers(numbers: Self::Array) -> Self;
+
+    /// The numbers in their order.
+    fn to_numbers(self) -> Self::Array;
+}
+
+/// The constants of one precision.
+pub trait Float: Lane {
+    /// One that fuses.
+    type One: Pack<Lane = Self>;
+    /// As many as a register of AVX2 holds.
+    type Several: Pack<Lane = Self>;
+    /// The common range: as many quarter turns as have been examined for how
+    /// close an angle comes to them.
+    const LIMIT: Self;
+    /// 2/π.
+    const TURNS: Self;
+    /// 1.5 times a power of two: adding it rounds to an integer, which it leaves
+    /// in the lowest bits.
+    const ROUND: Self;
+    /// π/2 as a sum of positive parts. Products with the second are exact, and
+    /// have so few digits that the difference from an angle is so too, where
+    /// that is smaller than they are.
+    const HALF_PI: [Self; 3];
+    /// sin x = x + x³ (S1 + S2 x² + …) for |x| ≤ π/4.
+    const SINE: &'static [Self];
+    /// cos x = 1 − x²/2 + x⁴ (C1 + C2 x² + …) for |x| ≤ π/4.
+    const COSINE: &'static [Self];
+
+    /// `a * b + c`, rounded once.
+    fn fused(a: Self, b: Self, c: Self) -> Self;
+
+    /// The number of the nearest multiple of π/2 in the lowest bits, and the
+    /// distance from it as a difference of two numbers; NaN where there is none.
+    fn far(angle: Self) -> (Self, [Self; 2]);
+}
+
+impl Float for f64 {
+    type One = Fused<f64>;
+    #[cfg(target_arch = "x86_64")]
+    type Several = super::super::register::F64x4;
+    #[cfg(not(target_arch = "x86_64"))]
+    type Several = Fused<f64>;
+
+    const LIMIT: f64 = super::double::LIMIT;
+    const TURNS: f64 = core::f64::consts::FRAC_2_PI;
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    const HALF_PI: [f64; 3] = [
+        core::f64::consts::FRAC_PI_2,
+        f64::from_bits(0x3c91a62633140000),
+        f64::from_bits(0x3a3701b839a25205),
+    ];
+    const SINE: &'static [f64] = &super::double::SINE;
+    const COSINE: &'static [f64] = &super::double::COSINE;
+
+    #[inline(always)]
+    fn fused(a: f64, b: f64, c: f64) -> f64 {
+        #[cfg(feature = "std")]
+        return f64::mul_add(a, b, c);
+        #[cfg(all(feature = "libm", not(feature = "std")))]
+        return libm::fma(a, b, c);
+    }
+
+    fn far(angle: f64) -> (f64, [f64; 2]) {
+        if !angle.is_finite() {
+            return (0.0, [f64::NAN; 2]);
+        }
+        let (quarter, [high, low, _]) = reduction::modulo_half_pi(angle);
+        (f64::from_bits(quarter), [high, -low])
+    }
+}
+
+impl Float for f32 {
+    type One = Fused<f32>;
+    #[cfg(target_arch = "x86_64")]
+    type Several = super::super::register::F32x8;
+    #[cfg(not(target_arch = "x86_64"))]
+    type Several = Fused<f32>;
+
+    const LIMIT: f32 = 804.0;
+    const TURNS: f32 = core::f32::consts::FRAC_2_PI;
+    const ROUND: f32 = 12_582_912.0;
+    const HALF_PI: [f32; 3] = [
+        f32::from_bits(0x3fc9_0fda),
+        f32::from_bits(0x33a22000),
+        f32::from_bits(0x2c34611a),
+    ];
+    /// Minimax polynomials, up to 2⁻²⁸ of the sine and 2⁻³³.
+    const SINE: &'static [f32] = &[-0.166_666_55, 8.332_177e-3, -1.951_713_8e-4];
+    const COSINE: &'static [f32] = &[4.166_664_6e-2, -1.388_736_7e-3, 2.443_827_2e-5];
+
+    #[inline(always)]
+    fn fused(a: f32, b: f32, c: f32) -> f32 {
+        #[cfg(feature = "std")]
+        return f32::mul_add(a, b, c);
+        #[cfg(all(feature = "libm", not(feature = "std")))]
+        return libm::fmaf(a, b, c);
+    }
+
+    #[allow(clippy::cast_possible_truncation)]
+    fn far(angle: f32) -> (f32, [f32; 2]) {
+        if !angle.is_finite() {
+            return (0.0, [f32::NAN; 2]);
+        }
+        let (quarter, rest) = super::single::reduce_any(angle);
+        let high = rest as f32;
+        let low = (f64::from(high) - rest) as f32;
+        (f32::from_bits(quarter as u32 & 3), [high, low])
+    }
+}
+
+/// Sine and cosine in the common range.
+#[inline(always)]
+fn common<P: Pack>(angle: P) -> (P, P) {
+    let [part_1, part_2, part_3] = P::Lane::HALF_PI.map(P::splat);
+    let round = P::splat(P::Lane::ROUND);
+    let quarter = angle.mul_add(P::splat(P::Lane::TURNS), round);
+    let n = quarter - round;
+    // Exact: a multiple of the last place of π/2 that is below one.
+    let first = (-n).mul_add(part_1, angle);
+    let high = (-n).mul_add(part_2, first);
+    let low = n.mul_add(part_3, n.mul_add(part_2, high - first));
+    turn(quarter, high, low)
+}
+
+/// Sine and cosine of quarter turns plus `high − low`.
+#[inline(always)]
+fn turn<P: Pack>(quarter: P, high: P, low: P) -> (P, P) {
+    // (high − low)², but for low².
+    let square = high.mul_add(high, -(high * (low + low)));
+    let tail = polynomial(square, P::Lane::SINE);
+    // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
+    let sine = high - (-(high * square)).mul_add(tail, low);
+    let tail = polynomial(square, P::Lane::COSINE);
+    let half = P::from_f64(-0.5);
+    let cosine = square.mul_add(square.mul_add(tail, half), P::from_f64(1.0));
+    P::exchange(quarter, sine, cosine)
+}
+
+#[inline(always)]
+fn polynomial<P: Pack>(x: P, coefficients: &[P::Lane]) -> P {
+    match *coefficients {
+        [a, b, c] => x.mul_add(x.mul_add(P::splat(c), P::splat(b)), P::splat(a)),
+        [a, b, c, d, e, f] => {
+            let second = x * x;
+            let low = x.mul_add(P::splat(b), P::splat(a));
+            let middle = x.mul_add(P::splat(d), P::splat(c));
+            let high = x.mul_add(P::splat(f), P::splat(e));
+            second.mul_add(second.mul_add(high, middle), low)
+        }
+        _ => unreachable!("polynomials have three or six coefficients"),
+    }
+}
+
+/// Sines and cosines of angles in registers.
+#[inline(always)]
+pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
+    let zero = P::from_f64(0.0);
+    let (mut sines, mut cosines) = ([zero; N], [zero; N]);
+    let mut all_common = true;
+    for i in 0..N {
+        all_common &= angles[i].all_below(P::Lane::LIMIT);
+        (sines[i], cosines[i]) = common(angles[i]);
+    }
+    if !all_common {
+        // Copies for this block alone: were angles and results themselves lent
+        // out, they would live in memory on the common path too.
+        let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
+        beyond(black_box(angles), &mut far_sines, &mut far_cosines);
+        for i in 0..N {
+            (sines[i], cosines[i]) = (far_sines[i], far_cosines[i]);
+        }
+    }
+    (sines, cosines)
+}
+
+/// The same one by one, with angles outside the common range among them.
+#[cold]
+#[inline(never)]
+fn beyond<P: Pack, const N: usize>(angles: &[P; N], sines: &mut [P; N], cosines: &mut [P; N]) {
+    for i in 0..N {
+        let angles = angles[i].to_numbers();
+        let (mut all_sines, mut all_cosines) = (angles, angles);
+        let results = all_sines.as_mut().iter_mut().zip(all_cosines.as_mut());
+        for (&angle, (sine, cosine)) in angles.as_ref().iter().zip(results) {
+            (*sine, *cosine) = one(angle);
+        }
+        sines[i] = P::from_numbers(all_sines);
+        cosines[i] = P::from_numbers(all_cosines);
+    }
+}
+
+/// One angle anywhere.
+#[inline(always)]
+fn one<T: Float>(angle: T) -> (T, T) {
+    let (sine, cosine) = if T::One::splat(angle).all_below(T::LIMIT) {
+        common(T::One::splat(angle))
+    } else {
+        let (quarter, [high, low]) = T::far(angle);
+        turn(
+            T::One::splat(quarter),
+            T::One::splat(high),
+            T::One::splat(low),
+        )
+    };
+    let number = |value: T::One| {
+        let numbers = value.to_numbers();
+        numbers.as_ref().first().copied().unwrap_or(angle)
+    };
+    (number(sine), number(cosine))
+}
+
+/// Sines and cosines of the angles of one state: one alone, several in a
+/// register of AVX2, of which the last may overlap the one before.
+#[inline(always)]
+pub(in crate::scalar) fn several<T: Float, const N: usize>(
+    angles: &[Fused<T>; N],
+) -> ([Fused<T>; N], [Fused<T>; N])
+where
+    Fused<T>: Pack<Lane = T>,
+{
+    let zero = Fused::splat(T::from_f64(0.0));
+    let (mut sines, mut cosines) = ([zero; N], [zero; N]);
+    if N == 1 {
+        return each(angles);
+    }
+    let lanes = T::Several::LANES;
+    let mut all_common = true;
+    let mut start = 0;
+    while start < N {
+        let first = start.min(N.saturating_sub(lanes));
+        let mut numbers = T::Several::from_f64(0.0).to_numbers();
+        for (number, angle) in numbers.as_mut().iter_mut().zip(&angles[first..]) {
+            *number = angle.0;
+        }
+        let pack = T::Several::from_numbers(numbers);
+        all_common &= pack.all_below(T::LIMIT);
+        let (sine, cosine) = common(pack);
+        let (sine, cosine) = (sine.to_numbers(), cosine.to_numbers());
+        let results = sines[first..].iter_mut().zip(&mut cosines[first..]);
+        let found = sine.as_ref().iter().zip(cosine.as_ref());
+        for ((sine, cosine), found) in results.zip(found) {
+            (sine.0, cosine.0) = (*found.0, *found.1);
+        }
+        start += lanes;
+    }
+    if !all_common {
+        let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
+        beyond(black_box(angles), &mut far_sines, &mut far_cosines);
+        for i in 0..N {
+            (sines[i], cosines[i]) = (far_sines[i], far_cosines[i]);
+        }
+    }
+    (sines, cosines)
+}

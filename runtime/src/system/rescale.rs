@@ -1,0 +1,202 @@
+//! One body of equations, on any scalar.
+
+use crate::scalar::Scalar;
+use crate::scalar::dispatch::{self, Kernel};
+use crate::scalar::register::Fused;
+
+use super::Pendulum;
+
+/// A pendulum whose constants can be taken to other scalars.
+///
+/// This is how [`Batch`](crate::batch::Batch) brings a model of plain numbers
+/// into vector registers, and how one state gets the machine's fused
+/// multiply-adds. Models written by the attribute implement it.
+///
+/// # Examples
+///
+/// A rod, written by hand:
+///
+/// ```
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::batch::Batch;
+///
+/// struct Rod<T>(T);
+///
+/// impl<T: Scalar> Pendulum<T> for Rod<T> {
+///     const LINKS: usize = 1;
+///     const LINK_NAMES: &'static [&'static str] = &["rod"];
+///
+///     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+///         T::accelerate(self, time, theta, omega, alpha);
+///     }
+/// }
+///
+/// impl<T: Scalar> Rescale<T> for Rod<T> {
+///     type Of<S: Scalar> = Rod<S>;
+///
+///     #[inline(always)]
+///     fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
+///         Rod(convert(self.0))
+///     }
+///
+///     #[inline(always)]
+///     fn evaluate(
+///         &self,
+///         _time: T,
+///         theta: impl Fn(usize) -> T,
+///         _omega: impl Fn(usize) -> T,
+///         mut alpha: impl FnMut(usize, T),
+///     ) {
+///         alpha(0, -(self.0 * theta(0).sin_cos().0));
+///     }
+/// }
+///
+/// let model = Rod(9.80665);
+/// let theta = [vec![0.1; 1001]];
+/// let omega = [vec![0.0; 1001]];
+/// let mut alpha = [vec![0.0; 1001]];
+/// Batch::new(&model).accelerations(0.0, &theta, &omega, &mut alpha)?;
+/// let mut alone = [0.0];
+/// model.accelerations_into(0.0, &[0.1], &[0.0], &mut alone);
+/// assert_eq!(alpha[0][1000], alone[0]);
+/// # Ok::<(), branched_pendulum::batch::BatchError>(())
+/// ```
+pub trait Rescale<T: Scalar>: Pendulum<T> {
+    /// The same pendulum on other scalars.
+    type Of<S: Scalar>: Rescale<S>;
+
+    /// Takes every constant through `convert`, which should change their type
+    /// and not their value.
+    fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
+
+    /// The angular accelerations (rad/s²) at `time` (s), in the arithmetic of
+    /// `T`: reads the angle (rad) and the angular velocity (rad/s) of link `i`
+    /// as `theta(i)` and `omega(i)`, gives the results as `alpha(i, value)`.
+    ///
+    /// Write `#[inline(always)]`: the caller chooses the instructions that this
+    /// is compiled for.
+    fn evaluate(
+        &self,
+        time: T,
+        theta: impl Fn(usize) -> T,
+        omega: impl Fn(usize) -> T,
+        alpha: impl FnMut(usize, T),
+    );
+}
+
+/// The element at an index, or NaN beyond the end: in place of a panic in what
+/// emitted code never does.
+#[inline(always)]
+pub(crate) fn at<T: Scalar>(numbers: &[T], index: usize) -> T {
+    match numbers.get(index) {
+        Some(number) => *number,
+        None => T::from_f64(f64::NAN),
+    }
+}
+
+/// The same with [`put`] in place of reading.
+#[inline(always)]
+pub(crate) fn put<T>(numbers: &mut [T], index: usize, value: T) {
+    if let Some(number) = numbers.get_mut(index) {
+        *number = value;
+    }
+}
+
+/// Whether all slices have one number a link; fills `alpha` with NaN if not.
+#[inline(always)]
+fn fit<T: Scalar, P: Pendulum<T>>(theta: &[T], omega: &[T], alpha: &mut [T]) -> bool {
+    let fit = theta.len() == P::LINKS && omega.len() == P::LINKS && alpha.len() == P::LINKS;
+    if !fit {
+        alpha.fill(T::from_f64(f64::NAN));
+    }
+    fit
+}
+
+/// Accelerations in the arithmetic of `T`.
+#[inline(always)]
+pub(crate) fn straight<T: Scalar, P: Rescale<T>>(
+    pendulum: &P,
+    time: T,
+    theta: &[T],
+    omega: &[T],
+    alpha: &mut [T],
+) {
+    if fit::<T, P>(theta, omega, alpha) {
+        pendulum.evaluate(
+            time,
+            |i| at(theta, i),
+            |i| at(omega, i),
+            |i, value| put(alpha, i, value),
+        );
+    }
+}
+
+/// Accelerations in fused arithmetic, where the machine has it.
+#[inline(always)]
+pub(crate) fn fused<T: Scalar, P: Rescale<T>>(
+    pendulum: &P,
+    time: T,
+    theta: &[T],
+    omega: &[T],
+    alpha: &mut [T],
+) where
+    Fused<T>: Scalar,
+{
+    if !fit::<T, P>(theta, omega, alpha) {
+        return;
+    }
+    let state = OneState {
+        pendulum,
+        time,
+        theta,
+        omega,
+        alpha,
+    };
+    if let Err(state) = dispatch::run_fused(state) {
+        let OneState {
+            pendulum,
+            time,
+            theta,
+            omega,
+            alpha,
+        } = state;
+        straight(pendulum, time, theta, omega, alpha);
+    }
+}
+
+/// One state, its slices as long as there are links.
+struct OneState<'a, P, T> {
+    pendulum: &'a P,
+    time: T,
+    theta: &'a [T],
+    omega: &'a [T],
+    alpha: &'a mut [T],
+}
+
+impl<T: Scalar, P: Rescale<T>> Kernel for OneState<'_, P, T>
+where
+    Fused<T>: Scalar,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            pendulum,
+            time,
+            theta,
+            omega,
+            alpha,
+        } = self;
+        // Known already, and known again to the compiler of this function.
+        if !fit::<T, P>(theta, omega, alpha) {
+            return;
+        }
+        pendulum.rescale(Fused).evaluate(
+            Fused(time),
+            |i| Fused(at(theta, i)),
+            |i| Fused(at(omega, i)),
+            |i, value| put(alpha, i, value.0),
+        );
+    }
+}
