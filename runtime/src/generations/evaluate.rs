@@ -23,63 +23,127 @@ pub(super) struct Given<'a, T, const C: usize> {
     pub(super) omega: &'a [T],
 }
 
-/// Numbers of a part: of all its links, and of those with answers.
-fn sizes(part: &Part<'_>) -> (usize, usize) {
-    let leaf = part.shape.counts.len() - 1;
-    (part.own(part.end), part.own((part.end + 1).min(leaf)))
+/// Arrays start where cache lines do: a vector that crosses from one into the
+/// next takes two accesses.
+const LINE: usize = 64;
+
+/// Numbers of type `T` in a line.
+fn line<T>() -> usize {
+    (LINE / size_of::<T>().max(1)).max(1)
 }
 
-fn length<const R: usize, const K: usize>(part: &Part<'_>, joints: bool) -> usize {
-    let (all, inner) = sizes(part);
-    all * if joints { 4 } else { 2 } + inner * (R + 2 + K)
+/// What memory for a part takes.
+struct Extent {
+    /// Unused numbers before each array, so that its longest generation starts
+    /// with a line.
+    lead: usize,
+    /// All links.
+    all: usize,
+    /// Those that have answers.
+    inner: usize,
+    /// Forces in joints: two arrays more.
+    joints: bool,
+}
+
+impl Extent {
+    fn new<T>(part: &Part<'_>, joints: bool) -> Self {
+        let leaf = part.shape.counts.len().saturating_sub(1);
+        let last = part.own(part.end.saturating_sub(1));
+        Self {
+            lead: last.next_multiple_of(line::<T>()) - last,
+            all: part.own(part.end),
+            inner: part.own((part.end + 1).min(leaf)),
+            joints,
+        }
+    }
+
+    /// An odd number of lines: arrays whose distances are multiples of a power
+    /// of two compete for the same places of the cache.
+    fn length<T>(&self, links: usize) -> usize {
+        ((self.lead + links).div_ceil(line::<T>()) | 1) * line::<T>()
+    }
+
+    /// Of what is read on the way down.
+    fn kept<T, const K: usize>(&self) -> usize {
+        let whole = if self.joints { 4 } else { 2 };
+        whole * self.length::<T>(self.all) + K * self.length::<T>(self.inner)
+    }
+
+    /// Of answers.
+    fn answers<T, const R: usize>(&self) -> usize {
+        R * self.length::<T>(self.inner)
+    }
+
+    fn array<'a, T>(&self, buffer: &mut &'a mut [T], links: usize) -> &'a mut [T] {
+        let padded = take(buffer, self.length::<T>(links));
+        padded
+            .get_mut(self.lead..self.lead + links)
+            .unwrap_or_default()
+    }
+
+    fn memory<'a, T, const R: usize, const K: usize>(
+        &self,
+        mut kept: &'a mut [T],
+        mut answers: &'a mut [T],
+    ) -> Memory<'a, T, R, K> {
+        let (buffer, answers) = (&mut kept, &mut answers);
+        let &Self {
+            all, inner, joints, ..
+        } = self;
+        Memory {
+            sines: self.array(buffer, all),
+            cosines: self.array(buffer, all),
+            bends: if joints {
+                self.array(buffer, all)
+            } else {
+                &mut []
+            },
+            bend_rates: if joints {
+                self.array(buffer, all)
+            } else {
+                &mut []
+            },
+            answers: core::array::from_fn(|_| self.array(answers, inner)),
+            kept: core::array::from_fn(|_| self.array(buffer, inner)),
+        }
+    }
 }
 
 /// Takes `length` numbers off the front.
 fn take<'a, T>(buffer: &mut &'a mut [T], length: usize) -> &'a mut [T] {
     let whole = core::mem::take(buffer);
-    let length = length.min(whole.len());
-    let (front, rest) = whole.split_at_mut(length);
+    let (front, rest) = whole.split_at_mut(length.min(whole.len()));
     *buffer = rest;
     front
 }
 
-fn memory<'a, T, const R: usize, const K: usize>(
-    part: &Part<'_>,
-    joints: bool,
-    mut buffer: &'a mut [T],
-) -> Memory<'a, T, R, K> {
-    let (all, inner) = sizes(part);
-    let buffer = &mut buffer;
-    let bends = if joints { all } else { 0 };
-    Memory {
-        sines: take(buffer, all),
-        cosines: take(buffer, all),
-        bends: take(buffer, bends),
-        bend_rates: take(buffer, bends),
-        answers: core::array::from_fn(|_| take(buffer, inner)),
-        pivots: core::array::from_fn(|_| take(buffer, inner)),
-        kept: core::array::from_fn(|_| take(buffer, inner)),
-    }
-}
-
 /// How many numbers an evaluation needs room for, on so many threads.
-pub(super) fn workspace<const R: usize, const K: usize>(
+pub(super) fn workspace<T, const R: usize, const K: usize>(
     plan: &Plan,
     joints: bool,
     threads: usize,
 ) -> usize {
-    let top = length::<R, K>(&plan.top(), joints);
-    match plan.cut {
-        None => top,
-        Some(cut) => top + plan.count(cut) * R + threads * worker::<R, K>(plan, cut, joints),
-    }
+    let top = Extent::new::<T>(&plan.top(), joints);
+    let parts = plan.cut.map_or(0, |cut| {
+        let window = Extent::new::<T>(&plan.window(cut, 0), joints);
+        answers::<T, R>(plan, cut)
+            + plan.count(cut).div_ceil(WIDTH) * window.kept::<T, K>()
+            + threads * worker::<T, R, K>(plan, cut, joints)
+    });
+    line::<T>() + top.kept::<T, K>() + top.answers::<T, R>() + parts
 }
 
-/// The same for one thread alone.
-fn worker<const R: usize, const K: usize>(plan: &Plan, cut: usize, joints: bool) -> usize {
+/// Answers of all parts.
+fn answers<T, const R: usize>(plan: &Plan, cut: usize) -> usize {
+    (plan.count(cut) * R).next_multiple_of(line::<T>())
+}
+
+/// Room for one thread's parts, and for accelerations.
+fn worker<T, const R: usize, const K: usize>(plan: &Plan, cut: usize, joints: bool) -> usize {
     let window = plan.window(cut, 0);
+    let extent = Extent::new::<T>(&window, joints);
     // A line more, so that two threads never write to one.
-    length::<R, K>(&window, joints) + window.own(window.end) + 16
+    extent.answers::<T, R>() + extent.length::<T>(extent.all) + line::<T>()
 }
 
 /// One way through the top of the tree, or through some of the parts below.
@@ -108,6 +172,7 @@ enum Pass<'a, T> {
 struct Job<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
     given: &'a Given<'a, T, C>,
     pass: Pass<'a, T>,
+    kept: &'a mut [T],
     buffer: &'a mut [T],
     recursion: PhantomData<P>,
 }
@@ -138,20 +203,24 @@ where
                 Pass::Up { cut, .. } | Pass::Down { cut, .. } => plan.window(cut, next.start),
             };
             let mut buffer = &mut *self.buffer;
-            let own = take(&mut buffer, length::<R, K>(&part, P::JOINTS));
+            let extent = Extent::new::<T>(&part, P::JOINTS);
+            let answers = take(&mut buffer, extent.answers::<T, R>());
+            let kept = take(&mut self.kept, extent.kept::<T, K>());
             let mut sweep = Sweep::<P, T, C, L, R, K> {
                 part,
                 constants,
                 theta,
                 omega,
-                memory: memory(&part, P::JOINTS, own),
+                memory: extent.memory(kept, answers),
                 recursion: PhantomData,
             };
-            sweep.prepare::<W>();
-            sweep.up::<W>();
+            if !matches!(self.pass, Pass::Down { .. }) {
+                sweep.prepare::<W>();
+                sweep.up::<W>();
+            }
             let width = part.width;
             match &mut self.pass {
-                Pass::Top { .. } => fill_front(&mut sweep.memory.pivots, root),
+                Pass::Top { .. } => fill_front(sweep.memory.pivots_mut(), root),
                 Pass::Up { answers, .. } => {
                     for own in &sweep.memory.answers {
                         copy(take(answers, width), own);
@@ -160,8 +229,11 @@ where
                     continue;
                 }
                 Pass::Down { pivots, .. } => {
-                    for (own, all) in sweep.memory.pivots.iter_mut().zip(pivots) {
-                        copy(own, all.get(next.start..next.start + width).unwrap_or_default());
+                    for (own, all) in sweep.memory.pivots_mut().into_iter().zip(pivots) {
+                        copy(
+                            own,
+                            all.get(next.start..next.start + width).unwrap_or_default(),
+                        );
                     }
                 }
             }
@@ -175,7 +247,10 @@ where
             };
             sweep.down::<W>(turned);
             if let Some(mut alpha) = scattered {
-                for Run { own, whole, length, .. } in part.all() {
+                for Run {
+                    own, whole, length, ..
+                } in part.all()
+                {
                     alpha.write(whole, turned.get(own..own + length).unwrap_or_default());
                 }
             }
@@ -184,8 +259,8 @@ where
     }
 }
 
-fn fill_front<T: Copy>(arrays: &mut [&mut [T]; 2], values: [T; 2]) {
-    for (array, value) in arrays.iter_mut().zip(values) {
+fn fill_front<T: Copy>(arrays: [&mut [T]; 2], values: [T; 2]) {
+    for (array, value) in arrays.into_iter().zip(values) {
         if let Some(first) = array.first_mut() {
             *first = value;
         }
@@ -211,38 +286,49 @@ pub(super) fn accelerations<P, T, const C: usize, const L: usize, const R: usize
     T: Scalar,
 {
     let plan = given.plan;
-    let run = |pass: Pass<'_, T>, buffer: &mut [T]| {
+    let run = |pass: Pass<'_, T>, kept: &mut [T], buffer: &mut [T]| {
         T::over_slices(Job::<P, T, C, L, R, K> {
             given,
             pass,
+            kept,
             buffer,
             recursion: PhantomData,
         });
     };
     let top = plan.top();
-    let mut buffer = buffer;
-    let above = take(&mut buffer, length::<R, K>(&top, P::JOINTS));
+    let extent = Extent::new::<T>(&top, P::JOINTS);
+    let unaligned = buffer.as_ptr().align_offset(LINE).min(line::<T>());
+    let mut buffer = buffer.get_mut(unaligned..).unwrap_or_default();
+    let kept = take(&mut buffer, extent.kept::<T, K>());
+    let above = take(&mut buffer, extent.answers::<T, R>());
     let Some(cut) = plan.cut else {
-        run(Pass::Top { alpha }, above);
+        run(Pass::Top { alpha }, kept, above);
         return;
     };
     let count = plan.count(cut);
-    let answers = take(&mut buffer, count * R);
-    let size = worker::<R, K>(plan, cut, P::JOINTS);
+    let answers = take(&mut buffer, answers::<T, R>(plan, cut));
+    let size = worker::<T, R, K>(plan, cut, P::JOINTS);
     let parts = count.div_ceil(WIDTH);
     let each = parts.div_ceil(threads.max(1)) * WIDTH;
+    let window = Extent::new::<T>(&plan.window(cut, 0), P::JOINTS).kept::<T, K>();
+    let all_kept = take(&mut buffer, parts * window);
+    let some = each / WIDTH * window;
     {
-        let (mut answers, mut buffer) = (&mut *answers, &mut *buffer);
+        let (mut answers, mut buffer, mut kept) = (&mut *answers, &mut *buffer, &mut *all_kept);
         let jobs = (0..count).step_by(each).map(|start| {
             let links = start..(start + each).min(count);
             let answers = take(&mut answers, links.len() * R);
-            let pass = Pass::Up { cut, links, answers };
-            (pass, take(&mut buffer, size))
+            let pass = Pass::Up {
+                cut,
+                links,
+                answers,
+            };
+            (pass, take(&mut kept, some), take(&mut buffer, size))
         });
-        super::threads::all(jobs, |(pass, buffer)| run(pass, buffer));
+        super::threads::all(jobs, |(pass, kept, buffer)| run(pass, kept, buffer));
     }
     let boundary = top.own(cut);
-    let mut memory = memory::<T, R, K>(&top, P::JOINTS, above);
+    let mut memory = extent.memory::<T, R, K>(kept, above);
     let mut rest = &*answers;
     for start in (0..count).step_by(WIDTH) {
         let width = WIDTH.min(count - start);
@@ -252,16 +338,22 @@ pub(super) fn accelerations<P, T, const C: usize, const L: usize, const R: usize
             copy(all.get_mut(boundary + start..).unwrap_or_default(), own);
         }
     }
-    run(Pass::Top { alpha: &mut *alpha }, above);
-    let memory = self::memory::<T, R, K>(&top, P::JOINTS, above);
-    let pivots = memory.pivots.map(|pivots| &*pivots);
-    let pivots = pivots.map(|pivots| pivots.get(boundary..boundary + count).unwrap_or_default());
+    run(Pass::Top { alpha: &mut *alpha }, kept, above);
+    let mut memory = extent.memory::<T, R, K>(kept, above);
+    let pivots = memory.pivots_mut();
+    let pivots = pivots.map(|all| &*all.get_mut(boundary..boundary + count).unwrap_or_default());
     let alpha = Shared::new(alpha);
-    let mut buffer = &mut *buffer;
+    let (mut buffer, mut all_kept) = (&mut *buffer, &mut *all_kept);
     let jobs = (0..count).step_by(each).map(|start| {
         let links = start..(start + each).min(count);
-        let pass = Pass::Down { cut, links, pivots, alpha };
-        (pass, take(&mut buffer, size))
+        let pass = Pass::Down {
+            cut,
+            links,
+            pivots,
+            alpha,
+        };
+        (pass, take(&mut all_kept, some), take(&mut buffer, size))
     });
-    super::threads::all(jobs, |(pass, buffer)| run(pass, buffer));
+
+    super::threads::all(jobs, |(pass, kept, buffer)| run(pass, kept, buffer));
 }

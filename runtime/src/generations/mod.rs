@@ -58,7 +58,7 @@ where
         }
         let spare = self.spare.lock().ok().and_then(|mut spare| spare.pop());
         let mut buffer = spare.unwrap_or_else(|| {
-            alloc::vec![T::from_f64(0.0); workspace::<R, K>(&self.plan, P::JOINTS, self.threads)]
+            alloc::vec![T::from_f64(0.0); workspace::<T, R, K>(&self.plan, P::JOINTS, self.threads)]
         });
         accelerations::<P, T, C, L, R, K>(
             &Given {

@@ -1,6 +1,7 @@
 //! Which links are computed together.
 
-/// The number of links of every generation, and where each one starts.
+/// The number of links of every generation, and where each one starts; last,
+/// where they end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape<'a> {
     pub(super) counts: &'a [usize],
@@ -59,15 +60,29 @@ impl Part<'_> {
         self.width == self.stride()
     }
 
+    /// Of so many links of the whole tree, those of the part.
+    #[inline(always)]
+    fn share(&self, links: usize) -> usize {
+        match self.is_whole() {
+            true => links,
+            false => links / self.stride() * self.width,
+        }
+    }
+
     /// Number of the part's links in a generation.
+    #[inline]
     pub(super) fn count(&self, generation: usize) -> usize {
-        self.shape.count(generation) / self.stride() * self.width
+        self.share(self.shape.count(generation))
     }
 
     /// The first link of a generation in the part's own arrays; of the one
     /// behind its last, their length.
     pub(super) fn own(&self, generation: usize) -> usize {
-        (self.first..generation).map(|above| self.count(above)).sum()
+        self.share(
+            self.shape
+                .start(generation)
+                .saturating_sub(self.shape.start(self.first)),
+        )
     }
 
     /// Runs of neighbours in a generation, whose first link stands at `own`.

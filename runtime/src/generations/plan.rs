@@ -10,7 +10,7 @@ const WHOLE: usize = 8192;
 
 /// Neighbours in a part of a larger tree: whole vectors, and runs that are long
 /// enough to be fetched ahead.
-pub(super) const WIDTH: usize = 64;
+pub(super) const WIDTH: usize = 256;
 
 /// The number of links of each generation, and where the tree is cut.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +33,7 @@ impl Plan {
             starts.push(start);
             start += count;
         }
+        starts.push(start);
         let mut plan = Self {
             counts,
             starts,

@@ -17,11 +17,27 @@ pub(super) struct Memory<'a, T, const R: usize, const K: usize> {
     /// in joints.
     pub(super) bends: &'a mut [T],
     pub(super) bend_rates: &'a mut [T],
-    /// Answers of inner links on the way up.
+    /// Answers of inner links on the way up; on the way down the first two hold
+    /// the accelerations of their pivots.
     pub(super) answers: [&'a mut [T]; R],
-    /// Accelerations of inner links' pivots on the way down.
-    pub(super) pivots: [&'a mut [T]; 2],
     pub(super) kept: [&'a mut [T]; K],
+}
+
+impl<T, const R: usize, const K: usize> Memory<'_, T, R, K> {
+    #[inline(always)]
+    pub(super) fn pivots_mut(&mut self) -> [&mut [T]; 2] {
+        const { assert!(R >= 2, "two numbers must have room") };
+        match &mut self.answers[..] {
+            [x, y, ..] => [x, y],
+            _ => [&mut [], &mut []],
+        }
+    }
+
+    #[inline(always)]
+    fn pivots<V: Vector<T>>(&self, own: usize) -> [V; 2] {
+        const { assert!(R >= 2, "two numbers must have room") };
+        [V::load(self.answers[0], own), V::load(self.answers[1], own)]
+    }
 }
 
 /// A part with its state.
@@ -359,7 +375,7 @@ where
         let (own, whole) = (run.own + index, run.whole + index);
         let link = motion(self.memory, self.theta, self.omega, own, whole);
         let kept: [V; K] = load_all(&self.memory.kept, own);
-        let pivot = load_all(&self.memory.pivots, own);
+        let pivot = self.memory.pivots(own);
         let (acceleration, below) = P::turn(&splat::<T, V, C>(&self.constants), link, kept, pivot);
         acceleration.store(self.alpha, own);
         let constants = splat::<T, V, C>(&self.leaf_constants);
@@ -395,12 +411,14 @@ where
         let (own, whole) = (run.own + index, run.whole + index);
         let link = motion(self.memory, self.theta, self.omega, own, whole);
         let kept: [V; K] = load_all(&self.memory.kept, own);
-        let pivot = load_all(&self.memory.pivots, own);
+        let pivot = self.memory.pivots(own);
         let (acceleration, below) = P::turn(&splat::<T, V, C>(&self.constants), link, kept, pivot);
         acceleration.store(self.alpha, own);
         for copy in 0..self.copies {
             let own = run.child_own + copy * run.next_own + index;
-            store_all(below, &mut self.memory.pivots, own);
+            let [x, y] = self.memory.pivots_mut();
+            below[0].store(x, own);
+            below[1].store(y, own);
         }
     }
 }

@@ -17,7 +17,10 @@ pub struct With<R>(PhantomData<R>);
 /// Computes over slices of `f64` or `f32` in the widest registers of the
 /// machine.
 pub(crate) fn run<T: Lane, K: SliceKernel<T>>(kernel: K) {
-    run_in_registers(InstructionSet::widest(), InRegisters(kernel, PhantomData::<T>));
+    run_in_registers(
+        InstructionSet::widest(),
+        InRegisters(kernel, PhantomData::<T>),
+    );
 }
 
 struct InRegisters<K, T>(K, PhantomData<T>);
