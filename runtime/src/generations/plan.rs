@@ -60,6 +60,12 @@ impl Plan {
         self.counts.get(generation).copied().unwrap_or(0)
     }
 
+    /// The first link of a generation; of the one behind the last, the number of
+    /// links.
+    pub(super) fn start(&self, generation: usize) -> usize {
+        self.starts.get(generation).copied().unwrap_or(0)
+    }
+
     fn shape(&self) -> Shape<'_> {
         Shape {
             counts: &self.counts,
