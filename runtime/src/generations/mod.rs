@@ -85,12 +85,12 @@ where
     /// above, and the constants of the energies, none where these are not asked
     /// for.
     #[must_use]
-    pub fn new(constants: Vec<[T; C]>, root: [T; 2], energies: Vec<EnergyConstants<T>>) -> Self {
+    pub fn new(constants: &[[T; C]], root: [T; 2], energies: &[EnergyConstants<T>]) -> Self {
         Self {
             plan: Plan::new(P::COPIES),
-            constants,
+            constants: constants.to_vec(),
             root,
-            energies,
+            energies: energies.to_vec(),
             threads: threads::default(P::LINKS),
             pool: pool::Pool::new(),
             recursion: PhantomData,
