@@ -1,6 +1,7 @@
 //! Emitted code as its users meet it: compiled, called, built in parallel.
 
 mod bits;
+mod generations;
 mod hygiene;
 mod machine_code;
 mod scalars;
