@@ -10,6 +10,7 @@
 //! - [`integrate`]: trajectories, with error control, dense output and events,
 //! - [`ensemble`]: many trajectories on all cores,
 //! - [`batch`]: accelerations of many states, in vector registers,
+//! - [`generations`]: large trees, in loops,
 //! - [`sectors`]: what identical subtrees do in phase and against each other,
 //! - [`taylor`]: sums that emitted Taylor recurrences are made of,
 //! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
@@ -67,7 +68,8 @@
 //! # Features
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
-//!   `alloc` and offers [`scalar`], [`system`], [`batch`], [`taylor`] and [`integrate`].
+//!   `alloc` and offers [`scalar`], [`system`], [`batch`], [`generations`], [`taylor`] and
+//!   [`integrate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `chart`: line charts as SVG and PNG.

@@ -4,6 +4,7 @@
 pub mod articulated;
 pub mod by_hand;
 pub mod dense;
+pub mod large;
 pub mod measure;
 pub mod output;
 pub mod scenes;

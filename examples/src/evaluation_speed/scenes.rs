@@ -38,6 +38,6 @@ pub struct Tree31;
 #[branched_pendulum(
     gravity = 9.80665,
     tree: generations(count = 7, branching = 2, shape = rod, mass = 0.12, length = 0.3,
-        mass_ratio = 0.5, length_ratio = 0.7),
+        mass_ratio = 0.5, length_ratio = 0.7, code = unrolled),
 )]
 pub struct Tree127;
