@@ -124,10 +124,11 @@ impl Emission<'_> {
                 quote!((#above / #below))
             }
             Quantity::Power(base, exponent) => {
-                let factors = vec![self.scalar(base); exponent.unsigned_abs() as usize];
+                let power = vec![(**base).clone(); exponent.unsigned_abs() as usize];
+                let power = joined(&power, &quote!(*));
                 match *exponent < 0 {
-                    true => quote!((T::from_f64(1.0) / (#(#factors)**))),
-                    false => quote!((#(#factors)**)),
+                    true => quote!((T::from_f64(1.0) / #power)),
+                    false => power,
                 }
             }
             Quantity::Negative(value) => {

@@ -2,6 +2,7 @@
 
 use proc_macro2::Span;
 
+use super::bodies::Body;
 use super::requests::Resolved;
 use super::rule::Code;
 use super::template::{MAX_LINKS, Template, WholeRule};
@@ -16,6 +17,9 @@ const FEWEST: usize = 64;
 
 /// Most links of such a tree: what an index of 32 bits counts.
 const MOST: usize = 1 << 32;
+
+/// Most generations of such a tree whose bodies have parameters.
+const MOST_WITH_PARAMETERS: usize = 64;
 
 /// What the links of a scene in generations stand for.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,6 +161,20 @@ fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
     if lateral {
         return Some("lateral offsets".to_owned());
     }
+    // Their constants are formed of those of all generations below, in code.
+    let parameters = templates.len() > MOST_WITH_PARAMETERS
+        && templates.iter().any(|template| {
+            let Body {
+                mass, inertia, com, ..
+            } = &template.body;
+            let parts = [mass, inertia, &com.along, &template.pivot.along];
+            parts.into_iter().any(|value| value.exact().is_none())
+        });
+    if parameters {
+        return Some(format!(
+            "parameters in more than {MOST_WITH_PARAMETERS} generations"
+        ));
+    }
     let at_pivot = templates.iter().skip(1).any(|t| t.pivot.along.is_zero());
     at_pivot.then(|| "children that hang from their parent's pivot".to_owned())
 }
@@ -243,7 +261,7 @@ impl Constants {
         for (generation, link) in links.iter().enumerate().rev() {
             let child = links.get(generation + 1);
             let lever = child.map_or_else(Quantity::zero, |child| child.pivot.along.clone());
-            let about = Body::of(link)?;
+            let about = Turning::of(link)?;
             let hanging = product([&copies, &below]);
             let first_moment = Quantity::sum([about.moment.clone(), product([&lever, &hanging])]);
             energy.push([
@@ -258,7 +276,7 @@ impl Constants {
                 None => leaf(&about)?,
                 Some(child) => {
                     let next = links.get(generation + 2).map(|next| &next.pivot.along);
-                    inner(&about, &lever, &copies, &Body::of(child)?, next)?
+                    inner(&about, &lever, &copies, &Turning::of(child)?, next)?
                 }
             };
             for (there, force) in [
@@ -298,7 +316,7 @@ impl Constants {
 }
 
 /// A link about its pivot.
-struct Body {
+struct Turning {
     mass: Quantity,
     /// m d.
     moment: Quantity,
@@ -308,7 +326,7 @@ struct Body {
     central: Quantity,
 }
 
-impl Body {
+impl Turning {
     fn of(link: &Link) -> Result<Self, ExactError> {
         let distance = &link.com.along;
         let moment = product([&link.mass, distance]);
@@ -336,7 +354,7 @@ fn value(force: &Option<Quantity>) -> Quantity {
 }
 
 /// 1/J alone.
-fn leaf(body: &Body) -> Result<Vec<Quantity>, ExactError> {
+fn leaf(body: &Turning) -> Result<Vec<Quantity>, ExactError> {
     let mut row = vec![Quantity::zero(); 6];
     row[1] = Quantity::integer(1).divided_by(body.inertia.clone())?;
     Ok(row)
@@ -349,10 +367,10 @@ fn leaf(body: &Body) -> Result<Vec<Quantity>, ExactError> {
 /// A leaf pulls at its pivot with Φ = m I/J + (m² d²/J) u uᵀ, other children with
 /// Φ = m + (what they answer)/ℓ_j².
 fn inner(
-    body: &Body,
+    body: &Turning,
     lever: &Quantity,
     copies: &Quantity,
-    child: &Body,
+    child: &Turning,
     next: Option<&Quantity>,
 ) -> Result<Vec<Quantity>, ExactError> {
     let moment = product([&body.moment, lever]);

@@ -351,6 +351,49 @@ fn other_scalars_compute_the_same_tree() {
     }
 }
 
+/// The ternary tree with its numbers as parameters.
+#[branched_pendulum(
+    gravity = g,
+    tree: generations(count = 4, branching = 3, mass = m, com = 0.05, inertia = 1e-4, joint = l,
+        mass_ratio = r, length_ratio = 0.8, friction = c, drag = 1e-4, spring = 3e-3, code = loops),
+    emit(energies),
+)]
+struct Named;
+
+#[test]
+fn parameters_give_the_tree_of_their_values() {
+    let parameters = NamedParameters {
+        g: 9.80665,
+        m: 0.2,
+        l: 0.2,
+        r: 0.4,
+        c: 2e-4,
+    };
+    let named = Named::new(parameters).unwrap();
+    let literal = TernaryLoops::<f64>::new();
+    let n = <Named as Pendulum<f64>>::LINKS;
+    let mut random = Random::new(13);
+    let theta: Vec<f64> = (0..n).map(|_| random.array::<1>(-3.0, 3.0)[0]).collect();
+    let (mut own, mut other) = (vec![0.0; n], vec![0.0; n]);
+    named.accelerations_into(0.0, &theta, &theta, &mut own);
+    literal.accelerations_into(0.0, &theta, &theta, &mut other);
+    let size = other
+        .iter()
+        .fold(0.0, |size: f64, alpha| size.max(alpha.abs()));
+    for (own, other) in own.iter().zip(&other) {
+        assert!((own - other).abs() < 1e-12 * size);
+    }
+    let energy = literal.kinetic_energy(&theta, &theta);
+    assert!((named.kinetic_energy(&theta, &theta) - energy).abs() < 1e-14 * energy);
+    assert!(
+        Named::new(NamedParameters {
+            m: -1.0,
+            ..parameters
+        })
+        .is_err()
+    );
+}
+
 #[test]
 fn slices_of_another_length_give_nan() {
     let model = BinaryLoops::<f64>::new();
