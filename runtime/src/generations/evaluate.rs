@@ -46,6 +46,7 @@ struct Extent {
 }
 
 impl Extent {
+    #[inline(always)]
     fn new<T>(part: &Part<'_>, joints: bool) -> Self {
         let leaf = part.shape.counts.len().saturating_sub(1);
         let last = part.own(part.end.saturating_sub(1));

@@ -71,6 +71,8 @@ pub struct Generations<P, T, const C: usize, const L: usize, const R: usize, con
     root: [T; 2],
     energies: Vec<EnergyConstants<T>>,
     threads: usize,
+    /// How many numbers an evaluation needs room for.
+    room: usize,
     pool: pool::Pool<T>,
     recursion: PhantomData<P>,
 }
@@ -86,12 +88,15 @@ where
     /// for.
     #[must_use]
     pub fn new(constants: &[[T; C]], root: [T; 2], energies: &[EnergyConstants<T>]) -> Self {
+        let plan = Plan::new(P::COPIES);
+        let threads = threads::default(P::LINKS);
         Self {
-            plan: Plan::new(P::COPIES),
+            room: workspace::<T, R, K>(&plan, P::JOINTS, threads),
+            plan,
             constants: constants.to_vec(),
             root,
             energies: energies.to_vec(),
-            threads: threads::default(P::LINKS),
+            threads,
             pool: pool::Pool::new(),
             recursion: PhantomData,
         }
@@ -101,6 +106,7 @@ where
     /// apart. Results do not depend on it.
     pub fn set_threads(&mut self, threads: NonZeroUsize) {
         self.threads = threads.get();
+        self.room = workspace::<T, R, K>(&self.plan, P::JOINTS, self.threads);
         self.pool = pool::Pool::new();
     }
 
@@ -118,8 +124,7 @@ where
             theta,
             omega,
         };
-        let room = workspace::<T, R, K>(&self.plan, P::JOINTS, self.threads);
-        self.pool.lend(room, T::from_f64(0.0), |buffer| {
+        self.pool.lend(self.room, T::from_f64(0.0), |buffer| {
             accelerations::<P, T, C, L, R, K>(&given, alpha, buffer, self.threads);
         });
     }
@@ -225,6 +230,7 @@ impl<P, T: Clone, const C: usize, const L: usize, const R: usize, const K: usize
             root,
             energies,
             threads,
+            room,
             pool: _,
             recursion,
         } = self;
@@ -234,6 +240,7 @@ impl<P, T: Clone, const C: usize, const L: usize, const R: usize, const K: usize
             root: root.clone(),
             energies: energies.clone(),
             threads: *threads,
+            room: *room,
             pool: pool::Pool::new(),
             recursion: *recursion,
         }
@@ -251,6 +258,7 @@ impl<P, T: PartialEq, const C: usize, const L: usize, const R: usize, const K: u
             root,
             energies,
             threads: _,
+            room: _,
             pool: _,
             recursion: _,
         } = self;
@@ -271,6 +279,7 @@ impl<P, T: fmt::Debug, const C: usize, const L: usize, const R: usize, const K: 
             root,
             energies,
             threads,
+            room: _,
             pool: _,
             recursion: _,
         } = self;

@@ -9,6 +9,7 @@ pub(super) struct Shape<'a> {
 }
 
 impl Shape<'_> {
+    #[inline(always)]
     pub(super) fn count(&self, generation: usize) -> usize {
         self.counts.get(generation).copied().unwrap_or(0)
     }
@@ -52,10 +53,12 @@ pub(super) struct Run {
 }
 
 impl Part<'_> {
+    #[inline(always)]
     fn stride(&self) -> usize {
         self.shape.count(self.first).max(1)
     }
 
+    #[inline(always)]
     fn is_whole(&self) -> bool {
         self.width == self.stride()
     }
@@ -77,6 +80,7 @@ impl Part<'_> {
 
     /// The first link of a generation in the part's own arrays; of the one
     /// behind its last, their length.
+    #[inline(always)]
     pub(super) fn own(&self, generation: usize) -> usize {
         self.share(
             self.shape
@@ -86,6 +90,7 @@ impl Part<'_> {
     }
 
     /// Runs of neighbours in a generation, whose first link stands at `own`.
+    #[inline(always)]
     pub(super) fn runs(&self, generation: usize, own: usize) -> impl Iterator<Item = Run> {
         let count = self.count(generation);
         let (length, runs) = match self.is_whole() {
@@ -108,6 +113,7 @@ impl Part<'_> {
     }
 
     /// All links as runs. Those of a whole tree are neighbours.
+    #[inline(always)]
     pub(super) fn all(&self) -> impl Iterator<Item = Run> {
         let whole = self.is_whole().then(|| Run {
             own: 0,
