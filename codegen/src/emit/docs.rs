@@ -26,6 +26,9 @@ impl Emission<'_> {
 
     pub(super) fn model_docs(&self) -> TokenStream {
         let scene = self.scene;
+        if let Some(generations) = &scene.generations {
+            return self.generations_docs(generations);
+        }
         let links: Vec<&str> = scene.links.iter().map(|link| link.name.as_str()).collect();
         let mut lines = vec![
             String::new(),

@@ -7,6 +7,7 @@ mod drive;
 mod formulas;
 mod function;
 mod gather;
+mod generations;
 mod model;
 mod names;
 mod observables;
@@ -51,6 +52,10 @@ pub fn emit(
         program,
     };
     let model = emission.model();
+    if let Some(generations) = &scene.generations {
+        let code = emission.generations(generations);
+        return quote!(#model #code);
+    }
     let functions = program.entries.iter().map(|entry| match entry.purpose {
         Purpose::TaylorCoefficients => emission.taylor_coefficients(entry),
         _ => emission.function(entry),

@@ -5,14 +5,15 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use branched_pendulum_examples::evaluation_speed::{accuracy, measure, output};
+use branched_pendulum_examples::evaluation_speed::{accuracy, large, measure, output};
 use branched_pendulum_examples::exit;
 
 const HELP: &str = "\
 What do the accelerations of one state cost, in emitted code one by one and in
 batches, against the system's sines and cosines alone, code written by hand for
 the paper's pendulum, a recursion that takes any tree as a table, and the
-textbook's dense matrix? And how far is each from the truth?
+textbook's dense matrix? How far is each from the truth? And what do large trees
+cost, in loops, by the number of threads?
 
 Usage: evaluation-speed [--output FOLDER]
 
@@ -43,7 +44,8 @@ fn main() -> ExitCode {
     };
     let rows = measure::all(REPEATS);
     println!("{}", output::table(&rows));
-    print!("{}", output::errors(&accuracy::all(STATES)));
+    println!("{}", output::errors(&accuracy::all(STATES)));
+    print!("{}", large::table(&large::all()));
     exit::of_run(
         "evaluation-speed",
         match folder {

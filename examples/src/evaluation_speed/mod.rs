@@ -5,6 +5,7 @@ pub mod accuracy;
 pub mod articulated;
 pub mod by_hand;
 pub mod dense;
+pub mod large;
 pub mod measure;
 pub mod output;
 mod random;

@@ -6,6 +6,7 @@ use super::lanes::{Lane, Sealed};
 #[cfg(target_arch = "x86_64")]
 use super::register;
 use super::{Real, Scalar, sincos};
+use crate::generations::{SliceKernel, vectors};
 use crate::system::rescale::{self, Rescale};
 
 macro_rules! implement_scalar {
@@ -35,6 +36,11 @@ macro_rules! implement_scalar {
                 return $float::sqrt(self);
                 #[cfg(all(feature = "libm", not(feature = "std")))]
                 return libm::$sqrt(self);
+            }
+
+            #[inline]
+            fn over_slices<K: SliceKernel<Self>>(kernel: K) {
+                vectors::run(kernel);
             }
 
             #[inline(always)]

@@ -55,6 +55,7 @@ pub use wide::Double;
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
+use crate::generations::{Single, SliceKernel};
 use crate::model::Part;
 use crate::system::rescale::{self, Rescale};
 
@@ -89,6 +90,8 @@ pub trait Scalar:
     + Mul<Output = Self>
     + Div<Output = Self>
     + Neg<Output = Self>
+    + Send
+    + Sync
     + 'static
 {
     /// The value of this type nearest to `value`; for lanes, the same value in
@@ -121,6 +124,14 @@ pub trait Scalar:
 
     /// Square root.
     fn sqrt(self) -> Self;
+
+    /// Computes over slices of such numbers, several at a time where the type
+    /// can.
+    #[doc(hidden)]
+    #[inline]
+    fn over_slices<K: SliceKernel<Self>>(kernel: K) {
+        kernel.run::<Single>();
+    }
 
     /// `self * factor + addend`, fused where the type says so: rounded once then,
     /// and twice by default.
