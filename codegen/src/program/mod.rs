@@ -28,6 +28,7 @@ mod verify;
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use rebuild::Rebuilt;
+pub use taylor::Expansion;
 pub use verify::Fault;
 
 use crate::exact::Rational;

@@ -2,9 +2,10 @@
 
 use super::lanes::{Lane, Sealed};
 use super::{Real, Scalar, sincos};
+use crate::taylor::{Kernel, run_f64};
 
 macro_rules! implement_scalar {
-    ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident) => {
+    ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident $(, $packs:path)?) => {
         impl Scalar for $float {
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
@@ -30,6 +31,12 @@ macro_rules! implement_scalar {
                 #[cfg(all(feature = "libm", not(feature = "std")))]
                 return libm::$sqrt(self);
             }
+            $(
+                #[inline(always)]
+                fn run_packs<K: Kernel<Self>>(kernel: K) {
+                    $packs(kernel);
+                }
+            )?
         }
 
         impl Lane for $float {
@@ -73,7 +80,14 @@ macro_rules! implement_scalar {
     };
 }
 
-implement_scalar!(f64, sincos::sin_cos_f64, sincos::several_f64, sqrt, pow);
+implement_scalar!(
+    f64,
+    sincos::sin_cos_f64,
+    sincos::several_f64,
+    sqrt,
+    pow,
+    run_f64
+);
 implement_scalar!(f32, sincos::sin_cos_f32, sincos::several_f32, sqrtf, powf);
 
 #[cfg(test)]

@@ -34,6 +34,8 @@ pub use wide::Double;
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
+use crate::taylor::{Kernel, Quad};
+
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
     "branched-pendulum needs sine, cosine and square root: \
@@ -89,6 +91,14 @@ pub trait Scalar:
 
     /// Square root.
     fn sqrt(self) -> Self;
+
+    /// Runs a computation of Taylor coefficients in the vector instructions
+    /// that the machine has for this type.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn run_packs<K: Kernel<Self>>(kernel: K) {
+        kernel.run::<Quad<Self>>();
+    }
 }
 
 /// A real number with an order: what step-size control needs besides

@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum::taylor::Factors;
+use branched_pendulum::system::TaylorPendulum;
+use branched_pendulum::taylor::Quad;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::driven_series::{DrivenSeries, DrivenSeriesParameters};
 use branched_pendulum_tests::scenes::series::Series;
@@ -15,39 +16,39 @@ use crate::reference::reference_state;
 /// The polynomials through order `order`, for which the equation's own
 /// accelerations differ from the second derivative by O(τ^order).
 struct Expansion<T> {
-    coefficients: Vec<[T; 6]>,
+    coefficients: Vec<[[T; 3]; 2]>,
 }
 
 impl<T: Scalar> Expansion<T> {
-    fn new<const P: usize>(
+    fn new<P: TaylorPendulum<T>>(
         order: u32,
-        expand: impl FnOnce(&mut [[T; 6]], &mut [Factors<T, P>]),
+        expand: impl FnOnce(&mut [[[T; 3]; 2]], &mut [Quad<T>]),
     ) -> Self {
         let (zero, order) = (T::from_f64(0.0), order as usize);
-        let mut coefficients = vec![[zero; 6]; order + 1];
+        let mut coefficients = vec![[[zero; 3]; 2]; order + 1];
         // What stands in the workspace before does not count.
         let nan = T::from_f64(f64::NAN);
-        let mut factors = vec![[[nan; P]; 2]; order - 1];
-        expand(&mut coefficients, &mut factors);
+        let mut work = vec![Quad([nan; 4]); P::taylor_workspace(order)];
+        expand(&mut coefficients, &mut work);
         Self { coefficients }
     }
 
     fn state(&self, tau: T) -> ([T; 3], [T; 3]) {
-        let mut sum = [T::from_f64(0.0); 6];
+        let mut sum = [[T::from_f64(0.0); 3]; 2];
         for row in self.coefficients.iter().rev() {
-            for (sum, coefficient) in sum.iter_mut().zip(row) {
+            for (sum, coefficient) in sum.as_flattened_mut().iter_mut().zip(row.as_flattened()) {
                 *sum = *sum * tau + *coefficient;
             }
         }
-        let [a, b, c, u, v, w] = sum;
-        ([a, b, c], [u, v, w])
+        let [theta, omega] = sum;
+        (theta, omega)
     }
 
     /// dω/dτ of the polynomial.
     fn derivative(&self, tau: T) -> [T; 3] {
         let mut sum = [T::from_f64(0.0); 3];
         for (k, row) in self.coefficients.iter().enumerate().skip(1).rev() {
-            for (sum, coefficient) in sum.iter_mut().zip(&row[3..]) {
+            for (sum, coefficient) in sum.iter_mut().zip(&row[1]) {
                 *sum = *sum * tau + T::from_f64(k as f64) * *coefficient;
             }
         }
@@ -117,8 +118,8 @@ fn polynomials_of_the_free_tree_solve_its_equation() {
     solves_the_equation(
         1.0,
         |order, theta, omega| {
-            Expansion::new(order, |coefficients, factors| {
-                model.taylor_coefficients(theta, omega, coefficients, factors);
+            Expansion::new::<Series<Double>>(order, |coefficients, work| {
+                model.taylor_coefficients(theta, omega, coefficients, work);
             })
         },
         |_, theta, omega| model.accelerations(theta, omega),
@@ -145,9 +146,9 @@ fn polynomials_of_the_driven_tree_solve_its_equation() {
     solves_the_equation(
         2.5,
         |order, theta, omega| {
-            Expansion::new(order, |coefficients, factors| {
+            Expansion::new::<DrivenSeries<Double>>(order, |coefficients, work| {
                 let time = Double::from_f64(start);
-                model.taylor_coefficients(time, theta, omega, coefficients, factors);
+                model.taylor_coefficients(time, theta, omega, coefficients, work);
             })
         },
         |tau, theta, omega| model.accelerations(Double::from_f64(start) + tau, theta, omega),
@@ -163,20 +164,20 @@ fn low_orders_are_the_accelerations() {
     for _ in 0..100 {
         let (theta, omega): ([f64; 3], [f64; 3]) =
             (random.array(-3.0, 3.0), random.array(-9.0, 9.0));
-        let mut coefficients = [[0.0; 6]; 4];
-        let mut factors = [[[0.0; 32]; 2]; 2];
-        model.taylor_coefficients(&theta, &omega, &mut coefficients, &mut factors);
+        let mut coefficients = [[[0.0; 3]; 2]; 4];
+        let mut work = vec![Quad([0.0; 4]); Series::<f64>::taylor_workspace(3)];
+        model.taylor_coefficients(&theta, &omega, &mut coefficients, &mut work);
         let alpha = model.accelerations(&theta, &omega);
-        assert_eq!(coefficients[0][..3], theta);
-        assert_eq!(coefficients[0][3..], omega);
-        assert_eq!(coefficients[1][..3], omega);
-        assert_eq!(coefficients[1][3..], alpha);
-        assert_eq!(coefficients[2][..3], alpha.map(|alpha| alpha / 2.0));
-        let mut lower = [[0.0; 6]; 1];
-        model.taylor_coefficients(&theta, &omega, &mut lower, &mut []);
+        assert_eq!(coefficients[0], [theta, omega]);
+        assert_eq!(coefficients[1], [omega, alpha]);
+        assert_eq!(coefficients[2][0], alpha.map(|alpha| alpha / 2.0));
+        let mut lower = [[[0.0; 3]; 2]; 1];
+        model.taylor_coefficients(&theta, &omega, &mut lower, &mut work);
         assert_eq!(lower[0], coefficients[0]);
-        model.taylor_coefficients(&theta, &omega, &mut coefficients, &mut factors[..1]);
-        assert!(coefficients.as_flattened().iter().all(|c| c.is_nan()));
+        let short = work.len() - 1;
+        model.taylor_coefficients(&theta, &omega, &mut coefficients, &mut work[..short]);
+        let flat = coefficients.as_flattened().as_flattened();
+        assert!(flat.iter().all(|c| c.is_nan()));
     }
 }
 

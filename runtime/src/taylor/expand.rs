@@ -1,0 +1,437 @@
+//! The recurrences of a tree.
+//!
+//! With S = (sin θ)'' and C = (cos θ)'' of each link, the equation of motion of
+//! link i is linear in these second derivatives,
+//!
+//! A_ii α_i + c_i X_i − s_i Y_i + bias_i = 0,
+//! X_i = Σ_j (A_ij S_j + B_ij C_j), Y_i = Σ_j (A_ij C_j − B_ij S_j),
+//!
+//! for a mass matrix M_ij = A_ij cos(θ_i − θ_j) + B_ij sin(θ_i − θ_j): X and Y
+//! are the force, times its lever, that the links connected with i exert on it,
+//! across and along the vertical. Four products of series a link are all there
+//! is, for a tree of any shape and depth. In order k, S\[k\] = P + c\[0\] α\[k\]
+//! where P is known, C\[k\] likewise, so that M(θ\[0\]) α\[k\] = −r with r of
+//! known terms: one inverse, of order 0, serves all orders.
+
+use super::matrix::{Vector, invert_negative, product};
+use super::quad::{Kernel, Pack, Quad};
+use crate::scalar::Scalar;
+
+/// Where an expansion starts.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<'a, T, const N: usize> {
+    /// Angles θ, rad.
+    pub theta: &'a [T; N],
+    /// Angular velocities ω, rad/s.
+    pub omega: &'a [T; N],
+    /// sin θ.
+    pub sines: [T; N],
+    /// cos θ.
+    pub cosines: [T; N],
+    /// Angular accelerations α, rad/s².
+    pub accelerations: [T; N],
+}
+
+/// What stays the same in all expansions of a tree.
+#[derive(Clone, Copy, Debug)]
+pub struct Tree<'a, T, const N: usize> {
+    /// Diagonal of the mass matrix, kg m².
+    pub inertias: [T; N],
+    /// The mass matrix outside the diagonal.
+    pub couplings: &'a [Coupling<T>],
+    /// G_i of the torque −G_i sin θ_i − F_i cos θ_i of gravity, J.
+    pub weights: [T; N],
+    /// F_i of the same, J.
+    pub lateral_weights: [T; N],
+}
+
+/// The entry a cos(θ_i − θ_j) + b sin(θ_i − θ_j) of the mass matrix.
+#[derive(Clone, Copy, Debug)]
+pub struct Coupling<T> {
+    /// Row i and column j.
+    pub links: [usize; 2],
+    /// a, kg m².
+    pub cosine: T,
+    /// b, kg m²; none if it is zero by shape.
+    pub sine: Option<T>,
+}
+
+/// Coefficients of one order of what a torque may depend on, of all links.
+#[derive(Clone, Copy, Debug)]
+pub struct Known<T, const N: usize> {
+    /// Which order.
+    pub order: usize,
+    /// Of the angles.
+    pub theta: [T; N],
+    /// Of the angular velocities.
+    pub omega: [T; N],
+    /// Of their sines.
+    pub sines: [T; N],
+    /// Of their cosines.
+    pub cosines: [T; N],
+}
+
+/// Quads that [`expand`] works in, for `links` links and polynomials of order
+/// `order`.
+#[must_use]
+pub const fn workspace(links: usize, order: usize) -> usize {
+    links.div_ceil(4) * (SERIES * (order + 1) + 4 * links)
+}
+
+/// Writes the Taylor coefficients of the motion from `start`, order by order:
+/// those of the angles, then those of the angular velocities. `M` must be
+/// ⌈N/4⌉.
+///
+/// `bias`, if there is one, returns the coefficient of an order of what else
+/// stands in the equation of motion, Σ M_ij α_j + … + bias_i = 0, with the sign
+/// of friction c ω. It is called with every order from 1 on, in turn.
+///
+/// Where `M` or the length of `work` ([`workspace`]) does not fit, or a
+/// coupling names a link that is not there, all coefficients are NaN.
+///
+/// Complexity: O(n² + n p) for each of p orders of n links, and O(n³) for the
+/// inverse. Uses AVX2 and FMA for `f64` where the machine has them: results
+/// there differ by rounding from those elsewhere.
+#[inline(always)]
+pub fn expand<T: Scalar, const N: usize, const M: usize, F>(
+    start: &Start<'_, T, N>,
+    tree: &Tree<'_, T, N>,
+    coefficients: &mut [[[T; N]; 2]],
+    work: &mut [Quad<T>],
+    bias: Option<F>,
+) where
+    F: FnMut(&Known<T, N>) -> [T; N],
+{
+    let order = coefficients.len().saturating_sub(1);
+    let (vectors, _) = work.as_chunks_mut::<M>();
+    let mut links = tree.couplings.iter().flat_map(|coupling| coupling.links);
+    let fits = M == N.div_ceil(4) && links.all(|link| link < N);
+    if !fits || vectors.len() * M < workspace(N, order) {
+        coefficients
+            .as_flattened_mut()
+            .as_flattened_mut()
+            .fill(T::from_f64(f64::NAN));
+        return;
+    }
+    let orders = [
+        [*start.theta, *start.omega],
+        [*start.omega, start.accelerations],
+    ];
+    for (row, values) in coefficients.iter_mut().zip(orders) {
+        *row = values;
+    }
+    T::run_packs(Orders {
+        start,
+        tree,
+        coefficients,
+        vectors,
+        bias,
+    });
+}
+
+/// Series that are kept: ω, cos θ, sin θ, X, Y.
+const SERIES: usize = 5;
+
+/// The orders of an expansion from 1 on.
+struct Orders<'a, T, F, const N: usize, const M: usize> {
+    start: &'a Start<'a, T, N>,
+    tree: &'a Tree<'a, T, N>,
+    coefficients: &'a mut [[[T; N]; 2]],
+    vectors: &'a mut [Vector<T, M>],
+    bias: Option<F>,
+}
+
+impl<T: Scalar, F, const N: usize, const M: usize> Kernel<T> for Orders<'_, T, F, N, M>
+where
+    F: FnMut(&Known<T, N>) -> [T; N],
+{
+    // One index into all vectors at once.
+    #[allow(clippy::needless_range_loop)]
+    #[inline(always)]
+    fn run<P: Pack<T>>(self) {
+        let Self {
+            start,
+            tree,
+            coefficients,
+            vectors,
+            mut bias,
+        } = self;
+        let (along, vectors) = vectors.split_at_mut(N);
+        let (across, vectors) = vectors.split_at_mut(N);
+        let (turning, vectors) = vectors.split_at_mut(N);
+        let (inverse, vectors) = vectors.split_at_mut(N);
+        let (rows, _) = vectors.as_chunks_mut::<SERIES>();
+        let levers = Levers::<T, N, M>::new(tree.couplings, along, across);
+        levers.mass_matrix::<P>(start, &tree.inertias, inverse, turning);
+        invert_negative::<T, P, N, M>(inverse);
+
+        let zero = P::splat(T::from_f64(0.0));
+        let [c0, s0, omega]: [[P; M]; 3] = [&start.cosines, &start.sines, start.omega].map(packs);
+        let [weights, lateral_weights]: [[P; M]; 2] =
+            [&tree.weights, &tree.lateral_weights].map(packs);
+
+        // Order 1 of the series. X and Y stand two rows below their order, so
+        // that all sums run over equal rows.
+        let (mut c1, mut s1) = (c0, s0);
+        // S and C of order 0 without their terms in α[0].
+        let (mut s_known, mut c_known) = (c0, s0);
+        for m in 0..M {
+            c1[m] = zero.minus_product(s0[m], omega[m]);
+            s1[m] = c0[m].times(omega[m]);
+            let row = [omega[m], c1[m], s1[m], zero, zero];
+            for (series, value) in rows[0].iter_mut().zip(row) {
+                value.store(&mut series[m]);
+            }
+            s_known[m] = c1[m].times(omega[m]);
+            c_known[m] = zero.minus_product(s1[m], omega[m]);
+        }
+        let mut alpha: [P; M] = packs(&start.accelerations);
+
+        let last = coefficients.len().saturating_sub(1);
+        let one = T::from_f64(1.0);
+        let (mut number, mut reciprocal) = (one, one);
+        for k in 1..last {
+            // k + 1, 1/k, 1/(k + 1), (k + 2)/k.
+            let over_k = P::splat(reciprocal);
+            let ratio = P::splat(one + (reciprocal + reciprocal));
+            number = number + one;
+            reciprocal = one / number;
+            let (factor, over_next) = (P::splat(number), P::splat(reciprocal));
+            let over_both = over_k.times(over_next);
+
+            // The torque of order k, and S, C, as far as they do not depend on
+            // α[k−1]: there was time for them while that was formed.
+            let (mut s_next, mut c_next) = (s_known, c_known);
+            let mut torque = [zero; M];
+            for m in 0..M {
+                let sums = sums::<T, P, M>(&rows[1..k.max(1)], m);
+                let omega_over_k = omega[m].times(over_k);
+                s_next[m] = factor
+                    .times(sums.omega_cos)
+                    .plus_product(omega_over_k, c_known[m]);
+                c_next[m] = zero
+                    .minus_product(factor, sums.omega_sin)
+                    .minus_product(omega_over_k, s_known[m]);
+                torque[m] = sums
+                    .torque
+                    .plus_product(weights[m], P::load(&rows[k - 1][2][m]))
+                    .plus_product(lateral_weights[m], P::load(&rows[k - 1][1][m]));
+            }
+            let (x, y) = levers.forces(&s_next, &c_next);
+            for m in 0..M {
+                torque[m] = torque[m]
+                    .plus_product(c0[m], x[m])
+                    .minus_product(s0[m], y[m]);
+            }
+
+            // S, C, X, Y of order k − 1; cos, sin, θ of order k + 1, ω of k.
+            let (mut s, mut c, mut turned) = (s_known, c_known, alpha);
+            let mut theta = [Quad([T::from_f64(0.0); 4]); M];
+            for m in 0..M {
+                s[m] = s_known[m].plus_product(c0[m], alpha[m]);
+                c[m] = c_known[m].minus_product(s0[m], alpha[m]);
+                turned[m] = alpha[m].times(omega[m]);
+                let rate = alpha[m].times(over_k);
+                let row = [rate, c[m].times(over_both), s[m].times(over_both)];
+                for (series, value) in rows[k].iter_mut().zip(row) {
+                    value.store(&mut series[m]);
+                }
+                rate.times(over_next).store(&mut theta[m]);
+            }
+            numbers(&rows[k][0], &mut coefficients[k][1]);
+            numbers(&theta, &mut coefficients[k + 1][0]);
+            let (x, y) = levers.forces(&s, &c);
+            let turned = product::<T, P, N, M>(turning, &turned);
+            for m in 0..M {
+                x[m].store(&mut rows[k][3][m]);
+                y[m].store(&mut rows[k][4][m]);
+                let newest = alpha[m].times(ratio);
+                s_known[m] = s_next[m].plus_product(newest, c1[m]);
+                c_known[m] = c_next[m].minus_product(newest, s1[m]);
+                torque[m] = torque[m]
+                    .plus_product(ratio, turned[m])
+                    .plus_product(c1[m], x[m])
+                    .minus_product(s1[m], y[m]);
+            }
+            if let Some(bias) = &mut bias {
+                let [theta, omega] = coefficients[k];
+                let (mut sines, mut cosines) = (theta, theta);
+                numbers(&rows[k - 1][2], &mut sines);
+                numbers(&rows[k - 1][1], &mut cosines);
+                let others: [P; M] = packs(&bias(&Known {
+                    order: k,
+                    theta,
+                    omega,
+                    sines,
+                    cosines,
+                }));
+                for m in 0..M {
+                    torque[m] = torque[m].plus(others[m]);
+                }
+            }
+            // M α[k] = −torque
+            alpha = product::<T, P, N, M>(inverse, &torque);
+        }
+        if last > 0 {
+            let over = P::splat(reciprocal);
+            let mut omega = [Quad([T::from_f64(0.0); 4]); M];
+            for m in 0..M {
+                alpha[m].times(over).store(&mut omega[m]);
+            }
+            numbers(&omega, &mut coefficients[last][1]);
+        }
+    }
+}
+
+/// The connections between links, as columns of two matrices.
+struct Levers<'a, T, const N: usize, const M: usize> {
+    /// A, symmetric, without its diagonal.
+    along: &'a [Vector<T, M>],
+    /// B, antisymmetric, if it is not zero.
+    across: Option<&'a [Vector<T, M>]>,
+}
+
+impl<'a, T: Scalar, const N: usize, const M: usize> Levers<'a, T, N, M> {
+    /// The couplings, written to columns of `along` and `across`.
+    #[inline(always)]
+    fn new(
+        couplings: &[Coupling<T>],
+        along: &'a mut [Vector<T, M>],
+        across: &'a mut [Vector<T, M>],
+    ) -> Self {
+        along.fill([Quad::splat(T::from_f64(0.0)); M]);
+        let lateral = couplings.iter().any(|coupling| coupling.sine.is_some());
+        if lateral {
+            across.fill([Quad::splat(T::from_f64(0.0)); M]);
+        }
+        for coupling in couplings {
+            let [i, j] = coupling.links;
+            along[j][i / 4].0[i % 4] = coupling.cosine;
+            along[i][j / 4].0[j % 4] = coupling.cosine;
+            if let Some(sine) = coupling.sine {
+                across[j][i / 4].0[i % 4] = sine;
+                across[i][j / 4].0[j % 4] = -sine;
+            }
+        }
+        Self {
+            along,
+            across: lateral.then_some(across),
+        }
+    }
+
+    /// To columns of `mass`, A cos(θ_i − θ_j) + B sin(θ_i − θ_j) with the
+    /// diagonal; to `turning`, its derivatives in θ_j.
+    #[inline(always)]
+    fn mass_matrix<P: Pack<T>>(
+        &self,
+        start: &Start<'_, T, N>,
+        inertias: &[T; N],
+        mass: &mut [Vector<T, M>],
+        turning: &mut [Vector<T, M>],
+    ) {
+        let [cosines, sines]: [[P; M]; 2] = [&start.cosines, &start.sines].map(packs);
+        for (j, (mass, turning)) in mass.iter_mut().zip(turning).enumerate() {
+            let (cosine, sine) = (P::splat(start.cosines[j]), P::splat(start.sines[j]));
+            for m in 0..M {
+                let cos_between = cosines[m].times(cosine).plus_product(sines[m], sine);
+                let sin_between = sines[m].times(cosine).minus_product(cosines[m], sine);
+                let along = P::load(&self.along[j][m]);
+                let (mut entry, mut slope) = (along.times(cos_between), along.times(sin_between));
+                if let Some(across) = self.across {
+                    let across = P::load(&across[j][m]);
+                    entry = entry.plus_product(across, sin_between);
+                    slope = slope.minus_product(across, cos_between);
+                }
+                entry.store(&mut mass[m]);
+                slope.store(&mut turning[m]);
+            }
+            mass[j / 4].0[j % 4] = inertias[j];
+        }
+    }
+
+    /// X = A S + B C, Y = A C − B S.
+    #[inline(always)]
+    fn forces<P: Pack<T>>(&self, s: &[P; M], c: &[P; M]) -> ([P; M], [P; M]) {
+        let mut x = product::<T, P, N, M>(self.along, s);
+        let mut y = product::<T, P, N, M>(self.along, c);
+        if let Some(across) = self.across {
+            let (of_c, of_s) = (
+                product::<T, P, N, M>(across, c),
+                product::<T, P, N, M>(across, s),
+            );
+            for m in 0..M {
+                x[m] = x[m].plus(of_c[m]);
+                y[m] = y[m].minus(of_s[m]);
+            }
+        }
+        (x, y)
+    }
+}
+
+/// Sums of products in one order.
+struct Sums<P> {
+    /// Σ ω\[j−1\] cos\[k+2−j\]
+    omega_cos: P,
+    /// Σ ω\[j−1\] sin\[k+2−j\]
+    omega_sin: P,
+    /// Σ cos\[j\] X\[k−j\] − sin\[j\] Y\[k−j\]
+    torque: P,
+}
+
+/// The sums over all rows, each with the one as far from the other end, from
+/// the middle outwards: what was formed last is added last.
+#[inline(always)]
+fn sums<T: Scalar, P: Pack<T>, const M: usize>(
+    rows: &[[Vector<T, M>; SERIES]],
+    m: usize,
+) -> Sums<P> {
+    let (early, rest) = rows.split_at(rows.len() / 2);
+    let (middle, late) = rest.split_at(rest.len() - early.len());
+    let load = |row: &[Vector<T, M>; SERIES], series: usize| P::load(&row[series][m]);
+    // Two partial sums each, so that none waits for the other.
+    let mut partial = [P::splat(T::from_f64(0.0)); 8];
+    for row in middle {
+        let [omega, cos, sin, x, y] = [0, 1, 2, 3, 4].map(|series| load(row, series));
+        partial[0] = omega.times(cos);
+        partial[2] = omega.times(sin);
+        partial[4] = cos.times(x);
+        partial[6] = sin.times(y);
+    }
+    for (row, opposite) in early.iter().rev().zip(late) {
+        let [omega, cos, sin, x, y] = [0, 1, 2, 3, 4].map(|series| load(row, series));
+        let [omega_2, cos_2, sin_2, x_2, y_2] =
+            [0, 1, 2, 3, 4].map(|series| load(opposite, series));
+        partial[0] = partial[0].plus_product(omega, cos_2);
+        partial[1] = partial[1].plus_product(omega_2, cos);
+        partial[2] = partial[2].plus_product(omega, sin_2);
+        partial[3] = partial[3].plus_product(omega_2, sin);
+        partial[4] = partial[4].plus_product(cos, x_2);
+        partial[5] = partial[5].plus_product(cos_2, x);
+        partial[6] = partial[6].plus_product(sin, y_2);
+        partial[7] = partial[7].plus_product(sin_2, y);
+    }
+    Sums {
+        omega_cos: partial[0].plus(partial[1]),
+        omega_sin: partial[2].plus(partial[3]),
+        torque: (partial[4].minus(partial[6])).plus(partial[5].minus(partial[7])),
+    }
+}
+
+/// Numbers of all links as packs, zero where there is no link.
+#[inline(always)]
+fn packs<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(numbers: &[T; N]) -> [P; M] {
+    core::array::from_fn(|m| {
+        let zero = T::from_f64(0.0);
+        P::load(&Quad(core::array::from_fn(|i| {
+            numbers.get(4 * m + i).copied().unwrap_or(zero)
+        })))
+    })
+}
+
+/// The numbers of all links.
+#[inline(always)]
+fn numbers<T: Scalar, const N: usize, const M: usize>(vector: &Vector<T, M>, out: &mut [T; N]) {
+    for (i, out) in out.iter_mut().enumerate() {
+        *out = vector[i / 4].0[i % 4];
+    }
+}
