@@ -1,6 +1,6 @@
-//! The function for the Taylor coefficients of the motion: order 0 as in the
-//! accelerations, then the constants that the recurrences of the runtime ask
-//! for, and what is not among these as a closure for one order.
+//! The function for the Taylor coefficients of the motion: the constants that the recurrences of the runtime ask
+//! for, and what is not among these, at the start and as a closure for one
+//! order.
 
 use super::Emission;
 use super::docs::doc_lines;
@@ -34,7 +34,7 @@ impl Emission<'_> {
             quote!([#(#values),*])
         };
         let (sines, cosines) = (list(&expansion.sines), list(&expansion.cosines));
-        let accelerations = list(&expansion.accelerations);
+        let bias_0 = list(&expansion.bias);
         let (inertias, weights) = (list(&expansion.inertias), list(&expansion.weights));
         let lateral_weights = list(&expansion.lateral_weights);
         let runtime = self.runtime();
@@ -89,7 +89,7 @@ impl Emission<'_> {
                     omega,
                     sines: #sines,
                     cosines: #cosines,
-                    accelerations: #accelerations,
+                    bias: #bias_0,
                 };
                 let tree = #runtime::taylor::Tree {
                     inertias: #inertias,
@@ -112,14 +112,17 @@ impl Emission<'_> {
 
     fn taylor_docs(&self, entry: &Entry, expansion: &Expansion, sums: usize) -> TokenStream {
         let mut lines = self.meaning(entry.purpose);
-        let operations = self.program.operations(&expansion.accelerations);
+        let start = [&expansion.sines, &expansion.cosines, &expansion.bias];
+        let operations = self
+            .program
+            .operations(&start.into_iter().flatten().copied().collect::<Vec<_>>());
         let mut products = format!("{} products of series", 4 * self.scene.links.len());
         if sums > 0 {
             products += &format!(", and {sums} in functions of the time");
         }
         lines.push(String::new());
         lines.push(format!(
-            "Cost of order 0: {operations}, and the inverse of the mass matrix. Each order k > 0: no sin_cos, {products}, of k terms each."
+            "Cost of order 0: {operations}, and the inverse of the mass matrix. Each order k: {products}, of k terms each."
         ));
         doc_lines(&lines)
     }

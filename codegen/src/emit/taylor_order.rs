@@ -114,6 +114,7 @@ impl<'e> Recurrences<'e> {
     /// in order k.
     pub(super) fn start(&self, expansion: &Expansion) -> Entry {
         let mut outputs = roots(expansion);
+        outputs.extend(&expansion.bias);
         for &id in &self.needed {
             outputs.extend(self.read_again(id));
         }
@@ -507,15 +508,6 @@ fn with_partners(emission: &Emission<'_>, bias: &[ValueId]) -> Vec<ValueId> {
 
 /// What an expansion starts from.
 fn roots(expansion: &Expansion) -> Vec<ValueId> {
-    let Expansion {
-        accelerations,
-        sines,
-        cosines,
-        ..
-    } = expansion;
-    [accelerations, sines, cosines]
-        .into_iter()
-        .flatten()
-        .copied()
-        .collect()
+    let lists = [&expansion.sines, &expansion.cosines];
+    lists.into_iter().flatten().copied().collect()
 }

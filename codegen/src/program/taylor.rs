@@ -13,8 +13,6 @@ use crate::mechanics::{Frame, Mechanics, Trigonometric};
 /// What the outputs of the entry are; links in their order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Expansion {
-    /// θ̈.
-    pub accelerations: Vec<ValueId>,
     /// sin θ.
     pub sines: Vec<ValueId>,
     /// cos θ.
@@ -39,15 +37,8 @@ impl Expansion {
         let pairs = couplings(frame);
         let mut outputs = outputs.iter().copied();
         let mut take = |count: usize| outputs.by_ref().take(count).collect::<Vec<_>>();
-        let [
-            accelerations,
-            sines,
-            cosines,
-            inertias,
-            weights,
-            lateral_weights,
-            bias,
-        ] = std::array::from_fn(|_| take(links));
+        let [sines, cosines, inertias, weights, lateral_weights, bias] =
+            std::array::from_fn(|_| take(links));
         let values = take(2 * pairs.len());
         let couplings = pairs
             .iter()
@@ -55,7 +46,6 @@ impl Expansion {
             .map(|(&(row, column, _), pair)| ([row, column], [pair[0], pair[1]]))
             .collect();
         Self {
-            accelerations,
             sines,
             cosines,
             inertias,
@@ -68,7 +58,6 @@ impl Expansion {
 
     fn outputs(&self) -> Vec<ValueId> {
         let Self {
-            accelerations,
             sines,
             cosines,
             inertias,
@@ -77,15 +66,7 @@ impl Expansion {
             couplings,
             bias,
         } = self;
-        let lists = [
-            accelerations,
-            sines,
-            cosines,
-            inertias,
-            weights,
-            lateral_weights,
-            bias,
-        ];
+        let lists = [sines, cosines, inertias, weights, lateral_weights, bias];
         let couplings = couplings.iter().flat_map(|(_, pair)| pair);
         lists
             .into_iter()
@@ -115,7 +96,7 @@ impl EntryList<'_, '_> {
         let Some(motion) = motion else {
             unreachable!("accelerations are always there");
         };
-        let (arguments, accelerations) = (motion.arguments.clone(), motion.outputs.clone());
+        let arguments = motion.arguments.clone();
         let mut door = Door::new(frame, Argument::Theta, Some(Argument::Omega), None);
         let zero = self.lowering.builder.integer(0);
         let links = frame.coordinates.len();
@@ -130,7 +111,6 @@ impl EntryList<'_, '_> {
             cosines.push(self.lowering.builder.name(cosine, &format!("cos_{name}")));
         }
         let mut expansion = Expansion {
-            accelerations,
             sines,
             cosines,
             inertias: vec![zero; links],
@@ -183,6 +163,7 @@ impl EntryList<'_, '_> {
             let rest = self.lowering.expr(&mut door, &rest);
             expansion.bias.push(rest);
         }
+        self.normalize(&mut expansion);
         let mut outputs = expansion.outputs();
         // The recurrence of a sine or cosine needs both.
         let builder = &mut self.lowering.builder;
@@ -196,6 +177,32 @@ impl EntryList<'_, '_> {
             outputs,
             Shape::Vector,
         );
+    }
+}
+
+impl EntryList<'_, '_> {
+    /// Divides the equation of motion by the moment of inertia of the last
+    /// link: a common factor changes nothing, and one rounded constant less is
+    /// one error less in long motions.
+    fn normalize(&mut self, expansion: &mut Expansion) {
+        let builder = &mut self.lowering.builder;
+        let Expansion {
+            sines: _,
+            cosines: _,
+            inertias,
+            weights,
+            lateral_weights,
+            couplings,
+            bias,
+        } = expansion;
+        let Some(&unit) = inertias.last() else {
+            unreachable!("a tree has links");
+        };
+        let couplings = couplings.iter_mut().flat_map(|(_, pair)| pair);
+        let lists = [inertias, weights, lateral_weights, bias];
+        for value in lists.into_iter().flatten().chain(couplings) {
+            *value = builder.div(*value, unit);
+        }
     }
 }
 

@@ -28,8 +28,8 @@ pub struct Start<'a, T, const N: usize> {
     pub sines: [T; N],
     /// cos θ.
     pub cosines: [T; N],
-    /// Angular accelerations α, rad/s².
-    pub accelerations: [T; N],
+    /// What else stands in the equation of motion, Σ M_ij α_j + … + bias_i = 0.
+    pub bias: [T; N],
 }
 
 /// What stays the same in all expansions of a tree.
@@ -82,9 +82,8 @@ pub const fn workspace(links: usize, order: usize) -> usize {
 /// those of the angles, then those of the angular velocities. `M` must be
 /// ⌈N/4⌉.
 ///
-/// `bias`, if there is one, returns the coefficient of an order of what else
-/// stands in the equation of motion, Σ M_ij α_j + … + bias_i = 0, with the sign
-/// of friction c ω. It is called with every order from 1 on, in turn.
+/// `bias`, if there is one, returns the coefficient of an order of
+/// [`Start::bias`]. It is called with every order from 1 on, in turn.
 ///
 /// Where `M` or the length of `work` ([`workspace`]) does not fit, or a
 /// coupling names a link that is not there, all coefficients are NaN.
@@ -113,12 +112,10 @@ pub fn expand<T: Scalar, const N: usize, const M: usize, F>(
             .fill(T::from_f64(f64::NAN));
         return;
     }
-    let orders = [
-        [*start.theta, *start.omega],
-        [*start.omega, start.accelerations],
-    ];
-    for (row, values) in coefficients.iter_mut().zip(orders) {
-        *row = values;
+    let orders = coefficients.iter_mut();
+    for (row, angles) in orders.zip([start.theta, start.omega]) {
+        // Velocities of order 1 follow.
+        *row = [*angles, *start.omega];
     }
     T::run_packs(Orders {
         start,
@@ -185,19 +182,28 @@ where
             s_known[m] = c1[m].times(omega[m]);
             c_known[m] = zero.minus_product(s1[m], omega[m]);
         }
-        let mut alpha: [P; M] = packs(&start.accelerations);
+        let mut torque: [P; M] = packs(&start.bias);
+        let (x, y) = levers.forces(&s_known, &c_known);
+        for m in 0..M {
+            torque[m] = torque[m]
+                .plus_product(weights[m], s0[m])
+                .plus_product(lateral_weights[m], c0[m])
+                .plus_product(c0[m], x[m])
+                .minus_product(s0[m], y[m]);
+        }
+        let mut alpha = product::<T, P, N, M>(inverse, &torque);
 
         let last = coefficients.len().saturating_sub(1);
         let one = T::from_f64(1.0);
-        let (mut number, mut reciprocal) = (one, one);
+        let mut number = one;
+        let mut over_next = Reciprocal::<P>::of(one);
         for k in 1..last {
-            // k + 1, 1/k, 1/(k + 1), (k + 2)/k.
-            let over_k = P::splat(reciprocal);
-            let ratio = P::splat(one + (reciprocal + reciprocal));
+            let over_k = over_next;
+            let over_both = Reciprocal::<P>::of(number * (number + one));
+            let ratio = P::splat((number + one + one) / number);
             number = number + one;
-            reciprocal = one / number;
-            let (factor, over_next) = (P::splat(number), P::splat(reciprocal));
-            let over_both = over_k.times(over_next);
+            over_next = Reciprocal::of(number);
+            let factor = P::splat(number);
 
             // The torque of order k, and S, C, as far as they do not depend on
             // α[k−1]: there was time for them while that was formed.
@@ -205,7 +211,7 @@ where
             let mut torque = [zero; M];
             for m in 0..M {
                 let sums = sums::<T, P, M>(&rows[1..k.max(1)], m);
-                let omega_over_k = omega[m].times(over_k);
+                let omega_over_k = over_k.times(omega[m]);
                 s_next[m] = factor
                     .times(sums.omega_cos)
                     .plus_product(omega_over_k, c_known[m]);
@@ -231,12 +237,12 @@ where
                 s[m] = s_known[m].plus_product(c0[m], alpha[m]);
                 c[m] = c_known[m].minus_product(s0[m], alpha[m]);
                 turned[m] = alpha[m].times(omega[m]);
-                let rate = alpha[m].times(over_k);
-                let row = [rate, c[m].times(over_both), s[m].times(over_both)];
+                let rate = over_k.times(alpha[m]);
+                let row = [rate, over_both.times(c[m]), over_both.times(s[m])];
                 for (series, value) in rows[k].iter_mut().zip(row) {
                     value.store(&mut series[m]);
                 }
-                rate.times(over_next).store(&mut theta[m]);
+                over_both.times(alpha[m]).store(&mut theta[m]);
             }
             numbers(&rows[k][0], &mut coefficients[k][1]);
             numbers(&theta, &mut coefficients[k + 1][0]);
@@ -273,13 +279,45 @@ where
             alpha = product::<T, P, N, M>(inverse, &torque);
         }
         if last > 0 {
-            let over = P::splat(reciprocal);
             let mut omega = [Quad([T::from_f64(0.0); 4]); M];
             for m in 0..M {
-                alpha[m].times(over).store(&mut omega[m]);
+                over_next.times(alpha[m]).store(&mut omega[m]);
             }
             numbers(&omega, &mut coefficients[last][1]);
         }
+    }
+}
+
+/// 1/n in two parts: a rounded reciprocal would be wrong by the same amount in
+/// every step of a run.
+#[derive(Clone, Copy)]
+struct Reciprocal<P> {
+    high: P,
+    /// Zero where products are not fused with the sums they go into.
+    low: P,
+}
+
+impl<P> Reciprocal<P> {
+    #[inline(always)]
+    fn of<T: Scalar>(number: T) -> Self
+    where
+        P: Pack<T>,
+    {
+        let one = T::from_f64(1.0);
+        let high = P::splat(one / number);
+        let rest = P::splat(one).minus_product(P::splat(number), high);
+        Self {
+            high,
+            low: rest.times(high),
+        }
+    }
+
+    #[inline(always)]
+    fn times<T: Scalar>(self, value: P) -> P
+    where
+        P: Pack<T>,
+    {
+        value.times(self.low).plus_product(value, self.high)
     }
 }
 

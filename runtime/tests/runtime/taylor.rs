@@ -33,7 +33,7 @@ impl<T: Scalar> TaylorOde<T> for Mathematical {
             omega: &[y[1]],
             sines: [sin],
             cosines: [cos],
-            accelerations: [-sin],
+            bias: [T::from_f64(0.0)],
         };
         let one = T::from_f64(1.0);
         let tree = Tree {

@@ -1,8 +1,6 @@
 //! Emitted code agrees with its program bit for bit: what the interpreter
 //! computes operation by operation is what the compiled function returns.
 
-use branched_pendulum::system::TaylorPendulum;
-use branched_pendulum::taylor::Quad;
 use branched_pendulum::{Budget, Scalar, Transfer};
 use branched_pendulum_codegen::program::Argument;
 use branched_pendulum_tests::random::Random;
@@ -15,7 +13,6 @@ use branched_pendulum_tests::scenes::{
     offset::Offset,
     paper::Paper,
     paper_expanded,
-    series::Series,
     simple::Simple,
     sweep::{Sweep, SweepParameters},
     triplet::Triplet,
@@ -202,33 +199,6 @@ fn driven() {
               hamiltonian, antiphase_energy, transfer_exact, transfer_exact_from_rates,
               antiphase_friction_power],
         one: [potential_energy, to_symmetric, from_symmetric]);
-}
-
-/// Order 0 of the Taylor recurrences, whose outputs are the accelerations.
-#[test]
-fn series() {
-    let (stages, model) = (scene("series"), Series::new());
-    let mut random = Random::new(7);
-    for _ in 0..STATES {
-        let theta: [f64; 3] = random.array(-4.0, 4.0);
-        let omega: [f64; 3] = random.array(-9.0, 9.0);
-        let mut coefficients = [[[0.0; 3]; 2]; 3];
-        let mut work = vec![Quad([0.0; 4]); Series::<f64>::taylor_workspace(2)];
-        model.taylor_coefficients(&theta, &omega, &mut coefficients, &mut work);
-        let interpreted = stages.program.evaluate(
-            Scalar::sin_cos,
-            "taylor_coefficients",
-            &[],
-            |argument, index| match argument {
-                Argument::Omega => omega[index],
-                _ => theta[index],
-            },
-        );
-        let interpreted = interpreted.expect("the scene asks for them");
-        for (compiled, interpreted) in coefficients[1][1].iter().zip(&interpreted) {
-            assert_eq!(compiled.to_bits(), interpreted.to_bits());
-        }
-    }
 }
 
 #[test]

@@ -17,7 +17,7 @@ pub(super) struct Memory<T> {
     relative: Vec<T>,
     absolute: Vec<T>,
     order: usize,
-    /// exp(−0.7/(order − 1)).
+    /// exp(−2/(order − 1)).
     safety: T,
     /// State at the start of the step.
     pub(super) start: Vec<T>,
@@ -39,7 +39,7 @@ pub(super) struct Memory<T> {
 impl<T: Real> Memory<T> {
     pub(super) fn new(options: &Options<T>, order: usize, workspace: usize, start: &[T]) -> Self {
         let n = start.len();
-        let exponent = T::from_f64(-0.7) / T::from_f64((order - 1) as f64);
+        let exponent = T::from_f64(-2.0) / T::from_f64((order - 1) as f64);
         Self {
             relative: options.relative.expand(n),
             absolute: options.absolute.expand(n),
