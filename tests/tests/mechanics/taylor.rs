@@ -147,19 +147,38 @@ fn polynomials_of_the_free_tree_solve_its_equation() {
 }
 
 const PARAMETERS: DrivenSeriesParameters<f64> = DrivenSeriesParameters {
+    gravity: 9.80665,
+    mass: 0.2,
+    com: 0.15,
+    aside: 0.02,
+    joint: 0.3,
     inertia: 2e-3,
+    twig_mass: 0.1,
+    twig_length: 0.2,
     stiffness: 0.3,
+    bob_mass: 0.08,
+    bob_length: 0.1,
     push: 0.4,
     pace: 5.0,
 };
 
 #[test]
 fn polynomials_of_the_driven_tree_solve_its_equation() {
+    let exact = Double::from_f64;
     let parameters = DrivenSeriesParameters {
-        inertia: Double::from_f64(PARAMETERS.inertia),
-        stiffness: Double::from_f64(PARAMETERS.stiffness),
-        push: Double::from_f64(PARAMETERS.push),
-        pace: Double::from_f64(PARAMETERS.pace),
+        gravity: exact(PARAMETERS.gravity),
+        mass: exact(PARAMETERS.mass),
+        com: exact(PARAMETERS.com),
+        aside: exact(PARAMETERS.aside),
+        joint: exact(PARAMETERS.joint),
+        inertia: exact(PARAMETERS.inertia),
+        twig_mass: exact(PARAMETERS.twig_mass),
+        twig_length: exact(PARAMETERS.twig_length),
+        stiffness: exact(PARAMETERS.stiffness),
+        bob_mass: exact(PARAMETERS.bob_mass),
+        bob_length: exact(PARAMETERS.bob_length),
+        push: exact(PARAMETERS.push),
+        pace: exact(PARAMETERS.pace),
     };
     let model = DrivenSeries::from_parameters(parameters);
     let start = 0.75;

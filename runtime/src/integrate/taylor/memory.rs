@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::root::inverse_root;
+use super::root::least_inverse_root;
 use crate::integrate::dense::{DenseError, Interpolant};
 use crate::integrate::options::Options;
 use crate::integrate::request::all_finite;
@@ -73,7 +73,7 @@ impl<T: Real> Memory<T> {
             }
         }
         let [before, last] = norms.map(T::to_f64);
-        let step = inverse_root(before, self.order - 1).min(inverse_root(last, self.order));
+        let step = least_inverse_root([(before, self.order - 1), (last, self.order)]);
         self.safety * T::from_f64(step)
     }
 
@@ -108,24 +108,23 @@ impl<T: Real> Memory<T> {
     }
 }
 
-/// Components that are summed side by side.
-const BLOCK: usize = 4;
-
 /// Σ y\[k\] τᵏ over k ≥ 1, by Horner's rule in τ² for odd and even k apart.
 fn increment<T: Real>(coefficients: &[T], n: usize, tau: T, out: &mut [T]) {
-    let (blocks, rest) = out.as_chunks_mut::<BLOCK>();
-    for (number, block) in blocks.iter_mut().enumerate() {
-        increment_block(coefficients, n, BLOCK * number, tau, block);
+    // Four components side by side, what is left over in pairs.
+    let (fours, rest) = out.as_chunks_mut::<4>();
+    let mut first = 0;
+    for block in fours {
+        increment_block(coefficients, n, first, tau, block);
+        first += 4;
     }
-    let first = n - rest.len();
-    for (i, value) in rest.iter_mut().enumerate() {
-        increment_block(
-            coefficients,
-            n,
-            first + i,
-            tau,
-            core::array::from_mut(value),
-        );
+    let (pairs, rest) = rest.as_chunks_mut::<2>();
+    for block in pairs {
+        increment_block(coefficients, n, first, tau, block);
+        first += 2;
+    }
+    for value in rest {
+        increment_block(coefficients, n, first, tau, core::array::from_mut(value));
+        first += 1;
     }
 }
 
@@ -140,24 +139,26 @@ fn increment_block<T: Real, const W: usize>(
 ) {
     let square = tau * tau;
     let (mut odd, mut even) = ([T::ZERO; W], [T::ZERO; W]);
+    let component = |row: &[T]| -> [T; W] {
+        row.get(first..)
+            .and_then(<[T]>::first_chunk)
+            .copied()
+            .unwrap_or([T::NAN; W])
+    };
     let rows = &coefficients[n..];
     let order = rows.len() / n;
-    let row = |k: usize| rows[(k - 1) * n + first..].first_chunk::<W>();
-    let mut k = order;
-    if k % 2 == 1
-        && let Some(row) = row(k)
-    {
-        odd = *row;
-        k -= 1;
+    // Pairs of an odd and an even order; the highest odd one may be alone.
+    let (pairs, alone) = rows.split_at((order - order % 2) * n);
+    if !alone.is_empty() {
+        odd = component(alone);
     }
-    while k > 0 {
-        if let (Some(upper), Some(lower)) = (row(k), row(k - 1)) {
-            for i in 0..W {
-                even[i] = even[i] * square + upper[i];
-                odd[i] = odd[i] * square + lower[i];
-            }
+    for pair in pairs.chunks_exact(2 * n).rev() {
+        let (lower, upper) = pair.split_at(n);
+        let (lower, upper) = (component(lower), component(upper));
+        for i in 0..W {
+            odd[i] = odd[i] * square + lower[i];
+            even[i] = even[i] * square + upper[i];
         }
-        k -= 2;
     }
     for i in 0..W {
         out[i] = (odd[i] + even[i] * tau) * tau;

@@ -1,19 +1,26 @@
 //! Roots for the choice of the step.
 
-/// x^(−1/n) to four digits, for n ≥ 2 and x ≥ 0: infinite at zero, zero at
-/// infinity, NaN for NaN.
+/// The least of x^(−1/n) to four digits, for pairs of x ≥ 0 and n ≥ 2:
+/// infinite where all x are zero, zero where one is infinite, NaN where one is
+/// NaN.
 ///
 /// A step's length needs no more digits, and a logarithm and an exponential of
 /// full accuracy would take longer than an order of the series.
-pub(super) fn inverse_root(x: f64, n: usize) -> f64 {
-    if x <= f64::MIN_POSITIVE {
-        return f64::INFINITY;
+pub(super) fn least_inverse_root<const N: usize>(roots: [(f64, usize); N]) -> f64 {
+    let mut least = f64::INFINITY;
+    for (x, n) in roots {
+        if !x.is_finite() {
+            return 1.0 / x;
+        }
+        if x > f64::MIN_POSITIVE {
+            least = least.min(-log2(x) / n as f64);
+        }
     }
-    if !x.is_finite() {
-        return 1.0 / x;
+    if least == f64::INFINITY {
+        least
+    } else {
+        exp2(least)
     }
-    let exponent = -log2(x) / n as f64;
-    exp2(exponent)
 }
 
 /// log₂ x = e + 2/ln 2 · artanh((m−1)/(m+1)) for x = 2ᵉ m, √½ ≤ m < √2.
@@ -44,14 +51,14 @@ fn exp2(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::inverse_root;
+    use super::least_inverse_root;
 
     #[test]
     fn roots_are_roots() {
         for n in [2, 3, 7, 20, 100] {
             let mut x = f64::MIN_POSITIVE * 2.0;
             while x < 1e308 {
-                let root = inverse_root(x, n);
+                let root = least_inverse_root([(x, n), (0.0, n)]);
                 let expected = x.powf(-1.0 / n as f64);
                 assert!((root / expected - 1.0).abs() < 1e-4, "{x:e} {n}");
                 x *= 1.37;
@@ -61,8 +68,10 @@ mod tests {
 
     #[test]
     fn ends_of_the_range() {
-        assert_eq!(inverse_root(0.0, 20), f64::INFINITY);
-        assert_eq!(inverse_root(f64::INFINITY, 20), 0.0);
-        assert!(inverse_root(f64::NAN, 20).is_nan());
+        let roots = |x| least_inverse_root([(1.0, 20), (x, 21)]);
+        assert_eq!(least_inverse_root([(0.0, 20)]), f64::INFINITY);
+        assert_eq!(roots(0.0), 1.0);
+        assert_eq!(roots(f64::INFINITY), 0.0);
+        assert!(roots(f64::NAN).is_nan());
     }
 }
