@@ -1,0 +1,7 @@
+//! What a trajectory to a given error costs, for the comparison with heyoka.
+//!
+//! `benches/peers/heyoka_trajectory.py` measures the same problems.
+
+pub mod measure;
+pub mod problems;
+pub mod scenes;
