@@ -163,9 +163,11 @@ where
         invert_negative::<T, P, N, M>(inverse);
 
         let zero = P::splat(T::from_f64(0.0));
-        let [c0, s0, omega]: [[P; M]; 3] = [&start.cosines, &start.sines, start.omega].map(packs);
-        let [weights, lateral_weights]: [[P; M]; 2] =
-            [&tree.weights, &tree.lateral_weights].map(packs);
+        let c0: [P; M] = packs(&start.cosines);
+        let s0: [P; M] = packs(&start.sines);
+        let omega: [P; M] = packs(start.omega);
+        let weights: [P; M] = packs(&tree.weights);
+        let lateral_weights: [P; M] = packs(&tree.lateral_weights);
 
         // Order 1 of the series. X and Y stand two rows below their order, so
         // that all sums run over equal rows.
@@ -367,7 +369,8 @@ impl<'a, T: Scalar, const N: usize, const M: usize> Levers<'a, T, N, M> {
         mass: &mut [Vector<T, M>],
         turning: &mut [Vector<T, M>],
     ) {
-        let [cosines, sines]: [[P; M]; 2] = [&start.cosines, &start.sines].map(packs);
+        let cosines: [P; M] = packs(&start.cosines);
+        let sines: [P; M] = packs(&start.sines);
         for (j, (mass, turning)) in mass.iter_mut().zip(turning).enumerate() {
             let (cosine, sine) = (P::splat(start.cosines[j]), P::splat(start.sines[j]));
             for m in 0..M {
@@ -425,20 +428,18 @@ fn sums<T: Scalar, P: Pack<T>, const M: usize>(
 ) -> Sums<P> {
     let (early, rest) = rows.split_at(rows.len() / 2);
     let (middle, late) = rest.split_at(rest.len() - early.len());
-    let load = |row: &[Vector<T, M>; SERIES], series: usize| P::load(&row[series][m]);
     // Two partial sums each, so that none waits for the other.
     let mut partial = [P::splat(T::from_f64(0.0)); 8];
     for row in middle {
-        let [omega, cos, sin, x, y] = [0, 1, 2, 3, 4].map(|series| load(row, series));
+        let [omega, cos, sin, x, y] = load::<T, P, M>(row, m);
         partial[0] = omega.times(cos);
         partial[2] = omega.times(sin);
         partial[4] = cos.times(x);
         partial[6] = sin.times(y);
     }
     for (row, opposite) in early.iter().rev().zip(late) {
-        let [omega, cos, sin, x, y] = [0, 1, 2, 3, 4].map(|series| load(row, series));
-        let [omega_2, cos_2, sin_2, x_2, y_2] =
-            [0, 1, 2, 3, 4].map(|series| load(opposite, series));
+        let [omega, cos, sin, x, y] = load::<T, P, M>(row, m);
+        let [omega_2, cos_2, sin_2, x_2, y_2] = load::<T, P, M>(opposite, m);
         partial[0] = partial[0].plus_product(omega, cos_2);
         partial[1] = partial[1].plus_product(omega_2, cos);
         partial[2] = partial[2].plus_product(omega, sin_2);
@@ -455,15 +456,36 @@ fn sums<T: Scalar, P: Pack<T>, const M: usize>(
     }
 }
 
+/// All series of one row.
+#[inline(always)]
+fn load<T: Scalar, P: Pack<T>, const M: usize>(
+    row: &[Vector<T, M>; SERIES],
+    m: usize,
+) -> [P; SERIES] {
+    [
+        P::load(&row[0][m]),
+        P::load(&row[1][m]),
+        P::load(&row[2][m]),
+        P::load(&row[3][m]),
+        P::load(&row[4][m]),
+    ]
+}
+
 /// Numbers of all links as packs, zero where there is no link.
 #[inline(always)]
 fn packs<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(numbers: &[T; N]) -> [P; M] {
-    core::array::from_fn(|m| {
-        let zero = T::from_f64(0.0);
-        P::load(&Quad(core::array::from_fn(|i| {
-            numbers.get(4 * m + i).copied().unwrap_or(zero)
-        })))
-    })
+    let zero = T::from_f64(0.0);
+    let mut packs = [P::splat(zero); M];
+    for (m, pack) in packs.iter_mut().enumerate() {
+        let mut quad = Quad::splat(zero);
+        for (i, place) in quad.0.iter_mut().enumerate() {
+            if 4 * m + i < N {
+                *place = numbers[4 * m + i];
+            }
+        }
+        *pack = P::load(&quad);
+    }
+    packs
 }
 
 /// The numbers of all links.

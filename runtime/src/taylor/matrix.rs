@@ -13,16 +13,16 @@ pub(super) fn product<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
     x: &[P; M],
 ) -> [P; M] {
     let mut sum = [P::splat(T::from_f64(0.0)); M];
-    for (columns, &x) in columns[..N].chunks(4).zip(x) {
+    for (columns, x) in columns[..N].chunks(4).zip(x) {
         let lanes = [
             x.broadcast::<0>(),
             x.broadcast::<1>(),
             x.broadcast::<2>(),
             x.broadcast::<3>(),
         ];
-        for (column, lane) in columns.iter().zip(lanes) {
+        for (column, lane) in columns.iter().zip(&lanes) {
             for (sum, entries) in sum.iter_mut().zip(column) {
-                *sum = sum.plus_product(P::load(entries), lane);
+                *sum = sum.plus_product(P::load(entries), *lane);
             }
         }
     }
@@ -43,9 +43,12 @@ pub(super) fn invert_negative<T: Scalar, P: Pack<T>, const N: usize, const M: us
         let inverse = one / columns[k][pack].0[lane];
         // Column k, with −1 in row k: subtracted from the others with their
         // factors, it eliminates them and leaves the factor in row k.
-        let mut column = columns[k];
-        column[pack].0[lane] = -one;
-        let column: [P; M] = column.each_ref().map(P::load);
+        let mut eliminating = columns[k];
+        eliminating[pack].0[lane] = -one;
+        let mut column = [P::splat(zero); M];
+        for (value, entries) in column.iter_mut().zip(&eliminating) {
+            *value = P::load(entries);
+        }
         let mut others = Quad::splat(one);
         others.0[lane] = zero;
         let others = P::load(&others);

@@ -41,7 +41,8 @@ pub trait Pack<T>: Copy {
     fn broadcast<const LANE: usize>(self) -> Self;
 }
 
-/// For every number type: operation by operation.
+/// For every number type: operation by operation. Loops and no closures: what
+/// is not inlined into a function with wider registers is slow.
 impl<T: Scalar> Pack<T> for Quad<T> {
     #[inline(always)]
     fn splat(value: T) -> Self {
@@ -60,27 +61,47 @@ impl<T: Scalar> Pack<T> for Quad<T> {
 
     #[inline(always)]
     fn plus(self, other: Self) -> Self {
-        Self(core::array::from_fn(|i| self.0[i] + other.0[i]))
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = self.0[i] + other.0[i];
+        }
+        result
     }
 
     #[inline(always)]
     fn minus(self, other: Self) -> Self {
-        Self(core::array::from_fn(|i| self.0[i] - other.0[i]))
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = self.0[i] - other.0[i];
+        }
+        result
     }
 
     #[inline(always)]
     fn times(self, other: Self) -> Self {
-        Self(core::array::from_fn(|i| self.0[i] * other.0[i]))
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = self.0[i] * other.0[i];
+        }
+        result
     }
 
     #[inline(always)]
     fn plus_product(self, a: Self, b: Self) -> Self {
-        Self(core::array::from_fn(|i| self.0[i] + a.0[i] * b.0[i]))
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = self.0[i] + a.0[i] * b.0[i];
+        }
+        result
     }
 
     #[inline(always)]
     fn minus_product(self, a: Self, b: Self) -> Self {
-        Self(core::array::from_fn(|i| self.0[i] - a.0[i] * b.0[i]))
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = self.0[i] - a.0[i] * b.0[i];
+        }
+        result
     }
 
     #[inline(always)]
