@@ -14,6 +14,7 @@ mod parts;
 mod stub;
 mod taylor;
 mod taylor_order;
+mod taylor_rules;
 mod traits;
 
 pub use stub::stub;

@@ -10,7 +10,6 @@
 use super::Emission;
 use super::function::{Binding, ident};
 use super::names::Locals;
-use crate::exact::Rational;
 use crate::program::{Argument, Entry, Expansion, Op, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -34,7 +33,7 @@ struct Sum {
 
 /// All orders of the rest of the equation of motion.
 pub(super) struct Recurrences<'e> {
-    emission: &'e Emission<'e>,
+    pub(super) emission: &'e Emission<'e>,
     entry: &'e Entry,
     bias: &'e [ValueId],
     /// What the coefficients of the bias need.
@@ -45,13 +44,13 @@ pub(super) struct Recurrences<'e> {
     /// Names of those of order k.
     names: BTreeMap<ValueId, Ident>,
     /// Whether a value depends on the state or the time.
-    varies: BTreeMap<ValueId, bool>,
+    pub(super) varies: BTreeMap<ValueId, bool>,
     sums: Vec<Sum>,
     /// What k is called, and what holds the coefficients of the state.
     order: Ident,
     known: Ident,
     order_number: Ident,
-    inverse_order: Ident,
+    pub(super) inverse_order: Ident,
     time: Option<Ident>,
 }
 
@@ -247,10 +246,9 @@ impl<'e> Recurrences<'e> {
         }
     }
 
-    fn id(&self, op: &Op) -> ValueId {
-        let found = self.needed.iter().find(|id| self.emission.op(**id) == op);
-        match found {
-            Some(&id) => id,
+    pub(super) fn id(&self, op: &Op) -> ValueId {
+        match self.find(op) {
+            Some(id) => id,
             None => unreachable!("the entry holds both partners of a sine and cosine"),
         }
     }
@@ -341,45 +339,39 @@ impl<'e> Recurrences<'e> {
             .collect()
     }
 
-    /// `let [theta_parent_k, _, theta_bob_k] = known.theta;` and the like.
+    /// What is given of order k, taken apart.
     fn inputs(&self) -> TokenStream {
-        let angle = |index: usize| {
-            let input = Op::Input(Argument::Theta, index);
-            self.needed
-                .iter()
-                .copied()
-                .find(|id| *self.emission.op(*id) == input)
-        };
-        let lists: [(&str, &dyn Fn(usize) -> Option<Op>); 4] = [
-            ("theta", &|index| Some(Op::Input(Argument::Theta, index))),
-            ("omega", &|index| Some(Op::Input(Argument::Omega, index))),
-            ("sines", &|index| angle(index).map(Op::Sin)),
-            ("cosines", &|index| angle(index).map(Op::Cos)),
+        let angle = |index: usize| self.find(&Op::Input(Argument::Theta, index));
+        let lists = [
+            self.list("theta", |index| Some(Op::Input(Argument::Theta, index))),
+            self.list("omega", |index| Some(Op::Input(Argument::Omega, index))),
+            self.list("sines", |index| angle(index).map(Op::Sin)),
+            self.list("cosines", |index| angle(index).map(Op::Cos)),
         ];
-        let known = &self.known;
-        lists
-            .into_iter()
-            .filter_map(|(list, op)| {
-                let names: Vec<Option<&Ident>> = (0..self.links)
-                    .map(|index| {
-                        let op = op(index)?;
-                        let found = self.needed.iter().find(|id| *self.emission.op(**id) == op);
-                        self.names.get(found?)
-                    })
-                    .collect();
-                let read = names.iter().any(Option::is_some);
-                let list = ident(list);
-                let elements = names.into_iter().map(|name| match name {
-                    Some(name) => quote!(#name),
-                    None => quote!(_),
-                });
-                read.then(|| quote!(let [#(#elements),*] = #known.#list;))
-            })
-            .collect()
+        lists.into_iter().flatten().collect()
+    }
+
+    /// `let [theta_parent_k, _, theta_bob_k] = known.theta;`, if any is read.
+    fn list(&self, list: &str, op: impl Fn(usize) -> Option<Op>) -> Option<TokenStream> {
+        let name = |index| self.names.get(&self.find(&op(index)?)?);
+        let names: Vec<Option<&Ident>> = (0..self.links).map(name).collect();
+        let read = names.iter().any(Option::is_some);
+        let elements = names.into_iter().map(|name| match name {
+            Some(name) => quote!(#name),
+            None => quote!(_),
+        });
+        let (known, list) = (&self.known, ident(list));
+        read.then(|| quote!(let [#(#elements),*] = #known.#list;))
+    }
+
+    /// The value of an operation, if it is needed.
+    fn find(&self, op: &Op) -> Option<ValueId> {
+        let mut needed = self.needed.iter().copied();
+        needed.find(|id| self.emission.op(*id) == op)
     }
 
     /// The coefficient of order k where it is used.
-    fn bound(&self, id: ValueId, place: Binding) -> TokenStream {
+    pub(super) fn bound(&self, id: ValueId, place: Binding) -> TokenStream {
         if let Some(name) = self.names.get(&id) {
             return quote!(#name);
         }
@@ -392,99 +384,14 @@ impl<'e> Recurrences<'e> {
     }
 
     /// The coefficient of order 0 where it is used.
-    fn zeroth(&self, id: ValueId, place: Binding) -> TokenStream {
+    pub(super) fn zeroth(&self, id: ValueId, place: Binding) -> TokenStream {
         self.emission.bound(id, &self.locals, place)
     }
 
-    fn sum(&self, op: &Op) -> &Ident {
+    pub(super) fn sum(&self, op: &Op) -> &Ident {
         match self.sums.iter().find(|sum| sum.of == *op) {
             Some(sum) => &sum.name,
             None => unreachable!("every operation that is not linear has a sum"),
-        }
-    }
-
-    /// The recurrence of an operation, in the coefficients of order k and 0.
-    fn definition(&self, id: ValueId) -> (TokenStream, Binding) {
-        let op = self.emission.op(id);
-        let varies = |id: &ValueId| self.varies[id];
-        let at = |id: ValueId, place: Binding| self.bound(id, place);
-        let zeroth = |id: ValueId| self.zeroth(id, Binding::Atom);
-        match *op {
-            Op::Neg(a) => {
-                let a = at(a, Binding::Atom);
-                (quote!(-#a), Binding::Prefix)
-            }
-            Op::Add(a, b) | Op::Sub(a, b) if varies(&a) && varies(&b) => {
-                let (a, b) = (at(a, Binding::Sum), at(b, Binding::Product));
-                let value = match op {
-                    Op::Add(..) => quote!(#a + #b),
-                    _ => quote!(#a - #b),
-                };
-                (value, Binding::Sum)
-            }
-            Op::Add(a, _) | Op::Sub(a, _) if varies(&a) => (at(a, Binding::Atom), Binding::Atom),
-            Op::Add(_, b) => (at(b, Binding::Atom), Binding::Atom),
-            Op::Sub(_, b) => {
-                let b = at(b, Binding::Atom);
-                (quote!(-#b), Binding::Prefix)
-            }
-            Op::Mul(a, b) if varies(&a) && varies(&b) => {
-                // (u v)[k] = Σ u[j] v[k−j] + u[0] v[k] + u[k] v[0]
-                let (u, v) = (at(a, Binding::Prefix), at(b, Binding::Prefix));
-                let (u_0, v_0) = (zeroth(a), zeroth(b));
-                let sum = self.sum(op);
-                (quote!(#sum + (#u_0 * #v + #u * #v_0)), Binding::Sum)
-            }
-            Op::Mul(a, b) => {
-                let (constant, moving) = if varies(&a) { (b, a) } else { (a, b) };
-                let constant = self.zeroth(constant, Binding::Prefix);
-                let moving = at(moving, Binding::Prefix);
-                (quote!(#constant * #moving), Binding::Product)
-            }
-            Op::Div(a, b) if varies(&b) => {
-                // u = v w, solved for w[k].
-                let (sum, w_0) = (self.sum(op), zeroth(id));
-                let v = at(b, Binding::Prefix);
-                let rest = quote!(#sum + #v * #w_0);
-                if *self.emission.op(a) == Op::Number(Rational::from(1)) {
-                    return (quote!(-(#rest) * #w_0), Binding::Product);
-                }
-                let v_0 = zeroth(b);
-                if varies(&a) {
-                    let u = at(a, Binding::Sum);
-                    (quote!((#u - (#rest)) / #v_0), Binding::Product)
-                } else {
-                    (quote!(-(#rest) / #v_0), Binding::Product)
-                }
-            }
-            Op::Div(a, b) => {
-                let (u, v_0) = (at(a, Binding::Product), zeroth(b));
-                (quote!(#u / #v_0), Binding::Product)
-            }
-            Op::Sqrt(a) => {
-                // u = w w, solved for w[k].
-                let (sum, w_0) = (self.sum(op), zeroth(id));
-                let u = at(a, Binding::Sum);
-                (quote!((#u - #sum) / (#w_0 + #w_0)), Binding::Product)
-            }
-            Op::Sin(angle) | Op::Cos(angle) => {
-                // k s[k] = Σ j a[j] c[k−j], k c[k] = −Σ j a[j] s[k−j]
-                let (sum, inverse) = (self.sum(op), &self.inverse_order);
-                let angle_k = at(angle, Binding::Prefix);
-                if matches!(op, Op::Sin(_)) {
-                    let cos = zeroth(self.id(&Op::Cos(angle)));
-                    (quote!(#sum * #inverse + #angle_k * #cos), Binding::Sum)
-                } else {
-                    let sin = zeroth(self.id(&Op::Sin(angle)));
-                    (
-                        quote!(-(#sum * #inverse + #angle_k * #sin)),
-                        Binding::Prefix,
-                    )
-                }
-            }
-            Op::Input(..) | Op::Constant(_) | Op::Number(_) => {
-                unreachable!("inputs have names, constants no coefficient of order k")
-            }
         }
     }
 }

@@ -13,8 +13,10 @@
 //! where P is known, C\[k\] likewise, so that M(θ\[0\]) α\[k\] = −r with r of
 //! known terms: one inverse, of order 0, serves all orders.
 
-use super::matrix::{Vector, invert_negative, product};
+use super::levers::{Coupling, Levers};
+use super::matrix::{Vector, invert_negative, numbers, packs, product};
 use super::quad::{Kernel, Pack, Quad};
+use super::rows::{SERIES, sums};
 use crate::scalar::Scalar;
 
 /// Where an expansion starts.
@@ -43,17 +45,6 @@ pub struct Tree<'a, T, const N: usize> {
     pub weights: [T; N],
     /// F_i of the same, J.
     pub lateral_weights: [T; N],
-}
-
-/// The entry a cos(θ_i − θ_j) + b sin(θ_i − θ_j) of the mass matrix.
-#[derive(Clone, Copy, Debug)]
-pub struct Coupling<T> {
-    /// Row i and column j.
-    pub links: [usize; 2],
-    /// a, kg m².
-    pub cosine: T,
-    /// b, kg m²; none if it is zero by shape.
-    pub sine: Option<T>,
 }
 
 /// Coefficients of one order of what a torque may depend on, of all links.
@@ -125,9 +116,6 @@ pub fn expand<T: Scalar, const N: usize, const M: usize, F>(
         bias,
     });
 }
-
-/// Series that are kept: ω, cos θ, sin θ, X, Y.
-const SERIES: usize = 5;
 
 /// The orders of an expansion from 1 on.
 struct Orders<'a, T, F, const N: usize, const M: usize> {
@@ -320,178 +308,5 @@ impl<P> Reciprocal<P> {
         P: Pack<T>,
     {
         value.times(self.low).plus_product(value, self.high)
-    }
-}
-
-/// The connections between links, as columns of two matrices.
-struct Levers<'a, T, const N: usize, const M: usize> {
-    /// A, symmetric, without its diagonal.
-    along: &'a [Vector<T, M>],
-    /// B, antisymmetric, if it is not zero.
-    across: Option<&'a [Vector<T, M>]>,
-}
-
-impl<'a, T: Scalar, const N: usize, const M: usize> Levers<'a, T, N, M> {
-    /// The couplings, written to columns of `along` and `across`.
-    #[inline(always)]
-    fn new(
-        couplings: &[Coupling<T>],
-        along: &'a mut [Vector<T, M>],
-        across: &'a mut [Vector<T, M>],
-    ) -> Self {
-        along.fill([Quad::splat(T::from_f64(0.0)); M]);
-        let lateral = couplings.iter().any(|coupling| coupling.sine.is_some());
-        if lateral {
-            across.fill([Quad::splat(T::from_f64(0.0)); M]);
-        }
-        for coupling in couplings {
-            let [i, j] = coupling.links;
-            along[j][i / 4].0[i % 4] = coupling.cosine;
-            along[i][j / 4].0[j % 4] = coupling.cosine;
-            if let Some(sine) = coupling.sine {
-                across[j][i / 4].0[i % 4] = sine;
-                across[i][j / 4].0[j % 4] = -sine;
-            }
-        }
-        Self {
-            along,
-            across: lateral.then_some(across),
-        }
-    }
-
-    /// To columns of `mass`, A cos(θ_i − θ_j) + B sin(θ_i − θ_j) with the
-    /// diagonal; to `turning`, its derivatives in θ_j.
-    #[inline(always)]
-    fn mass_matrix<P: Pack<T>>(
-        &self,
-        start: &Start<'_, T, N>,
-        inertias: &[T; N],
-        mass: &mut [Vector<T, M>],
-        turning: &mut [Vector<T, M>],
-    ) {
-        let cosines: [P; M] = packs(&start.cosines);
-        let sines: [P; M] = packs(&start.sines);
-        for (j, (mass, turning)) in mass.iter_mut().zip(turning).enumerate() {
-            let (cosine, sine) = (P::splat(start.cosines[j]), P::splat(start.sines[j]));
-            for m in 0..M {
-                let cos_between = cosines[m].times(cosine).plus_product(sines[m], sine);
-                let sin_between = sines[m].times(cosine).minus_product(cosines[m], sine);
-                let along = P::load(&self.along[j][m]);
-                let (mut entry, mut slope) = (along.times(cos_between), along.times(sin_between));
-                if let Some(across) = self.across {
-                    let across = P::load(&across[j][m]);
-                    entry = entry.plus_product(across, sin_between);
-                    slope = slope.minus_product(across, cos_between);
-                }
-                entry.store(&mut mass[m]);
-                slope.store(&mut turning[m]);
-            }
-            mass[j / 4].0[j % 4] = inertias[j];
-        }
-    }
-
-    /// X = A S + B C, Y = A C − B S.
-    #[inline(always)]
-    fn forces<P: Pack<T>>(&self, s: &[P; M], c: &[P; M]) -> ([P; M], [P; M]) {
-        let mut x = product::<T, P, N, M>(self.along, s);
-        let mut y = product::<T, P, N, M>(self.along, c);
-        if let Some(across) = self.across {
-            let (of_c, of_s) = (
-                product::<T, P, N, M>(across, c),
-                product::<T, P, N, M>(across, s),
-            );
-            for m in 0..M {
-                x[m] = x[m].plus(of_c[m]);
-                y[m] = y[m].minus(of_s[m]);
-            }
-        }
-        (x, y)
-    }
-}
-
-/// Sums of products in one order.
-struct Sums<P> {
-    /// Σ ω\[j−1\] cos\[k+2−j\]
-    omega_cos: P,
-    /// Σ ω\[j−1\] sin\[k+2−j\]
-    omega_sin: P,
-    /// Σ cos\[j\] X\[k−j\] − sin\[j\] Y\[k−j\]
-    torque: P,
-}
-
-/// The sums over all rows, each with the one as far from the other end, from
-/// the middle outwards: what was formed last is added last.
-#[inline(always)]
-fn sums<T: Scalar, P: Pack<T>, const M: usize>(
-    rows: &[[Vector<T, M>; SERIES]],
-    m: usize,
-) -> Sums<P> {
-    let (early, rest) = rows.split_at(rows.len() / 2);
-    let (middle, late) = rest.split_at(rest.len() - early.len());
-    // Two partial sums each, so that none waits for the other.
-    let mut partial = [P::splat(T::from_f64(0.0)); 8];
-    for row in middle {
-        let [omega, cos, sin, x, y] = load::<T, P, M>(row, m);
-        partial[0] = omega.times(cos);
-        partial[2] = omega.times(sin);
-        partial[4] = cos.times(x);
-        partial[6] = sin.times(y);
-    }
-    for (row, opposite) in early.iter().rev().zip(late) {
-        let [omega, cos, sin, x, y] = load::<T, P, M>(row, m);
-        let [omega_2, cos_2, sin_2, x_2, y_2] = load::<T, P, M>(opposite, m);
-        partial[0] = partial[0].plus_product(omega, cos_2);
-        partial[1] = partial[1].plus_product(omega_2, cos);
-        partial[2] = partial[2].plus_product(omega, sin_2);
-        partial[3] = partial[3].plus_product(omega_2, sin);
-        partial[4] = partial[4].plus_product(cos, x_2);
-        partial[5] = partial[5].plus_product(cos_2, x);
-        partial[6] = partial[6].plus_product(sin, y_2);
-        partial[7] = partial[7].plus_product(sin_2, y);
-    }
-    Sums {
-        omega_cos: partial[0].plus(partial[1]),
-        omega_sin: partial[2].plus(partial[3]),
-        torque: (partial[4].minus(partial[6])).plus(partial[5].minus(partial[7])),
-    }
-}
-
-/// All series of one row.
-#[inline(always)]
-fn load<T: Scalar, P: Pack<T>, const M: usize>(
-    row: &[Vector<T, M>; SERIES],
-    m: usize,
-) -> [P; SERIES] {
-    [
-        P::load(&row[0][m]),
-        P::load(&row[1][m]),
-        P::load(&row[2][m]),
-        P::load(&row[3][m]),
-        P::load(&row[4][m]),
-    ]
-}
-
-/// Numbers of all links as packs, zero where there is no link.
-#[inline(always)]
-fn packs<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(numbers: &[T; N]) -> [P; M] {
-    let zero = T::from_f64(0.0);
-    let mut packs = [P::splat(zero); M];
-    for (m, pack) in packs.iter_mut().enumerate() {
-        let mut quad = Quad::splat(zero);
-        for (i, place) in quad.0.iter_mut().enumerate() {
-            if 4 * m + i < N {
-                *place = numbers[4 * m + i];
-            }
-        }
-        *pack = P::load(&quad);
-    }
-    packs
-}
-
-/// The numbers of all links.
-#[inline(always)]
-fn numbers<T: Scalar, const N: usize, const M: usize>(vector: &Vector<T, M>, out: &mut [T; N]) {
-    for (i, out) in out.iter_mut().enumerate() {
-        *out = vector[i / 4].0[i % 4];
     }
 }

@@ -1,4 +1,4 @@
-//! Dense matrices by columns of packs.
+//! Vectors and dense matrices in packs.
 
 use super::quad::{Pack, Quad};
 use crate::scalar::Scalar;
@@ -69,6 +69,36 @@ pub(super) fn invert_negative<T: Scalar, P: Pack<T>, const N: usize, const M: us
         for m in 0..M {
             column[m].times(inverse).store(&mut columns[k][m]);
         }
+    }
+}
+
+/// Numbers of all links as packs, zero where there is no link.
+#[inline(always)]
+pub(super) fn packs<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
+    numbers: &[T; N],
+) -> [P; M] {
+    let zero = T::from_f64(0.0);
+    let mut packs = [P::splat(zero); M];
+    for (m, pack) in packs.iter_mut().enumerate() {
+        let mut quad = Quad::splat(zero);
+        for (i, place) in quad.0.iter_mut().enumerate() {
+            if 4 * m + i < N {
+                *place = numbers[4 * m + i];
+            }
+        }
+        *pack = P::load(&quad);
+    }
+    packs
+}
+
+/// The numbers of all links.
+#[inline(always)]
+pub(super) fn numbers<T: Scalar, const N: usize, const M: usize>(
+    vector: &Vector<T, M>,
+    out: &mut [T; N],
+) {
+    for (i, out) in out.iter_mut().enumerate() {
+        *out = vector[i / 4].0[i % 4];
     }
 }
 

@@ -10,11 +10,14 @@
 //! [`integrate::Taylor`]: crate::integrate::Taylor
 
 mod expand;
+mod levers;
 mod matrix;
 mod quad;
+mod rows;
 mod sums;
 
-pub use expand::{Coupling, Known, Start, Tree, expand, workspace};
+pub use expand::{Known, Start, Tree, expand, workspace};
+pub use levers::Coupling;
 pub use quad::Quad;
 pub(crate) use quad::run_f64;
 #[doc(hidden)]
