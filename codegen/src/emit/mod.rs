@@ -15,6 +15,7 @@ mod parts;
 mod stub;
 mod taylor;
 mod taylor_order;
+mod taylor_rules;
 mod traits;
 mod transfer_forms;
 

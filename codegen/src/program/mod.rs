@@ -38,6 +38,7 @@ pub use count::Operations;
 pub use fuse::Fused;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
+pub use taylor::Expansion;
 pub use verify::Fault;
 
 use crate::exact::Rational;

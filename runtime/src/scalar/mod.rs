@@ -58,6 +58,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 use crate::generations::{Single, SliceKernel};
 use crate::model::Part;
 use crate::system::rescale::{self, Rescale};
+use crate::taylor::{Kernel, Quad};
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
@@ -166,6 +167,14 @@ pub trait Scalar:
         alpha: &mut [Self],
     ) {
         rescale::straight(pendulum, time, theta, omega, alpha);
+    }
+
+    /// Runs a computation of Taylor coefficients in the vector instructions
+    /// that the machine has for this type.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn run_packs<K: Kernel<Self>>(kernel: K) {
+        kernel.run::<Quad<Self>>();
     }
 }
 
