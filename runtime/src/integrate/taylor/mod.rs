@@ -30,8 +30,8 @@ use run::Run;
 /// neither of the last two terms, orders p − 1 and p, exceeds the tolerance
 /// `absolute_i + relative_i |y_i|` in any component, times exp(−2/(p − 1)) to
 /// be on the safe side (their section 3 has 0.7 in the place of 2: terms that
-/// fall more slowly leave more out). The terms left out are smaller than
-/// these by about ε^(−1/p) for each order. No step is rejected.
+/// fall more slowly leave more out). The terms left out are smaller by
+/// about ε^(1/p) for each order. No step is rejected.
 ///
 /// *Dense output* is the polynomial itself, of the method's order and free of
 /// evaluations. Its coefficients belong to the start of the step: at its end it
