@@ -28,9 +28,10 @@ use run::Run;
 /// with steps of ρ/e² (Jorba and Zou, section 3); here it grows more like 4 + p,
 /// for which longer steps of a higher order are cheaper. *Step*: so long that
 /// neither of the last two terms, orders p − 1 and p, exceeds the tolerance
-/// `absolute_i + relative_i |y_i|` in any component, times exp(−0.7/(p − 1)) to
-/// be on the safe side (their section 3). The terms left out are smaller than
-/// these by about e² for each order. No step is rejected.
+/// `absolute_i + relative_i |y_i|` in any component, times exp(−2/(p − 1)) to
+/// be on the safe side (their section 3 has 0.7 in the place of 2: terms that
+/// fall more slowly leave more out). The terms left out are smaller by
+/// about ε^(1/p) for each order. No step is rejected.
 ///
 /// *Dense output* is the polynomial itself, of the method's order and free of
 /// evaluations. Its coefficients belong to the start of the step: at its end it
@@ -39,7 +40,7 @@ use run::Run;
 /// *Cost*: a step computes p orders of the coefficients, each of which
 /// [`Report::evaluations`] counts as one; the sums of products in order k grow
 /// with k, so a step costs O(p²). Memory, allocated when a run starts: p + 6
-/// vectors of the state's length, and (p − 1) [`TaylorOde::factors`].
+/// vectors of the state's length, and [`TaylorOde::workspace`].
 ///
 /// *Options*: [`Options::initial_step`] bounds the first step from above.
 /// [`Options::beta`] has no part here: other values than zero are refused. With
