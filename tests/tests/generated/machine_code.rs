@@ -79,11 +79,6 @@ fn kernels_are_compiled_for_their_instructions() {
         println!("skipped: no objdump for this machine's code");
         return;
     };
-    let left: Vec<&String> = functions
-        .keys()
-        .filter(|name| name.contains("_mm256_") || name.contains("_mm512_"))
-        .collect();
-    assert!(left.is_empty(), "{left:?}");
     for set in ["avx2", "avx512"] {
         let kernels = functions
             .iter()
@@ -93,8 +88,8 @@ fn kernels_are_compiled_for_their_instructions() {
         for (name, lines) in kernels {
             count += 1;
             let calls: Vec<&String> = lines.iter().filter(|line| line.contains("call")).collect();
-            let panics = calls.iter().filter(|line| line.contains("panic"));
-            assert_eq!(panics.count(), 0, "{name}: {calls:?}");
+            let wrong = |line: &&&String| line.contains("core_arch") || line.contains("panic");
+            assert_eq!(calls.iter().filter(wrong).count(), 0, "{name}: {calls:?}");
         }
         assert!(count > 0, "{set}");
     }
