@@ -16,9 +16,8 @@
 //!
 //! # Cost
 //! O(links). Beyond some thousand links the lower generations are computed part
-//! by part, each one small enough for the cache; beyond
-//! [`THREADED`] links on several threads. The result
-//! has the same bits for any number of threads.
+//! by part, each one small enough for the cache; from [`THREADED`] links on, on
+//! several threads. The result has the same bits for any number of threads.
 //!
 //! # Source
 //! R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
