@@ -56,14 +56,16 @@ pub fn stages(attribute: TokenStream, item: TokenStream) -> Result<Stages, (Repo
     let Some(scene) = scene::resolve(&description, &mut report) else {
         return Err(refuse(&description, report));
     };
-    let mechanics = match mechanics::derive(&scene) {
+    let derived = scene.derived();
+    let mechanics = match mechanics::derive(&derived) {
         Ok(mechanics) => mechanics,
         Err(error) => {
             report.push(underivable(&description, &error));
             return Err(refuse(&description, report));
         }
     };
-    let program = program::lower(&scene, &mechanics);
+    let program = program::lower(&derived, &mechanics);
+    drop(derived);
     if let Some(name) = program.unrepresentable_constant() {
         let name = name.to_owned();
         report.error(Span::call_site(), Message::ConstantRange { name });

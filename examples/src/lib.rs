@@ -6,6 +6,7 @@ pub mod branched_double;
 pub mod energy_cascade;
 pub mod evaluation_speed;
 pub mod exit;
+pub mod integration_speed;
 pub mod quadrature;
 pub mod solvers;
 pub mod stability_map;

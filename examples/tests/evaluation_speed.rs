@@ -3,6 +3,7 @@
 use std::process::Command;
 
 use branched_pendulum::Pendulum;
+use branched_pendulum_examples::evaluation_speed::accuracy;
 use branched_pendulum_examples::evaluation_speed::articulated::Articulated;
 use branched_pendulum_examples::evaluation_speed::by_hand::ByHand;
 use branched_pendulum_examples::evaluation_speed::dense::Dense;
@@ -58,6 +59,19 @@ fn code_by_hand_computes_what_emitted_code_computes() {
         let emitted = Paper::new().accelerations(&theta, &omega);
         let by_hand = ByHand::default().accelerations(&theta, &omega);
         assert!(difference(&by_hand, &emitted) < 1e-13);
+    }
+}
+
+/// At least as good as a small multiple of the conditioning bound.
+#[test]
+fn errors_stay_within_a_small_multiple_of_the_bound() {
+    for row in accuracy::all(30) {
+        for worst in row.worst.into_iter().flatten() {
+            assert!(worst < 5.0, "{row:?}");
+        }
+        // Emitted code was measured.
+        assert!(row.worst[1].is_some_and(|worst| worst > 0.0));
+        assert!(row.worst[2].is_some_and(|worst| worst > 0.0));
     }
 }
 

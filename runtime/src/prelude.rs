@@ -4,12 +4,15 @@
 pub use crate::branched_pendulum;
 pub use crate::integrate::{
     Crossing, DenseStep, Dop853, Dopri5, Event, Gauss, GaussOrder, IntegrationError, Integrator,
-    Options, Report, Rk4, Solution, Solver, StopReason, Taylor, Tolerance, Verner98,
+    Options, Projected, Report, Rk4, Solution, Solver, StoermerVerlet, StopReason, Taylor,
+    Tolerance, Verner98,
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
 pub use crate::sectors::{Budget, Sectors};
 pub use crate::system::{
-    AbsoluteAngles, Canonical, CanonicalVariables, Energy, Ode, OdeFn, Pendulum, Rescale, State,
-    SymmetricCoordinates, SymmetricPendulum, TaylorOde, TaylorPendulum,
+    AbsoluteAngles, Canonical, CanonicalEnergy, CanonicalVariables, Energy, FirstIntegral, Ode,
+    OdeFn, Pendulum, Rescale, State, SymmetricCoordinates, SymmetricPendulum, TaylorOde,
+    TaylorPendulum,
 };
+pub use crate::transfer_forms::{TransferForm, TransferForms};

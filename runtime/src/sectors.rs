@@ -80,7 +80,7 @@ pub struct Sector {
 ///
 /// let model = BranchedDouble::<f64>::new();
 /// let theta = [0.1, 0.5, 0.3];
-/// let (mut plain, mut orthonormal) = ([0.0; 3], [0.0; 3]);
+/// let (mut plain, mut orthonormal) = ([0.0_f64; 3], [0.0_f64; 3]);
 /// model.symmetric_from_absolute(Normalisation::Plain, &theta, &mut plain);
 /// model.symmetric_from_absolute(Normalisation::Orthonormal, &theta, &mut orthonormal);
 /// // The paper's θ_m = (θ_2 + θ_3)/2 and θ_d = (θ_2 − θ_3)/2 ...

@@ -14,6 +14,7 @@ mod taylor;
 use alloc::vec::Vec;
 use core::fmt;
 
+use crate::generations::LinkName;
 use crate::scalar::Scalar;
 
 pub use canonical::{Canonical, CanonicalVariables};
@@ -29,8 +30,18 @@ pub trait Pendulum<T: Scalar> {
     /// Number of links, each with one angle.
     const LINKS: usize;
 
-    /// Names of the links, as described, in the order of the angles.
+    /// Names of the links, as described, in the order of the angles. Empty for
+    /// trees whose code is loops over generations: their links are too many for a
+    /// list, and have a [`link_name`](Self::link_name) all the same.
     const LINK_NAMES: &'static [&'static str];
+
+    /// Name of the link with that index, if there is one.
+    #[must_use]
+    fn link_name(index: usize) -> Option<LinkName> {
+        Self::LINK_NAMES
+            .get(index)
+            .map(|name| LinkName::listed(name))
+    }
 
     /// Writes the angular accelerations, in rad/s², of a pendulum with angles
     /// `theta` (rad) and angular velocities `omega` (rad/s) at `time` (s).

@@ -11,6 +11,7 @@ use std::cell::Cell;
 
 use branched_pendulum::integrate::{Projected, StoermerVerlet};
 use branched_pendulum::prelude::*;
+use branched_pendulum::taylor::Quad;
 
 thread_local! {
     // Of this thread alone: the tests run side by side.
@@ -153,11 +154,11 @@ impl Ode<f64> for Series {
 }
 
 impl TaylorOde<f64> for Series {
-    fn factors(&self) -> usize {
+    fn workspace(&self, _order: usize) -> usize {
         0
     }
 
-    fn taylor(&self, _time: f64, y: &[f64], coefficients: &mut [f64], _factors: &mut [f64]) {
+    fn taylor(&self, _time: f64, y: &[f64], coefficients: &mut [f64], _work: &mut [Quad<f64>]) {
         let (mut position, mut velocity) = (y[0], y[1]);
         for (k, row) in coefficients.chunks_exact_mut(2).enumerate() {
             row.copy_from_slice(&[position, velocity]);

@@ -7,6 +7,8 @@ pub mod chain;
 pub mod driven;
 #[path = "../fixtures/scenes/driven_series.rs"]
 pub mod driven_series;
+#[path = "../fixtures/scenes/free_series.rs"]
+pub mod free_series;
 #[path = "../fixtures/scenes/generations.rs"]
 pub mod generations;
 #[path = "../fixtures/scenes/nested.rs"]

@@ -4,7 +4,7 @@
 //! build it against `branched-pendulum` without its feature `macros`, and let
 //! `--check` tell when it is stale.
 
-use branched_pendulum_codegen::{Stages, stages};
+use branched_pendulum_codegen::{Stages, program, stages};
 use proc_macro2::TokenStream;
 use quote::ToTokens;
 use std::ops::Range;
@@ -22,7 +22,7 @@ Usage: expand [OPTIONS] SOURCE
   --out FILE        write the expanded source to FILE (default: standard output)
   --check FILE      compare with FILE; exit with 1 where it is stale
   --stage STAGE     show a stage instead of code: description, scene, mechanics
-                    or program
+                    or program; or what the passes over programs are worth: passes
   -h, --help        this text
 
 Everything but the attributed structs is copied as it stands; imports of the
@@ -46,7 +46,7 @@ struct Arguments {
     stage: Option<String>,
 }
 
-const STAGES: [&str; 4] = ["description", "scene", "mechanics", "program"];
+const STAGES: [&str; 5] = ["description", "scene", "mechanics", "program", "passes"];
 
 fn arguments() -> Result<Option<Arguments>, String> {
     let (mut source, mut out, mut check, mut stage) = (None, None, None, None);
@@ -160,6 +160,7 @@ fn show(stages: &Stages, stage: &str) -> String {
         "description" => stages.description.to_string(),
         "scene" => stages.scene.to_string(),
         "mechanics" => stages.mechanics.to_string(),
+        "passes" => program::worth(&stages.scene, &stages.mechanics),
         _ => stages.program.to_string(),
     }
 }

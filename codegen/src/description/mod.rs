@@ -150,8 +150,12 @@ impl Node {
     }
 
     fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
-        // The shape of a rule is a name, but no value.
-        for property in self.properties.iter().filter(|p| p.name != "shape") {
+        // The shape and the code of a rule are names, but no values.
+        let values = self
+            .properties
+            .iter()
+            .filter(|p| p.name != "shape" && p.name != "code");
+        for property in values {
             property.value.for_each_name(visit);
         }
         for child in &self.children {

@@ -26,6 +26,9 @@ impl Emission<'_> {
 
     pub(super) fn model_docs(&self) -> TokenStream {
         let scene = self.scene;
+        if let Some(generations) = &scene.generations {
+            return self.generations_docs(generations);
+        }
         let links: Vec<&str> = scene.links.iter().map(|link| link.name.as_str()).collect();
         let mut lines = vec![
             String::new(),
@@ -110,18 +113,19 @@ impl Emission<'_> {
                     None => "",
                 }),
                 String::new(),
-                "Row k of `coefficients` gets θ[k] (in rad/sᵏ), then ω[k] (in rad/sᵏ⁺¹), of θ(t₀ + τ) = Σ θ[k] τᵏ: as many orders as there are rows. `factors` is what they are formed in: at least two rows fewer, of any content; if there are not as many, all coefficients are NaN.".into(),
+                "Row k of `coefficients` gets θ[k] (in rad/sᵏ), then ω[k] (in rad/sᵏ⁺¹), of θ(t₀ + τ) = Σ θ[k] τᵏ: as many orders as there are rows. They are formed in `work`, of any content: `TaylorPendulum::taylor_workspace` of the highest order; if there is less, all coefficients are NaN.".into(),
                 String::new(),
-                "The recurrences of the operations of `accelerations` (Jorba and Zou, Experimental Mathematics 14 (2005) 99, proposition 2.1; Hairer, Nørsett, Wanner, Solving ODEs I, section I.8), sums over 0 < j < k:".into(),
+                "With S = (sin θ)'' and C = (cos θ)'', the equation of link i is linear in these second derivatives, whose coefficients follow from the rates of sine and cosine (Jorba and Zou, Experimental Mathematics 14 (2005) 99, proposition 2.1), sums over 0 < j ≤ k + 1:".into(),
                 String::new(),
                 "```text".into(),
                 "θ[k+1] = ω[k] / (k+1),  ω[k+1] = α[k] / (k+1)".into(),
-                "(u v)[k] = Σ u[j] v[k−j] + u[0] v[k] + u[k] v[0]".into(),
-                "(u/v)[k] = (u[k] − Σ (u/v)[j] v[k−j] − (u/v)[0] v[k]) / v[0]".into(),
-                "(√u)[k] = (u[k] − Σ (√u)[j] (√u)[k−j]) / (2 (√u)[0])".into(),
-                "(sin a)[k] = Σ j a[j] (cos a)[k−j] / k + a[k] (cos a)[0]".into(),
-                "(cos a)[k] = −(Σ j a[j] (sin a)[k−j] / k + a[k] (sin a)[0])".into(),
+                "S[k] = (k+1) Σ ω[j−1] (cos θ)[k+2−j] + (cos θ)[0] α[k]".into(),
+                "C[k] = −(k+1) Σ ω[j−1] (sin θ)[k+2−j] − (sin θ)[0] α[k]".into(),
+                "X_i = Σ_j (A_ij S_j + B_ij C_j),  Y_i = Σ_j (A_ij C_j − B_ij S_j),  i ≠ j".into(),
+                "M_ii α_i + cos θ_i X_i − sin θ_i Y_i + G_i sin θ_i + F_i cos θ_i + … = 0".into(),
                 "```".into(),
+                String::new(),
+                "for the mass matrix M_ij = A_ij cos(θ_i − θ_j) + B_ij sin(θ_i − θ_j): one linear system with the matrix of order 0 for each order. See `branched_pendulum::taylor`.".into(),
             ],
             Purpose::KineticEnergy => vec![format!("Kinetic energy K = ½ ωᵀ M(θ) ω (in J).{}", self.frame_note())],
             Purpose::PotentialEnergy => {

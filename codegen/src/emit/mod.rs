@@ -7,6 +7,7 @@ mod drive;
 mod formulas;
 mod function;
 mod gather;
+mod generations;
 mod model;
 mod names;
 mod observables;
@@ -14,6 +15,7 @@ mod parts;
 mod stub;
 mod taylor;
 mod taylor_order;
+mod taylor_rules;
 mod traits;
 mod transfer_forms;
 
@@ -51,6 +53,10 @@ pub fn emit(
         program,
     };
     let model = emission.model();
+    if let Some(generations) = &scene.generations {
+        let code = emission.generations(generations);
+        return quote!(#model #code);
+    }
     let functions = program.entries.iter().map(|entry| match entry.purpose {
         Purpose::TaylorCoefficients => emission.taylor_coefficients(entry),
         _ => emission.function(entry),

@@ -21,6 +21,13 @@ impl Emission<'_> {
             let field = self.field(id);
             quote!(#field: T)
         });
+        let fields: Vec<TokenStream> = match self.scene.generations {
+            Some(_) => {
+                let loops = self.generations_type();
+                vec![quote!(generations: #loops)]
+            }
+            None => fields.collect(),
+        };
         let constructors = if self.scene.parameters.is_empty() {
             self.literal_constructors()
         } else {
@@ -52,6 +59,8 @@ impl Emission<'_> {
         let missing = DERIVED
             .iter()
             .filter(|name| !words.contains(*name))
+            // Loops hold their constants on the heap.
+            .filter(|name| **name != "Copy" || self.scene.generations.is_none())
             .map(|name| {
                 let name = Ident::new(name, Span::call_site());
                 match name.to_string().as_str() {
@@ -66,6 +75,9 @@ impl Emission<'_> {
 
     /// `let` lines for all stored constants, and the struct literal.
     fn constants(&self) -> TokenStream {
+        if let Some(generations) = &self.scene.generations {
+            return self.generations_value(&generations.constants);
+        }
         let stored = self.stored_constants();
         let mut known = BTreeMap::new();
         let mut lines = Vec::new();

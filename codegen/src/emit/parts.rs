@@ -18,7 +18,7 @@ const MOST_LINES: usize = 1000;
 
 /// Lines of a part, at most about, those included that take values from the
 /// array and put them there.
-const MOST_IN_PART: usize = 700;
+const MOST_IN_PART: usize = 640;
 
 /// The parts of a function of about more lines than this are compiled one by
 /// one; those of a shorter one as the whole that they are, which runs faster.

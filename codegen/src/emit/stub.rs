@@ -177,6 +177,14 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             fn symmetric_accelerations_into(&self, _: T, _: &[T], _: &[T], _: &mut [T]) {}
         }
 
+        impl<T: #runtime::Scalar> #runtime::TransferForms<T> for #name<T> {
+            const TRANSFER_FORMS: &'static [#runtime::TransferForm] = &[];
+            const RECEIVERS: &'static [&'static str] = &[];
+            const SMALL_SECTORS: &'static [#runtime::transfer_forms::SmallSector] = &[];
+            fn transfers_into(&self, _: usize, _: &[T], _: &[T], _: &mut [#runtime::Transfer<T>]) {}
+            fn symmetric_momenta_into(&self, _: &[T], _: &[T], _: &mut [T]) {}
+        }
+
         impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
             fn kinetic_energy_of(&self, _: &[T], _: &[T]) -> T { ::core::unimplemented!() }
             fn potential_energy_of(&self, _: &[T]) -> T { ::core::unimplemented!() }
@@ -292,22 +300,23 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
         quote! {
             #[allow(missing_docs, unused_variables, clippy::all)]
             impl<T: #runtime::Scalar> #name<T> {
-                pub fn taylor_coefficients<const N: usize, const D: usize, const P: usize>(
+                pub fn taylor_coefficients<const N: usize>(
                     &self,
                     #time
                     theta: &[T; N],
                     omega: &[T; N],
-                    coefficients: &mut [[T; D]],
-                    factors: &mut [[[T; P]; 2]],
+                    coefficients: &mut [[[T; N]; 2]],
+                    work: &mut [#runtime::taylor::Quad<T>],
                 ) {
                     ::core::unimplemented!()
                 }
             }
 
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
-                const FACTORS: usize = 0;
+                fn taylor_workspace(_: usize) -> usize { 0 }
                 fn taylor_coefficients_into(
-                    &self, _: T, _: &[T], _: &[T], _: &mut [T], _: &mut [T],
+                    &self, _: T, _: &[T], _: &[T], _: &mut [T],
+                    _: &mut [#runtime::taylor::Quad<T>],
                 ) {}
             }
         }

@@ -1,22 +1,26 @@
-//! The function for the Taylor coefficients of the motion: order 0 as in the
-//! accelerations, then one turn of a loop for each further order.
+//! The function for the Taylor coefficients of the motion: the constants that the recurrences of the runtime ask
+//! for, and what is not among these, at the start and as a closure for one
+//! order.
 
 use super::Emission;
 use super::docs::doc_lines;
 use super::function::{Binding, ident};
 use super::taylor_order::Recurrences;
-use crate::program::{Argument, Entry};
+use crate::exact::Rational;
+use crate::program::{Argument, Entry, Expansion, Op, ValueId};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
     pub(super) fn taylor_coefficients(&self, entry: &Entry) -> TokenStream {
-        let needed = self.program.needed(&entry.outputs);
-        let recurrences = Recurrences::new(self, entry, &needed);
+        let expansion = Expansion::of_outputs(&entry.outputs, &self.mechanics.absolute);
+        let recurrences = Recurrences::new(self, entry, &expansion.bias);
         let locals = &recurrences.locals;
-        let gathered = self.gathered(entry, &needed);
+        let start = recurrences.start(&expansion);
+        let needed = self.program.needed(&start.outputs);
+        let gathered = self.gathered(&start, &needed);
         let whole = gathered.whole;
-        let read = self.read(entry, &needed, whole.is_some().then_some(&gathered.inputs));
+        let read = self.read(&start, &needed, whole.is_some().then_some(&gathered.inputs));
         let inputs = entry
             .arguments
             .iter()
@@ -24,18 +28,47 @@ impl Emission<'_> {
             .map(|&argument| self.take_apart(argument, &read, locals));
         let lines = self.lines(&gathered, &needed, locals);
         let lines = lines.into_iter().map(|line| line.tokens);
-        let accelerations: Vec<TokenStream> = entry.outputs[..self.scene.links.len()]
-            .iter()
-            .map(|&id| self.bound(id, locals, Binding::Sum))
-            .collect();
-        let turn = recurrences.turn();
-        let k = &recurrences.order;
-        let docs = self.taylor_docs(entry, recurrences.count());
-        let name = ident(&entry.name);
+        let list = |values: &[ValueId]| {
+            let values = values
+                .iter()
+                .map(|&id| self.bound(id, locals, Binding::Sum));
+            quote!([#(#values),*])
+        };
+        let (sines, cosines) = (list(&expansion.sines), list(&expansion.cosines));
+        let bias_0 = list(&expansion.bias);
+        let (inertias, weights) = (list(&expansion.inertias), list(&expansion.weights));
+        let lateral_weights = list(&expansion.lateral_weights);
         let runtime = self.runtime();
-        let links = self.links();
-        let components = Literal::usize_unsuffixed(2 * self.scene.links.len());
-        let lanes = Literal::usize_unsuffixed(recurrences.lanes());
+        let couplings = expansion.couplings.iter().map(|(links, [cosine, sine])| {
+            let [row, column] = links.map(Literal::usize_unsuffixed);
+            let cosine = self.bound(*cosine, locals, Binding::Sum);
+            let sine = if *self.op(*sine) == Op::Number(Rational::from(0)) {
+                quote!(::core::option::Option::None)
+            } else {
+                let sine = self.bound(*sine, locals, Binding::Sum);
+                quote!(::core::option::Option::Some(#sine))
+            };
+            quote! {
+                #runtime::taylor::Coupling { links: [#row, #column], cosine: #cosine, sine: #sine }
+            }
+        });
+        let (links, quads) = (self.links(), self.quads());
+        let (rows, bias) = match recurrences.is_empty() {
+            true => (
+                TokenStream::new(),
+                quote! {
+                    ::core::option::Option::None::<
+                        fn(&#runtime::taylor::Known<T, #links>) -> [T; #links],
+                    >
+                },
+            ),
+            false => {
+                let (rows, closure) = (recurrences.rows(), recurrences.closure());
+                (rows, quote!(::core::option::Option::Some(#closure)))
+            }
+        };
+        let docs = self.taylor_docs(entry, &expansion, recurrences.count());
+        let name = ident(&entry.name);
         let time = entry
             .arguments
             .contains(&Argument::Time)
@@ -47,28 +80,50 @@ impl Emission<'_> {
                 #time
                 theta: &[T; #links],
                 omega: &[T; #links],
-                coefficients: &mut [[T; #components]],
-                factors: &mut [[[T; #lanes]; 2]],
+                coefficients: &mut [[[T; #links]; 2]],
+                work: &mut [#runtime::taylor::Quad<T>],
             ) {
                 #(#inputs)*
                 #(#lines)*
-                let accelerations = [#(#accelerations),*];
-                let orders = #runtime::taylor::begin(
-                    coefficients, factors, theta, omega, &accelerations,
+                let start = #runtime::taylor::Start {
+                    theta,
+                    omega,
+                    sines: #sines,
+                    cosines: #cosines,
+                    bias: #bias_0,
+                };
+                let tree = #runtime::taylor::Tree {
+                    inertias: #inertias,
+                    couplings: &[#(#couplings),*],
+                    weights: #weights,
+                    lateral_weights: #lateral_weights,
+                };
+                #rows
+                #runtime::taylor::expand::<T, #links, #quads, _>(
+                    &start, &tree, coefficients, work, #bias,
                 );
-                for #k in orders {
-                    #turn
-                }
             }
         }
     }
 
-    fn taylor_docs(&self, entry: &Entry, sums: usize) -> TokenStream {
+    /// Groups of four that hold a number of each link.
+    fn quads(&self) -> Literal {
+        Literal::usize_unsuffixed(self.scene.links.len().div_ceil(4))
+    }
+
+    fn taylor_docs(&self, entry: &Entry, expansion: &Expansion, sums: usize) -> TokenStream {
         let mut lines = self.meaning(entry.purpose);
-        let operations = self.program.operations(&entry.outputs);
+        let start = [&expansion.sines, &expansion.cosines, &expansion.bias];
+        let operations = self
+            .program
+            .operations(&start.into_iter().flatten().copied().collect::<Vec<_>>());
+        let mut products = format!("{} products of series", 4 * self.scene.links.len());
+        if sums > 0 {
+            products += &format!(", and {sums} in functions of the time");
+        }
         lines.push(String::new());
         lines.push(format!(
-            "Cost of order 0: {operations}. Each order k > 0: no sin_cos, two products and two sums in the place of each product of variables, and {sums} sums of k − 1 products, side by side."
+            "Cost of order 0: {operations}, and the inverse of the mass matrix. Each order k: {products}, of k terms each."
         ));
         doc_lines(&lines)
     }
@@ -80,28 +135,25 @@ impl Emission<'_> {
         let Some(entry) = entry else {
             unreachable!("the request makes the entry");
         };
-        let needed = self.program.needed(&entry.outputs);
-        let lanes = Recurrences::new(self, entry, &needed).lanes();
-        let (lanes, factors) = (
-            Literal::usize_unsuffixed(lanes),
-            Literal::usize_unsuffixed(2 * lanes),
-        );
-        let components = Literal::usize_unsuffixed(2 * self.scene.links.len());
+        let expansion = Expansion::of_outputs(&entry.outputs, &self.mechanics.absolute);
+        let links = self.links();
+        let rows = Recurrences::new(self, entry, &expansion.bias).room();
         let time = self.time_name();
         let argument = self.mechanics.drive.as_ref().map(|_| quote!(time,));
         let body = self.with_arrays(
             &["theta", "omega"],
             quote!({
-                let (coefficients, _) = coefficients.as_chunks_mut::<#components>();
-                let (factors, _) = factors.as_chunks_mut::<#lanes>();
-                let (factors, _) = factors.as_chunks_mut::<2>();
-                self.taylor_coefficients(#argument theta, omega, coefficients, factors)
+                let (coefficients, _) = coefficients.as_chunks_mut::<#links>();
+                let (coefficients, _) = coefficients.as_chunks_mut::<2>();
+                self.taylor_coefficients(#argument theta, omega, coefficients, work)
             }),
             quote!(coefficients.fill(T::from_f64(f64::NAN))),
         );
         quote! {
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
-                const FACTORS: usize = #factors;
+                fn taylor_workspace(order: usize) -> usize {
+                    #runtime::taylor::workspace(#links, order) #rows
+                }
 
                 fn taylor_coefficients_into(
                     &self,
@@ -109,7 +161,7 @@ impl Emission<'_> {
                     theta: &[T],
                     omega: &[T],
                     coefficients: &mut [T],
-                    factors: &mut [T],
+                    work: &mut [#runtime::taylor::Quad<T>],
                 ) {
                     #body
                 }

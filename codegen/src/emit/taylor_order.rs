@@ -1,4 +1,5 @@
-//! One order of the Taylor coefficients: what becomes of each operation.
+//! One order of the Taylor coefficients of what the runtime's recurrences of a
+//! tree do not know: friction, springs, drives.
 //!
 //! The coefficient of order k of a product, a quotient, a sine or a root is a
 //! sum of products of coefficients below k, Σ_{0<j<k} u[j] v[k−j], and what the
@@ -9,14 +10,10 @@
 use super::Emission;
 use super::function::{Binding, ident};
 use super::names::Locals;
-use crate::exact::Rational;
-use crate::program::{Argument, Entry, Op, ValueId};
-use proc_macro2::{Ident, TokenStream};
+use crate::program::{Argument, Entry, Expansion, Op, ValueId};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeMap;
-
-/// The sums are formed in blocks of so many.
-const BLOCK: usize = 4;
 
 /// One factor of the products in a sum.
 #[derive(Clone, Copy)]
@@ -34,42 +31,57 @@ struct Sum {
     factors: [Factor; 2],
 }
 
-/// All orders of an entry.
+/// All orders of the rest of the equation of motion.
 pub(super) struct Recurrences<'e> {
-    emission: &'e Emission<'e>,
-    needed: &'e [ValueId],
+    pub(super) emission: &'e Emission<'e>,
+    entry: &'e Entry,
+    bias: &'e [ValueId],
+    /// What the coefficients of the bias need.
+    needed: Vec<ValueId>,
     links: usize,
-    accelerations: &'e [ValueId],
     /// Names of the coefficients of order 0.
     pub(super) locals: Locals,
     /// Names of those of order k.
     names: BTreeMap<ValueId, Ident>,
     /// Whether a value depends on the state or the time.
-    varies: BTreeMap<ValueId, bool>,
+    pub(super) varies: BTreeMap<ValueId, bool>,
     sums: Vec<Sum>,
-    /// What k is called.
-    pub(super) order: Ident,
+    /// What k is called, and what holds the coefficients of the state.
+    order: Ident,
+    known: Ident,
     order_number: Ident,
-    inverse_order: Ident,
+    pub(super) inverse_order: Ident,
     time: Option<Ident>,
 }
 
 impl<'e> Recurrences<'e> {
-    pub(super) fn new(emission: &'e Emission<'e>, entry: &'e Entry, needed: &'e [ValueId]) -> Self {
+    pub(super) fn new(emission: &'e Emission<'e>, entry: &'e Entry, bias: &'e [ValueId]) -> Self {
         let links = emission.scene.links.len();
-        let mut locals = emission.locals(entry, needed);
-        let reserved = ["coefficients", "factors", "accelerations", "orders"];
+        let needed = with_partners(emission, bias);
+        let expansion = Expansion::of_outputs(&entry.outputs, &emission.mechanics.absolute);
+        let mut outputs = roots(&expansion);
+        let number = |id: &ValueId| matches!(emission.op(*id), Op::Number(_));
+        outputs.extend(bias.iter().filter(|id| !number(id)));
+        let all = emission.program.needed(&outputs);
+        let mut locals = emission.locals(
+            &Entry {
+                outputs,
+                ..entry.clone()
+            },
+            &all,
+        );
+        let reserved = ["coefficients", "work", "start", "tree", "factors"];
         for name in reserved.into_iter().chain(["sines", "cosines"]) {
             locals.fresh(name.to_owned());
         }
         let mut varies: BTreeMap<ValueId, bool> = BTreeMap::new();
-        for &id in needed {
+        for &id in &needed {
             let op = emission.op(id);
             let moves = matches!(op, Op::Input(..)) || op.operands().any(|a| varies[&a]);
             varies.insert(id, moves);
         }
         let mut fresh = |name: &str| ident(&locals.fresh(name.to_owned()));
-        let order = fresh("k");
+        let (order, known) = (fresh("k"), fresh("known"));
         let (order_number, inverse_order) = (fresh("order"), fresh("inverse_order"));
         let timed = needed
             .iter()
@@ -77,14 +89,16 @@ impl<'e> Recurrences<'e> {
         let time = timed.then(|| fresh("time_k"));
         let mut recurrences = Self {
             emission,
+            entry,
+            bias,
             needed,
             links,
-            accelerations: &entry.outputs[..links],
             locals,
             names: BTreeMap::new(),
             varies,
             sums: Vec::new(),
             order,
+            known,
             order_number,
             inverse_order,
             time,
@@ -95,9 +109,28 @@ impl<'e> Recurrences<'e> {
         recurrences
     }
 
-    /// Number of sums of products, filled up to whole blocks.
-    pub(super) fn lanes(&self) -> usize {
-        self.sums.len().max(1).next_multiple_of(BLOCK)
+    /// The entry for order 0: what starts the expansion, and what is read again
+    /// in order k.
+    pub(super) fn start(&self, expansion: &Expansion) -> Entry {
+        let mut outputs = roots(expansion);
+        outputs.extend(&expansion.bias);
+        for &id in &self.needed {
+            outputs.extend(self.read_again(id));
+        }
+        Entry {
+            outputs,
+            ..self.entry.clone()
+        }
+    }
+
+    /// Whether the recurrences of the tree are all there is.
+    pub(super) fn is_empty(&self) -> bool {
+        self.bias.iter().all(|id| !self.varies[id])
+    }
+
+    /// Quads of sums of products.
+    fn quads(&self) -> usize {
+        self.sums.len().div_ceil(4)
     }
 
     /// Number of sums of products in each order.
@@ -105,29 +138,65 @@ impl<'e> Recurrences<'e> {
         self.sums.len()
     }
 
+    /// What they add to the workspace.
+    pub(super) fn room(&self) -> Option<TokenStream> {
+        let size = Literal::usize_unsuffixed(2 * self.quads());
+        (self.quads() > 0).then(|| quote!(+ #size * (order + 1)))
+    }
+
+    /// The part of the workspace for the factors of the sums.
+    pub(super) fn rows(&self) -> TokenStream {
+        if self.sums.is_empty() {
+            return TokenStream::new();
+        }
+        let runtime = self.emission.runtime();
+        let quads = Literal::usize_unsuffixed(self.quads());
+        quote! {
+            let (factors, work) =
+                #runtime::taylor::rows::<T, #quads>(work, coefficients.len());
+        }
+    }
+
+    /// A sine or cosine of an angle of the tree: known like the angle.
+    fn is_given(&self, op: &Op) -> bool {
+        match *op {
+            Op::Input(..) => true,
+            Op::Sin(a) | Op::Cos(a) => {
+                matches!(self.emission.op(a), Op::Input(Argument::Theta, _))
+            }
+            _ => false,
+        }
+    }
+
     /// Whether an operation needs a sum of products.
     fn nonlinear(&self, op: &Op) -> bool {
         match *op {
+            _ if self.is_given(op) => false,
             Op::Mul(a, b) => self.varies[&a] && self.varies[&b],
             Op::Div(_, a) | Op::Sin(a) | Op::Cos(a) | Op::Sqrt(a) => self.varies[&a],
             _ => false,
         }
     }
 
+    /// Values whose order 0 is read again in order k of a value.
+    fn read_again(&self, id: ValueId) -> Vec<ValueId> {
+        let op = self.emission.op(id);
+        if !self.nonlinear(op) {
+            return Vec::new();
+        }
+        match *op {
+            Op::Mul(a, b) => vec![a, b],
+            Op::Div(_, b) => vec![b, id],
+            Op::Sin(a) => vec![self.id(&Op::Cos(a))],
+            Op::Cos(a) => vec![self.id(&Op::Sin(a))],
+            _ => vec![id],
+        }
+    }
+
     /// Names what is written in place in order 0 and is read again in order k.
     fn name_factors(&mut self) {
-        for &id in self.needed {
-            let op = self.emission.op(id).clone();
-            if !self.nonlinear(&op) {
-                continue;
-            }
-            // The sine and cosine of an angle do not read its order 0.
-            let read: Vec<ValueId> = match op {
-                Op::Mul(a, b) => vec![a, b],
-                Op::Div(_, b) => vec![b, id],
-                _ => vec![id],
-            };
-            for value in read {
+        for id in self.needed.clone() {
+            for value in self.read_again(id) {
                 let leaf = matches!(self.emission.op(value), Op::Constant(_) | Op::Number(_));
                 if !leaf && !self.locals.names.contains_key(&value) {
                     let name = self.emission.describe(value, &self.locals);
@@ -138,7 +207,7 @@ impl<'e> Recurrences<'e> {
     }
 
     fn name_coefficients(&mut self) {
-        for &id in self.needed {
+        for &id in &self.needed {
             let time = matches!(self.emission.op(id), Op::Input(Argument::Time, _));
             if time && let Some(name) = &self.time {
                 self.names.insert(id, name.clone());
@@ -152,7 +221,7 @@ impl<'e> Recurrences<'e> {
     }
 
     fn find_sums(&mut self) {
-        for &id in self.needed {
+        for id in self.needed.clone() {
             let op = self.emission.op(id).clone();
             if !self.nonlinear(&op) {
                 continue;
@@ -177,23 +246,24 @@ impl<'e> Recurrences<'e> {
         }
     }
 
-    fn id(&self, op: &Op) -> ValueId {
-        let found = self.needed.iter().find(|id| self.emission.op(**id) == op);
-        match found {
-            Some(&id) => id,
+    pub(super) fn id(&self, op: &Op) -> ValueId {
+        match self.find(op) {
+            Some(id) => id,
             None => unreachable!("the entry holds both partners of a sine and cosine"),
         }
     }
 
-    /// What is done for the order k, of which the angles and velocities are
-    /// known.
-    pub(super) fn turn(&self) -> TokenStream {
-        let runtime = self.emission.runtime();
-        let (k, order, inverse) = (&self.order, &self.order_number, &self.inverse_order);
+    /// The coefficient of order k of the bias, of what is known of that order.
+    pub(super) fn closure(&self) -> TokenStream {
+        let (runtime, links) = (self.emission.runtime(), self.emission.links());
+        let (k, known) = (&self.order, &self.known);
+        let (order, inverse) = (&self.order_number, &self.inverse_order);
         let turned = self
             .sums
             .iter()
             .any(|sum| matches!(sum.of, Op::Sin(_) | Op::Cos(_)));
+        let counted = !self.sums.is_empty() || self.time.is_some();
+        let counter = counted.then(|| quote!(let #k = #known.order;));
         let numbers = turned.then(|| {
             quote! {
                 let #order = #runtime::taylor::whole::<T>(#k);
@@ -204,68 +274,104 @@ impl<'e> Recurrences<'e> {
             .time
             .as_ref()
             .map(|time| quote!(let #time = T::from_f64(if #k == 1 { 1.0 } else { 0.0 });));
-        let filling = self.lanes() - self.sums.len();
-        let names = self.sums.iter().map(|sum| &sum.name);
-        let names = names
-            .map(|name| quote!(#name))
-            .chain(std::iter::repeat_n(quote!(_), filling));
         let inputs = self.inputs();
         let lines = self.needed.iter().filter_map(|&id| {
-            let input = matches!(self.emission.op(id), Op::Input(..));
-            let name = self.names.get(&id).filter(|_| !input)?;
+            let given = self.is_given(self.emission.op(id));
+            let name = self.names.get(&id).filter(|_| !given)?;
             let (value, _) = self.definition(id);
             Some(quote!(let #name = #value;))
         });
-        let zeros = || std::iter::repeat_n(quote!(T::from_f64(0.0)), filling);
-        let side = |side: usize| {
-            let factors = self.sums.iter().map(move |sum| match sum.factors[side] {
-                Factor::Value(id) => self.bound(id, Binding::Sum),
-                Factor::Rate(id) => {
-                    let angle = self.bound(id, Binding::Prefix);
-                    quote!(#order * #angle)
-                }
-            });
-            factors.chain(zeros())
-        };
-        let (left, right) = (side(0), side(1));
-        let accelerations = self.accelerations.iter().map(|&id| match self.varies[&id] {
+        let sums = (!self.sums.is_empty()).then(|| {
+            let names = self.in_quads(
+                self.sums.iter().map(|sum| {
+                    let name = &sum.name;
+                    quote!(#name)
+                }),
+                &quote!(_),
+            );
+            quote!(let [#(#names),*] = #runtime::taylor::sums(#k, factors);)
+        });
+        let factors = (!self.sums.is_empty()).then(|| {
+            let zero = quote!(T::from_f64(0.0));
+            let side = |side: usize| {
+                let factors = self.sums.iter().map(move |sum| match sum.factors[side] {
+                    Factor::Value(id) => self.bound(id, Binding::Sum),
+                    Factor::Rate(id) => {
+                        let angle = self.bound(id, Binding::Prefix);
+                        quote!(#order * #angle)
+                    }
+                });
+                self.in_quads(factors, &zero)
+            };
+            let (left, right) = (side(0), side(1));
+            quote!(factors[#k - 1] = [[#(#left),*], [#(#right),*]];)
+        });
+        let bias = self.bias.iter().map(|&id| match self.varies[&id] {
             true => self.bound(id, Binding::Sum),
             false => quote!(T::from_f64(0.0)),
         });
         quote! {
-            #numbers
-            #time
-            #inputs
-            let [#(#names),*] = #runtime::taylor::sums(#k, factors);
-            #(#lines)*
-            factors[#k - 1] = [[#(#left),*], [#(#right),*]];
-            #runtime::taylor::advance(coefficients, #k, &[#(#accelerations),*]);
+            |#known: &#runtime::taylor::Known<T, #links>| {
+                #counter
+                #numbers
+                #time
+                #inputs
+                #sums
+                #(#lines)*
+                #factors
+                [#(#bias),*]
+            }
         }
     }
 
-    /// `let [theta_parent_k, _, omega_parent_k, _] = coefficients[k];`
+    /// `Quad([a, b, c, d]), …`, filled up to whole quads.
+    fn in_quads(
+        &self,
+        values: impl Iterator<Item = TokenStream>,
+        filling: &TokenStream,
+    ) -> Vec<TokenStream> {
+        let runtime = self.emission.runtime();
+        let mut values: Vec<TokenStream> = values.collect();
+        values.resize(4 * self.quads(), filling.clone());
+        let quads = values.chunks(4);
+        quads
+            .map(|quad| quote!(#runtime::taylor::Quad([#(#quad),*])))
+            .collect()
+    }
+
+    /// What is given of order k, taken apart.
     fn inputs(&self) -> TokenStream {
-        let elements = [Argument::Theta, Argument::Omega]
-            .into_iter()
-            .flat_map(|argument| {
-                (0..self.links).map(move |index| {
-                    let input = Op::Input(argument, index);
-                    let found = self
-                        .needed
-                        .iter()
-                        .find(|id| *self.emission.op(**id) == input);
-                    match found.and_then(|id| self.names.get(id)) {
-                        Some(name) => quote!(#name),
-                        None => quote!(_),
-                    }
-                })
-            });
-        let k = &self.order;
-        quote!(let [#(#elements),*] = coefficients[#k];)
+        let angle = |index: usize| self.find(&Op::Input(Argument::Theta, index));
+        let lists = [
+            self.list("theta", |index| Some(Op::Input(Argument::Theta, index))),
+            self.list("omega", |index| Some(Op::Input(Argument::Omega, index))),
+            self.list("sines", |index| angle(index).map(Op::Sin)),
+            self.list("cosines", |index| angle(index).map(Op::Cos)),
+        ];
+        lists.into_iter().flatten().collect()
+    }
+
+    /// `let [theta_parent_k, _, theta_bob_k] = known.theta;`, if any is read.
+    fn list(&self, list: &str, op: impl Fn(usize) -> Option<Op>) -> Option<TokenStream> {
+        let name = |index| self.names.get(&self.find(&op(index)?)?);
+        let names: Vec<Option<&Ident>> = (0..self.links).map(name).collect();
+        let read = names.iter().any(Option::is_some);
+        let elements = names.into_iter().map(|name| match name {
+            Some(name) => quote!(#name),
+            None => quote!(_),
+        });
+        let (known, list) = (&self.known, ident(list));
+        read.then(|| quote!(let [#(#elements),*] = #known.#list;))
+    }
+
+    /// The value of an operation, if it is needed.
+    fn find(&self, op: &Op) -> Option<ValueId> {
+        let mut needed = self.needed.iter().copied();
+        needed.find(|id| self.emission.op(*id) == op)
     }
 
     /// The coefficient of order k where it is used.
-    fn bound(&self, id: ValueId, place: Binding) -> TokenStream {
+    pub(super) fn bound(&self, id: ValueId, place: Binding) -> TokenStream {
         if let Some(name) = self.names.get(&id) {
             return quote!(#name);
         }
@@ -278,99 +384,37 @@ impl<'e> Recurrences<'e> {
     }
 
     /// The coefficient of order 0 where it is used.
-    fn zeroth(&self, id: ValueId, place: Binding) -> TokenStream {
+    pub(super) fn zeroth(&self, id: ValueId, place: Binding) -> TokenStream {
         self.emission.bound(id, &self.locals, place)
     }
 
-    fn sum(&self, op: &Op) -> &Ident {
+    pub(super) fn sum(&self, op: &Op) -> &Ident {
         match self.sums.iter().find(|sum| sum.of == *op) {
             Some(sum) => &sum.name,
             None => unreachable!("every operation that is not linear has a sum"),
         }
     }
+}
 
-    /// The recurrence of an operation, in the coefficients of order k and 0.
-    fn definition(&self, id: ValueId) -> (TokenStream, Binding) {
-        let op = self.emission.op(id);
-        let varies = |id: &ValueId| self.varies[id];
-        let at = |id: ValueId, place: Binding| self.bound(id, place);
-        let zeroth = |id: ValueId| self.zeroth(id, Binding::Atom);
-        match *op {
-            Op::Neg(a) => {
-                let a = at(a, Binding::Atom);
-                (quote!(-#a), Binding::Prefix)
-            }
-            Op::Add(a, b) | Op::Sub(a, b) if varies(&a) && varies(&b) => {
-                let (a, b) = (at(a, Binding::Sum), at(b, Binding::Product));
-                let value = match op {
-                    Op::Add(..) => quote!(#a + #b),
-                    _ => quote!(#a - #b),
-                };
-                (value, Binding::Sum)
-            }
-            Op::Add(a, _) | Op::Sub(a, _) if varies(&a) => (at(a, Binding::Atom), Binding::Atom),
-            Op::Add(_, b) => (at(b, Binding::Atom), Binding::Atom),
-            Op::Sub(_, b) => {
-                let b = at(b, Binding::Atom);
-                (quote!(-#b), Binding::Prefix)
-            }
-            Op::Mul(a, b) if varies(&a) && varies(&b) => {
-                // (u v)[k] = Σ u[j] v[k−j] + u[0] v[k] + u[k] v[0]
-                let (u, v) = (at(a, Binding::Prefix), at(b, Binding::Prefix));
-                let (u_0, v_0) = (zeroth(a), zeroth(b));
-                let sum = self.sum(op);
-                (quote!(#sum + (#u_0 * #v + #u * #v_0)), Binding::Sum)
-            }
-            Op::Mul(a, b) => {
-                let (constant, moving) = if varies(&a) { (b, a) } else { (a, b) };
-                let constant = self.zeroth(constant, Binding::Prefix);
-                let moving = at(moving, Binding::Prefix);
-                (quote!(#constant * #moving), Binding::Product)
-            }
-            Op::Div(a, b) if varies(&b) => {
-                // u = v w, solved for w[k].
-                let (sum, w_0) = (self.sum(op), zeroth(id));
-                let v = at(b, Binding::Prefix);
-                let rest = quote!(#sum + #v * #w_0);
-                if *self.emission.op(a) == Op::Number(Rational::from(1)) {
-                    return (quote!(-(#rest) * #w_0), Binding::Product);
-                }
-                let v_0 = zeroth(b);
-                if varies(&a) {
-                    let u = at(a, Binding::Sum);
-                    (quote!((#u - (#rest)) / #v_0), Binding::Product)
-                } else {
-                    (quote!(-(#rest) / #v_0), Binding::Product)
-                }
-            }
-            Op::Div(a, b) => {
-                let (u, v_0) = (at(a, Binding::Product), zeroth(b));
-                (quote!(#u / #v_0), Binding::Product)
-            }
-            Op::Sqrt(a) => {
-                // u = w w, solved for w[k].
-                let (sum, w_0) = (self.sum(op), zeroth(id));
-                let u = at(a, Binding::Sum);
-                (quote!((#u - #sum) / (#w_0 + #w_0)), Binding::Product)
-            }
-            Op::Sin(angle) | Op::Cos(angle) => {
-                // k s[k] = Σ j a[j] c[k−j], k c[k] = −Σ j a[j] s[k−j]
-                let (sum, inverse) = (self.sum(op), &self.inverse_order);
-                let angle_k = at(angle, Binding::Prefix);
-                if matches!(op, Op::Sin(_)) {
-                    let cos = zeroth(self.id(&Op::Cos(angle)));
-                    (quote!(#sum * #inverse + #angle_k * #cos), Binding::Sum)
-                } else {
-                    let sin = zeroth(self.id(&Op::Sin(angle)));
-                    (
-                        quote!(-(#sum * #inverse + #angle_k * #sin)),
-                        Binding::Prefix,
-                    )
-                }
-            }
-            Op::Input(..) | Op::Constant(_) | Op::Number(_) => {
-                unreachable!("inputs have names, constants no coefficient of order k")
-            }
-        }
+/// What the bias needs: of sines and cosines of the time both, as their
+/// recurrences do.
+fn with_partners(emission: &Emission<'_>, bias: &[ValueId]) -> Vec<ValueId> {
+    let mut outputs = bias.to_vec();
+    for id in emission.program.needed(bias) {
+        let partner = match *emission.op(id) {
+            Op::Sin(a) => Op::Cos(a),
+            Op::Cos(a) => Op::Sin(a),
+            _ => continue,
+        };
+        let definitions = emission.program.definitions.iter().zip(0..);
+        let found = definitions.filter(|(definition, _)| definition.op == partner);
+        outputs.extend(found.map(|(_, id)| ValueId(id)));
     }
+    emission.program.needed(&outputs)
+}
+
+/// What an expansion starts from.
+fn roots(expansion: &Expansion) -> Vec<ValueId> {
+    let lists = [&expansion.sines, &expansion.cosines];
+    lists.into_iter().flatten().copied().collect()
 }

@@ -1,7 +1,7 @@
 //! Builds a program value by value. Equal operations become one value, and
 //! operations that change nothing are not recorded.
 
-use super::{Choice, ConstantId, ConstantOp, Definition, Entry, Op, Program, Setup, ValueId};
+use super::{Choice, ConstantId, ConstantOp, Definition, Entry, Op, Pass, Program, Setup, ValueId};
 use crate::exact::Rational;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
@@ -12,6 +12,8 @@ pub(super) struct Builder {
     pub(super) definitions: Vec<Definition>,
     known: BTreeMap<Op, ValueId>,
     pub(super) setup: Setup,
+    /// What is left out, for comparison.
+    pub(super) off: Option<Pass>,
 }
 
 impl Builder {
@@ -34,7 +36,10 @@ impl Builder {
     }
 
     fn record(&mut self, op: Op) -> ValueId {
-        if let Some(&id) = self.known.get(&op) {
+        let leaf = !op.operands().any(|_| true) || matches!(op, Op::Sin(_) | Op::Cos(_));
+        if (leaf || self.off != Some(Pass::Sharing))
+            && let Some(&id) = self.known.get(&op)
+        {
             return id;
         }
         let id = ValueId(self.definitions.len() as u32);
@@ -126,6 +131,14 @@ impl Builder {
         *self.op(id) == Op::Number(Rational::from(value))
     }
 
+    /// What a change of sign is applied to.
+    fn opposite(&self, id: ValueId) -> Option<ValueId> {
+        match *self.op(id) {
+            Op::Neg(inner) if self.off != Some(Pass::Signs) => Some(inner),
+            _ => None,
+        }
+    }
+
     /// The value as a constant of the setup, if no input is involved.
     fn as_constant(&mut self, id: ValueId) -> Option<ConstantId> {
         match self.op(id).clone() {
@@ -141,12 +154,18 @@ impl Builder {
         b: ValueId,
         operation: fn(&mut Setup, ConstantId, ConstantId) -> ConstantId,
     ) -> Option<ValueId> {
+        if self.off == Some(Pass::Folding) {
+            return None;
+        }
         let (a, b) = (self.as_constant(a)?, self.as_constant(b)?);
         let folded = operation(&mut self.setup, a, b);
         Some(self.constant(folded))
     }
 
     pub(super) fn neg(&mut self, a: ValueId) -> ValueId {
+        if self.off == Some(Pass::Signs) && self.as_constant(a).is_none() {
+            return self.record(Op::Neg(a));
+        }
         match *self.op(a) {
             Op::Neg(inner) => inner,
             Op::Sub(x, y) => self.sub(y, x),
@@ -171,10 +190,10 @@ impl Builder {
         if self.is(b, 0) {
             return a;
         }
-        if let Op::Neg(inner) = *self.op(b) {
+        if let Some(inner) = self.opposite(b) {
             return self.sub(a, inner);
         }
-        if let Op::Neg(inner) = *self.op(a) {
+        if let Some(inner) = self.opposite(a) {
             return self.sub(b, inner);
         }
         if a == b {
@@ -195,10 +214,10 @@ impl Builder {
         if a == b {
             return self.integer(0);
         }
-        if let Op::Neg(inner) = *self.op(b) {
+        if let Some(inner) = self.opposite(b) {
             return self.add(a, inner);
         }
-        if let Op::Neg(inner) = *self.op(a) {
+        if let Some(inner) = self.opposite(a) {
             let sum = self.add(inner, b);
             return self.neg(sum);
         }
@@ -219,7 +238,7 @@ impl Builder {
             if self.is(x, -1) {
                 return self.neg(y);
             }
-            if let Op::Neg(inner) = *self.op(x) {
+            if let Some(inner) = self.opposite(x) {
                 let product = self.mul(inner, y);
                 return self.neg(product);
             }
@@ -245,14 +264,14 @@ impl Builder {
         if self.is(a, 0) || self.is(b, 1) {
             return a;
         }
-        if let Op::Neg(inner) = *self.op(a) {
+        if let Some(inner) = self.opposite(a) {
             let quotient = self.div(inner, b);
             return self.neg(quotient);
         }
         if let Some(folded) = self.fold(a, b, Setup::div) {
             return folded;
         }
-        if self.as_constant(b).is_some() {
+        if self.off != Some(Pass::Folding) && self.as_constant(b).is_some() {
             let one = self.integer(1);
             let inverse = self.div(one, b);
             return self.mul(a, inverse);

@@ -1,9 +1,9 @@
 //! Which solve the accelerations take: both are derived, and the cheaper one
 //! stays.
 
-use super::ValueId;
 use super::count::{Operations, operations};
 use super::lower::{Door, Lowering};
+use super::{Pass, ValueId};
 use crate::scene::{Scene, Solve};
 
 /// How the accelerations in absolute angles are solved for, and what the other
@@ -42,7 +42,8 @@ impl Lowering<'_> {
         let recursion_cost = operations(&other.builder.definitions, &recursion);
         let factorization = self.factorization(door);
         let factorization_cost = operations(&self.builder.definitions, &factorization);
-        let cheaper = cost(&recursion_cost) < cost(&factorization_cost)
+        let cheaper = self.builder.off != Some(Pass::Choice)
+            && cost(&recursion_cost) < cost(&factorization_cost)
             && other.builder.setup.is_representable();
         let solve = scene.requests.solve.unwrap_or(match cheaper {
             true => Solve::Recursion,

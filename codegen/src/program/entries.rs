@@ -32,7 +32,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> (Vec<Entry>
     }
     list.observables(scene, mechanics);
     if scene.requests.taylor {
-        list.taylor();
+        list.taylor(mechanics);
     }
     (list.entries, choice)
 }

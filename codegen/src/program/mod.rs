@@ -16,10 +16,12 @@ mod formed;
 mod fuse;
 mod handed;
 mod interpret;
+mod live;
 mod lower;
 mod named;
 mod observables;
 mod pair;
+mod passes;
 mod rebuild;
 mod recursion;
 mod sectors;
@@ -34,7 +36,9 @@ pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use fuse::Fused;
+pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
+pub use taylor::Expansion;
 pub use verify::Fault;
 
 use crate::exact::Rational;
@@ -45,7 +49,13 @@ use crate::scene::Scene;
 ///
 /// Linear in the size of the mechanics, times a logarithm.
 pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
+    lower_without(None, scene, mechanics)
+}
+
+/// The same without one of the passes, to see what it is worth.
+fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
     let mut lowering = lower::Lowering::new(mechanics);
+    lowering.builder.off = off;
     let (entries, choice) = entries::entries(scene, &mut lowering);
     lowering.builder.finish(entries, choice)
 }

@@ -143,6 +143,20 @@ pub enum Message {
     },
     /// No copies.
     ZeroCopies,
+    /// A way to write code that is none.
+    NotACode,
+    /// Code in loops for something that it does not do.
+    NoLoops {
+        /// As in "`emit(modes)`".
+        what: String,
+    },
+    /// More links than can be expanded, of a rule whose code cannot be loops.
+    TooManyForUnrolled {
+        /// As in "`emit(modes)`".
+        what: String,
+        /// The limit.
+        limit: usize,
+    },
     /// More links than can be expanded.
     TooManyLinks {
         /// The limit.

@@ -174,6 +174,23 @@ impl Message {
                 "leaves no link",
                 "write `* 1` or more, or leave the link out",
             ),
+            M::NotACode => problem(
+                "`code` is neither `loops` nor `unrolled`",
+                "not a way to write code",
+                "write `code = loops`, `code = unrolled`, or nothing: large trees get loops",
+            ),
+            M::NoLoops { what } => problem(
+                format!("no loops over generations with {what}"),
+                "this cannot be in loops",
+                "leave `code = loops` out, or what it does not go with; loops compute \
+                 accelerations and energies of trees that are one rule",
+            ),
+            M::TooManyForUnrolled { what, limit } => problem(
+                format!("more than {limit} links with {what}"),
+                "too many to be written out",
+                "leave that out: loops over generations compute accelerations and energies \
+                 of any number of links; or use fewer generations or branches",
+            ),
             M::TooManyLinks { limit } => problem(
                 format!("more than {limit} links"),
                 "too many with this one",

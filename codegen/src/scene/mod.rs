@@ -15,6 +15,7 @@
 mod bodies;
 mod drive;
 mod expand;
+mod generations;
 mod names;
 mod observable_text;
 mod observables;
@@ -31,6 +32,7 @@ mod text;
 mod values;
 
 pub use drive::{Drive, Signal, TimeFunction};
+pub use generations::{Constants, Forces, Generations};
 pub use observables::{
     Function, OBSERVABLE_SUFFIXES, Observable, Observed, Place, Variable, VariableKind,
 };
@@ -79,6 +81,10 @@ pub struct Scene {
     /// Quantities of the user's own. One that is written in symmetric
     /// coordinates comes with `requests.symmetric`.
     pub observables: Vec<Observable>,
+    /// How many links each of `links` stands for, where the code is loops over
+    /// generations: then `links` holds one link of each generation, below each
+    /// other, and there are no groups.
+    pub generations: Option<Generations>,
 }
 
 /// Path of the runtime crate in the user's crate: `::branched_pendulum`, or
@@ -89,6 +95,25 @@ pub struct CratePath {
     pub global: bool,
     /// The names between the `::`, as written.
     pub segments: Vec<String>,
+}
+
+impl Scene {
+    /// The scene that the algebra derives: itself, or the first link alone where
+    /// the code is loops, whose equations are those of one link under any force
+    /// (`emit::generations`).
+    pub fn derived(&self) -> std::borrow::Cow<'_, Self> {
+        if self.generations.is_none() {
+            return std::borrow::Cow::Borrowed(self);
+        }
+        let mut first = Self {
+            requests: Requests::default(),
+            generations: None,
+            ..self.clone()
+        };
+        first.links.truncate(1);
+        first.orbits.truncate(1);
+        std::borrow::Cow::Owned(first)
+    }
 }
 
 impl Default for CratePath {

@@ -135,13 +135,13 @@ pub const OBSERVABLE_SUFFIXES: [&str; 5] = [
 /// list against the fixtures.
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
-    "accelerations", "accelerations_into", "canonical_rates", "clone", "freedoms", "default", "eq", "evaluate", "fmt", "from",
-    "from_parameters", "from_symmetric", "hamiltonian", "into", "kinetic_energy",
-    "kinetic_energy_of", "mass_matrix", "momenta", "new", "potential_energy",
-    "part", "potential_energy_of", "rescale", "stiffness_matrix", "symmetric_accelerations",
-    "symmetric_accelerations_into", "symmetric_momenta", "symmetric_velocities",
-    "taylor_coefficients", "taylor_coefficients_into", "to_symmetric", "transfers_into",
-    "velocities",
+    "accelerations", "accelerations_into", "canonical_rates", "clone", "default", "eq",
+    "evaluate", "fmt", "freedoms", "from", "from_parameters", "from_symmetric", "hamiltonian",
+    "into", "kinetic_energy", "kinetic_energy_of", "mass_matrix", "momenta", "new", "part",
+    "potential_energy", "potential_energy_of", "rescale", "stiffness_matrix",
+    "symmetric_accelerations", "symmetric_accelerations_into", "symmetric_momenta",
+    "symmetric_velocities", "taylor_coefficients", "taylor_coefficients_into", "to_symmetric",
+    "transfers_into", "velocities",
 ];
 
 /// Beginnings of names of methods that are many.

@@ -65,6 +65,7 @@ impl Properties {
         let rule = is_rule.then(|| Rule {
             count: counts.count.unwrap_or(1),
             branching: counts.branching.unwrap_or(1),
+            code: counts.code,
             mass_ratio: ratio("mass_ratio"),
             length_ratio: ratio("length_ratio"),
         });

@@ -2,6 +2,7 @@
 
 use super::drive::resolve_drive;
 use super::expand::{check_names, check_size, expand};
+use super::generations::{Asked, decide, generations};
 use super::observables::resolve_observables;
 use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_solve};
 use super::singular::check_regular;
@@ -23,10 +24,26 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         builder.add_root(root, report);
     }
     let drive = resolve_drive(description.drive.as_ref(), &mut builder.values, report);
-    let Builder { templates, values } = builder;
+    let Builder {
+        mut templates,
+        values,
+        whole,
+    } = builder;
     let mut resolved = resolve_requests(&description.requests, report);
     resolved.requests.solve = resolve_solve(description.solve.as_ref(), report);
-    if description.roots.len() > 1 || !check_size(&templates, report) {
+    if description.roots.len() > 1 {
+        return None;
+    }
+    let asked = Asked {
+        resolved: &resolved,
+        observables: !description.observables.is_empty(),
+        drive: drive.is_some(),
+    };
+    let loops = match whole {
+        Some(rule) => decide(rule, &mut templates, &asked, report).ok()?,
+        None => None,
+    };
+    if !check_size(&templates, report) {
         return None;
     }
     let expansion = expand(&templates);
@@ -55,6 +72,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         requirements: values.requirements,
         requests: resolved.requests,
         observables: Vec::new(),
+        generations: None,
     };
     if readable {
         if !scene.groups.is_empty() {
@@ -65,6 +83,11 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     // A link whose own values are wrong would look singular.
     if report.is_empty() {
         check_regular(&templates, report);
+    }
+    if report.is_empty()
+        && let Some(loops) = loops
+    {
+        scene.generations = generations(loops, &scene, report);
     }
     report.is_empty().then_some(scene)
 }

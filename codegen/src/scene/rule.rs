@@ -15,10 +15,21 @@ pub(super) struct Rule {
     pub(super) count: usize,
     /// Children of a link, at least one.
     pub(super) branching: usize,
+    /// How its code is written, where the description says so.
+    pub(super) code: Option<Code>,
     /// A link's mass over its parent's.
     pub(super) mass_ratio: Quantity,
     /// A link's lengths over its parent's.
     pub(super) length_ratio: Quantity,
+}
+
+/// How the code of a rule is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Code {
+    /// In loops over generations.
+    Loops,
+    /// Link by link.
+    Unrolled,
 }
 
 /// Quantities of a generation rule beside those of its body.
@@ -38,7 +49,7 @@ pub(super) const RATIOS: &[Dimension] = &[
 ];
 
 /// Properties of a generation rule that are no quantities.
-pub(super) const COUNTS: &[&str] = &["count", "branching", "shape"];
+pub(super) const COUNTS: &[&str] = &["count", "branching", "shape", "code"];
 
 impl Rule {
     /// The body of a generation, counted from 0.
@@ -72,6 +83,7 @@ pub(super) struct Counts {
     pub(super) count: Option<usize>,
     pub(super) branching: Option<usize>,
     pub(super) shape: Option<Result<&'static Shape, ()>>,
+    pub(super) code: Option<Code>,
 }
 
 impl Counts {
@@ -92,6 +104,12 @@ impl Counts {
                         self.count = count;
                     } else {
                         self.branching = count;
+                    }
+                }
+                "code" => {
+                    self.code = code(value);
+                    if self.code.is_none() {
+                        report.error(name.span(), Message::NotACode);
                     }
                 }
                 "shape" => self.shape = Some(shape(value, name.span(), report)),
@@ -118,6 +136,22 @@ fn count(value: &Value) -> Option<usize> {
         return None;
     }
     Some(number.numerator_text().parse::<u32>().unwrap_or(u32::MAX) as usize)
+}
+
+/// How code is written, as the value of a property.
+fn code(value: &Value) -> Option<Code> {
+    let Value::Single(Expression {
+        kind: ExpressionKind::Name(name),
+        ..
+    }) = value
+    else {
+        return None;
+    };
+    match name.to_string().as_str() {
+        "loops" => Some(Code::Loops),
+        "unrolled" => Some(Code::Unrolled),
+        _ => None,
+    }
 }
 
 /// A shape as the value of a property.

@@ -5,7 +5,7 @@ use proc_macro2::Span;
 use super::bodies::{Body, Given};
 use super::names::check_link;
 use super::properties::Properties;
-use super::rule::Rule;
+use super::rule::{Code, Rule};
 use super::values::{Usage, Values};
 use super::{Offset, Quantity, Sign};
 use crate::description::Node;
@@ -37,6 +37,16 @@ pub(super) struct Builder {
     /// Parents before children, depth first.
     pub(super) templates: Vec<Template>,
     pub(super) values: Values,
+    /// The rule that the whole tree is, where it is one.
+    pub(super) whole: Option<WholeRule>,
+}
+
+/// A rule for the whole tree.
+#[derive(Clone, Copy)]
+pub(super) struct WholeRule {
+    pub(super) branching: usize,
+    pub(super) code: Option<Code>,
+    pub(super) span: Span,
 }
 
 /// What a link hangs from.
@@ -82,6 +92,20 @@ impl Builder {
             spring: force("spring"),
         };
         if let Some(rule) = rule {
+            match first.parent {
+                None => {
+                    self.whole = Some(WholeRule {
+                        branching: rule.branching,
+                        code: rule.code,
+                        span: first.span,
+                    });
+                }
+                Some(_) if rule.code == Some(Code::Loops) => {
+                    let what = "a rule below other links".to_owned();
+                    report.error(first.span, Message::NoLoops { what });
+                }
+                Some(_) => {}
+            }
             if let Some(child) = node.children.first() {
                 report.error(child.name.span(), Message::RuleChildren);
             }

@@ -3,8 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, CratePath, Drive, Group, Link, Observable, Offset, Orbit, Parameter, Requests,
-    Requirement, Scene, Sign, TransferRequest,
+    BudgetRequest, CratePath, Drive, Generations, Group, Link, Observable, Offset, Orbit,
+    Parameter, Requests, Requirement, Scene, Sign, TransferRequest,
 };
 
 impl Display for Scene {
@@ -21,6 +21,7 @@ impl Display for Scene {
             requirements,
             requests,
             observables,
+            generations,
         } = self;
         writeln!(f, "scene {name}")?;
         writeln!(f, "crate {crate_path}")?;
@@ -35,6 +36,17 @@ impl Display for Scene {
         } in requirements
         {
             writeln!(f, "require {} {sign}: {what}", quantity.display(parameters))?;
+        }
+        if let Some(Generations {
+            branching,
+            links,
+            constants: _,
+        }) = generations
+        {
+            writeln!(
+                f,
+                "{links} links in generations, {branching} under each; one of each:"
+            )?;
         }
         for link in links {
             self.write_link(link, f)?;

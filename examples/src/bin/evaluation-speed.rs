@@ -5,14 +5,15 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use branched_pendulum_examples::evaluation_speed::{measure, output};
+use branched_pendulum_examples::evaluation_speed::{accuracy, large, measure, output};
 use branched_pendulum_examples::exit;
 
 const HELP: &str = "\
 What do the accelerations of one state cost, in emitted code one by one and in
 batches, against the system's sines and cosines alone, code written by hand for
 the paper's pendulum, a recursion that takes any tree as a table, and the
-textbook's dense matrix?
+textbook's dense matrix? How far is each from the truth? And what do large trees
+cost, in loops, by the number of threads?
 
 Usage: evaluation-speed [--output FOLDER]
 
@@ -22,6 +23,9 @@ Usage: evaluation-speed [--output FOLDER]
 
 /// Passes over the states.
 const REPEATS: usize = 301;
+
+/// States at which errors are looked at.
+const STATES: usize = 2000;
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -39,7 +43,9 @@ fn main() -> ExitCode {
         }
     };
     let rows = measure::all(REPEATS);
-    print!("{}", output::table(&rows));
+    println!("{}", output::table(&rows));
+    println!("{}", output::errors(&accuracy::all(STATES)));
+    print!("{}", large::table(&large::all()));
     exit::of_run(
         "evaluation-speed",
         match folder {

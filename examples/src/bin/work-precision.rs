@@ -24,10 +24,7 @@ fn main() -> ExitCode {
 fn run(folder: &Path) -> Result<(), Failure> {
     // Before the work, so that a folder that cannot be made costs none.
     files::make_folder(folder)?;
-    let problems = reference::problems().map_err(|error| Failure::Integration {
-        angle_deg: 0.08_f64.to_degrees(),
-        source: error.to_string().into(),
-    })?;
+    let problems = reference::problems()?;
     let problems: Vec<_> = problems
         .iter()
         .map(|problem| (problem.name, measure::measure(problem)))

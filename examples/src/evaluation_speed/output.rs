@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use branched_pendulum::chart::{Axis, Chart, ChartError, Panel, Series};
 use branched_pendulum::scalar::InstructionSet;
 
+use super::accuracy::Errors;
 use super::measure::{CONTENDERS, Row};
 
 /// The table that the program prints: times, and beneath each row the ratios to
@@ -39,6 +40,37 @@ pub fn table(rows: &[Row]) -> String {
         }
         text.push('\n');
     }
+    text
+}
+
+/// The table of errors: worst ones in units of the conditioning bound, and
+/// beneath each row medians in units in the last place.
+#[must_use]
+pub fn errors(rows: &[Errors]) -> String {
+    let mut text = format!(
+        "Worst error in units of u |M⁻¹| (|M| |ω̇| + |b|), and median in ulps. Lanes have\n\
+         the bits of single states.\n\n{:12}",
+        "links",
+    );
+    for name in CONTENDERS {
+        push(&mut text, format_args!(" {name:>14}"));
+    }
+    for row in rows {
+        push(
+            &mut text,
+            format_args!("\n{:12}", format!("{} {}", row.links, row.scene)),
+        );
+        for worst in row.worst {
+            let cell = worst.map_or("-".to_owned(), |worst| format!("{worst:.2}"));
+            push(&mut text, format_args!(" {cell:>14}"));
+        }
+        push(&mut text, format_args!("\n{:12}", ""));
+        for ulps in row.ulps {
+            let cell = ulps.map_or(String::new(), |ulps| format!("({ulps:.1})"));
+            push(&mut text, format_args!(" {cell:>14}"));
+        }
+    }
+    text.push('\n');
     text
 }
 

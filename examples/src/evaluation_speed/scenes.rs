@@ -50,7 +50,7 @@ pub mod factorization {
     #[branched_pendulum(
         gravity = 9.80665,
         tree: generations(count = 7, branching = 2, shape = rod, mass = 0.12, length = 0.3,
-            mass_ratio = 0.5, length_ratio = 0.7),
+            mass_ratio = 0.5, length_ratio = 0.7, code = unrolled),
         solve = factorization,
     )]
     pub struct Tree127;
@@ -96,7 +96,7 @@ pub mod recursion {
     #[branched_pendulum(
         gravity = 9.80665,
         tree: generations(count = 7, branching = 2, shape = rod, mass = 0.12, length = 0.3,
-            mass_ratio = 0.5, length_ratio = 0.7),
+            mass_ratio = 0.5, length_ratio = 0.7, code = unrolled),
         solve = recursion,
     )]
     pub struct Tree127;

@@ -1,40 +1,47 @@
 //! The scenes as tables, for the baselines: what a program knows that takes any
-//! tree at run time.
+//! tree at run time. In any scalar, for references.
+
+use branched_pendulum::Scalar;
 
 /// Standard gravity, m/s².
 pub const GRAVITY: f64 = 9.80665;
 
 /// A link. SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Link {
+pub struct Link<T = f64> {
     /// Index of the parent, which stands before the link.
     pub parent: Option<usize>,
     /// Mass.
-    pub mass: f64,
+    pub mass: T,
     /// Distance of the centre of mass from the pivot.
-    pub com: f64,
+    pub com: T,
     /// Moment of inertia about the centre of mass.
-    pub inertia: f64,
+    pub inertia: T,
     /// Distance of the pivot from that of the parent.
-    pub lever: f64,
+    pub lever: T,
+}
+
+/// A decimal, rounded once.
+pub fn decimal<T: Scalar>(digits: f64, scale: f64) -> T {
+    T::from_f64(digits) / T::from_f64(scale)
 }
 
 /// The paper's pendulum.
 #[must_use]
-pub fn paper() -> Vec<Link> {
+pub fn paper<T: Scalar>() -> Vec<Link<T>> {
     let child = Link {
         parent: Some(0),
-        mass: 0.10531,
-        com: 0.043,
-        inertia: 0.516e-3,
-        lever: 0.27,
+        mass: decimal(10531.0, 1e5),
+        com: decimal(43.0, 1e3),
+        inertia: decimal(516.0, 1e6),
+        lever: decimal(27.0, 1e2),
     };
     let parent = Link {
         parent: None,
-        mass: 0.12880,
-        com: 0.084,
-        inertia: 1.88e-3,
-        lever: 0.0,
+        mass: decimal(12880.0, 1e5),
+        com: decimal(84.0, 1e3),
+        inertia: decimal(188.0, 1e5),
+        lever: T::from_f64(0.0),
     };
     vec![parent, child, child]
 }
@@ -42,19 +49,18 @@ pub fn paper() -> Vec<Link> {
 /// A full binary tree of rods, in the order of the emitted code: each link
 /// before its first subtree, that before the second.
 #[must_use]
-pub fn tree(generations: usize) -> Vec<Link> {
+pub fn tree<T: Scalar>(generations: usize) -> Vec<Link<T>> {
     let mut links = Vec::new();
-    grow(&mut links, None, generations, 0.12, 0.3, 0.0);
+    let sizes = [decimal(12.0, 1e2), decimal(3.0, 1e1), T::from_f64(0.0)];
+    grow(&mut links, None, generations, sizes);
     links
 }
 
-fn grow(
-    links: &mut Vec<Link>,
+fn grow<T: Scalar>(
+    links: &mut Vec<Link<T>>,
     parent: Option<usize>,
     generations: usize,
-    mass: f64,
-    length: f64,
-    lever: f64,
+    [mass, length, lever]: [T; 3],
 ) {
     if generations == 0 {
         return;
@@ -63,18 +69,12 @@ fn grow(
     links.push(Link {
         parent,
         mass,
-        com: length / 2.0,
-        inertia: mass * length * length / 12.0,
+        com: length / T::from_f64(2.0),
+        inertia: mass * length * length / T::from_f64(12.0),
         lever,
     });
+    let next = [mass / T::from_f64(2.0), length * decimal(7.0, 10.0), length];
     for _ in 0..2 {
-        grow(
-            links,
-            Some(index),
-            generations - 1,
-            mass * 0.5,
-            length * 0.7,
-            length,
-        );
+        grow(links, Some(index), generations - 1, next);
     }
 }

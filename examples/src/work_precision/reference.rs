@@ -7,6 +7,7 @@ use std::ops::ControlFlow;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 
+use crate::branched_double::Failure;
 use crate::solvers::scenes::Rods;
 
 /// The file, as it was when the program was built.
@@ -41,8 +42,8 @@ pub struct Problem {
 /// it can follow it at all; and seven rods.
 ///
 /// # Errors
-/// [`IntegrationError`]: the reference of the rods could not be computed.
-pub fn problems() -> Result<Vec<Problem>, IntegrationError<Double>> {
+/// [`Failure::Integration`]: the reference of the rods could not be computed.
+pub fn problems() -> Result<Vec<Problem>, Failure> {
     let regular = vec![0.3, 1e-3, -1e-3];
     let threshold = vec![47.8_f64.to_radians(), 1e-3, -1e-3];
     let paper = |name, key, start: &[f64], time: &str| Problem {
@@ -58,7 +59,7 @@ pub fn problems() -> Result<Vec<Problem>, IntegrationError<Double>> {
     let rods = |name, end| {
         let start = RODS.to_vec();
         let expected = rods_at(end, TOLERANCE)?;
-        Ok::<_, IntegrationError<Double>>(Problem {
+        Ok::<_, Failure>(Problem {
             name,
             tree: Tree::Rods,
             start,
@@ -87,14 +88,20 @@ const TOLERANCE: f64 = 1e-24;
 /// series.
 ///
 /// # Errors
-/// As the method's.
-pub fn rods_at(end: f64, tolerance: f64) -> Result<Vec<f64>, IntegrationError<Double>> {
+/// [`Failure::Integration`].
+pub fn rods_at(end: f64, tolerance: f64) -> Result<Vec<f64>, Failure> {
     let model = Rods::<Double>::default();
     let start = State::at_rest(Double::from_f64(0.0), &RODS.map(Double::from_f64));
     let method = Taylor::new(Options::with_tolerance(Double::from_f64(tolerance)));
     let run_on = |_: &mut DenseStep<'_, Double>| ControlFlow::Continue(());
     let ode = AbsoluteAngles(&model);
-    let solution = method.integrate(&ode, &start, Double::from_f64(end), run_on)?;
+    let end = Double::from_f64(end);
+    let solution = method
+        .integrate(&ode, &start, end, run_on)
+        .map_err(|error| Failure::Integration {
+            angle_deg: RODS[0].to_degrees(),
+            source: error.to_string().into(),
+        })?;
     let values = solution.state.values.iter();
     Ok(values.map(|value| value.high()).collect())
 }

@@ -6,11 +6,13 @@ use super::lanes::{Lane, Sealed};
 #[cfg(target_arch = "x86_64")]
 use super::register;
 use super::{Real, Scalar, sincos};
+use crate::generations::{SliceKernel, vectors};
 use crate::system::rescale::{self, Rescale};
+use crate::taylor::{Kernel, run_f64};
 
 macro_rules! implement_scalar {
     ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
-     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident) => {
+     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident $(, $packs:path)?) => {
         impl Scalar for $float {
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
@@ -37,6 +39,11 @@ macro_rules! implement_scalar {
                 return libm::$sqrt(self);
             }
 
+            #[inline]
+            fn over_slices<K: SliceKernel<Self>>(kernel: K) {
+                vectors::run(kernel);
+            }
+
             #[inline(always)]
             fn accelerate<P: Rescale<Self>>(
                 pendulum: &P,
@@ -47,6 +54,13 @@ macro_rules! implement_scalar {
             ) {
                 rescale::fused(pendulum, time, theta, omega, alpha);
             }
+
+            $(
+                #[inline(always)]
+                fn run_packs<K: Kernel<Self>>(kernel: K) {
+                    $packs(kernel);
+                }
+            )?
         }
 
         impl Lane for $float {
@@ -108,7 +122,8 @@ implement_scalar!(
     4,
     F64x2,
     F64x4,
-    F64x8
+    F64x8,
+    run_f64
 );
 implement_scalar!(
     f32,

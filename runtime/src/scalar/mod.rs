@@ -55,8 +55,10 @@ pub use wide::Double;
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
+use crate::generations::{Single, SliceKernel};
 use crate::model::Part;
 use crate::system::rescale::{self, Rescale};
+use crate::taylor::{Kernel, Quad};
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
@@ -89,6 +91,8 @@ pub trait Scalar:
     + Mul<Output = Self>
     + Div<Output = Self>
     + Neg<Output = Self>
+    + Send
+    + Sync
     + 'static
 {
     /// The value of this type nearest to `value`; for lanes, the same value in
@@ -121,6 +125,14 @@ pub trait Scalar:
 
     /// Square root.
     fn sqrt(self) -> Self;
+
+    /// Computes over slices of such numbers, several at a time where the type
+    /// can.
+    #[doc(hidden)]
+    #[inline]
+    fn over_slices<K: SliceKernel<Self>>(kernel: K) {
+        kernel.run::<Single>();
+    }
 
     /// `self * factor + addend`, fused where the type says so: rounded once then,
     /// and twice by default.
@@ -155,6 +167,14 @@ pub trait Scalar:
         alpha: &mut [Self],
     ) {
         rescale::straight(pendulum, time, theta, omega, alpha);
+    }
+
+    /// Runs a computation of Taylor coefficients in the vector instructions
+    /// that the machine has for this type.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn run_packs<K: Kernel<Self>>(kernel: K) {
+        kernel.run::<Quad<Self>>();
     }
 }
 

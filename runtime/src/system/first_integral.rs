@@ -24,6 +24,31 @@ impl<T, F: Fn(&[T], &mut [T]) -> T> FirstIntegral<T> for F {
 ///
 /// For conservative pendulums: where friction or a drive are part of p', H is no
 /// first integral, and what this writes is not its gradient.
+///
+/// # Examples
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use std::ops::ControlFlow;
+/// use branched_pendulum::prelude::*;
+///
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     upper: rod(mass = 1, length = 1) [lower: rod(mass = 1, length = 1)],
+///     emit(energies, momenta),
+/// )]
+/// struct Double;
+///
+/// let double = Double::new();
+/// let energy = CanonicalEnergy(&double);
+/// let start = State::from_positions_and_momenta(0.0, &[0.8, 0.2], &[0.0, 0.0])?;
+/// let level: f64 = energy.evaluate(&start.values, &mut [0.0; 4]);
+/// let method = Projected::new(Gauss::new(GaussOrder::Two, 0.05), energy);
+/// let ode = CanonicalVariables(&double);
+/// let end = method.integrate(&ode, &start, 10.0, |_| ControlFlow::Continue(()))?.state;
+/// assert!((energy.evaluate(&end.values, &mut [0.0; 4]) - level).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct CanonicalEnergy<'a, P>(pub &'a P);
 

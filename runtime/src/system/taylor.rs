@@ -2,12 +2,13 @@
 
 use super::{AbsoluteAngles, Ode, Pendulum};
 use crate::scalar::Scalar;
+use crate::taylor::Quad;
 
 /// A pendulum whose motion is expanded in powers of the time: what emitted code
 /// implements where `emit(taylor)` asks for it.
 pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
-    /// Numbers that the recurrences keep of each order.
-    const FACTORS: usize;
+    /// Groups of four numbers that an expansion to order `order` works in.
+    fn taylor_workspace(order: usize) -> usize;
 
     /// Writes the Taylor coefficients of the motion that passes through the
     /// angles `theta` (rad) and angular velocities `omega` (rad/s) at `time`
@@ -15,16 +16,16 @@ pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
     ///
     /// Coefficient k of all angles (rad/sᵏ), then of all angular velocities
     /// (rad/sᵏ⁺¹), is at k · 2 [`LINKS`](Pendulum::LINKS) of `coefficients`, for
-    /// as many orders as it has room for. The recurrences work in `factors`,
-    /// whatever stands there: [`FACTORS`](Self::FACTORS) numbers for each order
-    /// but the two highest. Where lengths do not fit, the coefficients are NaN.
+    /// as many orders as it has room for. The recurrences work in `work`,
+    /// whatever stands there: [`taylor_workspace`](Self::taylor_workspace). Where
+    /// lengths do not fit, the coefficients are NaN.
     fn taylor_coefficients_into(
         &self,
         time: T,
         theta: &[T],
         omega: &[T],
         coefficients: &mut [T],
-        factors: &mut [T],
+        work: &mut [Quad<T>],
     );
 }
 
@@ -37,6 +38,7 @@ pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
 ///
 /// ```
 /// use branched_pendulum::prelude::*;
+/// use branched_pendulum::taylor::Quad;
 ///
 /// struct Decay;
 ///
@@ -50,10 +52,10 @@ pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
 /// }
 ///
 /// impl TaylorOde<f64> for Decay {
-///     fn factors(&self) -> usize {
+///     fn workspace(&self, _order: usize) -> usize {
 ///         0
 ///     }
-///     fn taylor(&self, _time: f64, state: &[f64], coefficients: &mut [f64], _: &mut [f64]) {
+///     fn taylor(&self, _time: f64, state: &[f64], coefficients: &mut [f64], _: &mut [Quad<f64>]) {
 ///         let mut coefficient = state[0];
 ///         for (k, out) in coefficients.iter_mut().enumerate() {
 ///             *out = coefficient;
@@ -69,45 +71,45 @@ pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 pub trait TaylorOde<T>: Ode<T> {
-    /// Numbers that the recurrences keep of each order.
-    fn factors(&self) -> usize;
+    /// Groups of four numbers that an expansion to order `order` works in.
+    fn workspace(&self, order: usize) -> usize;
 
     /// Writes the Taylor coefficients of the solution through `state` at
     /// `time`.
     ///
     /// Coefficient k of component i is at k · [`dimension`](Ode::dimension) + i
     /// of `coefficients`, in units of the component per sᵏ, for as many orders
-    /// as it has room for. `factors` is room to work in, whatever stands there:
-    /// [`factors`](Self::factors) numbers for each order but the two highest.
+    /// as it has room for. `work` is room to work in, whatever stands there:
+    /// as much as [`workspace`](Self::workspace) says for that order.
     ///
     /// Where there is no answer, write NaN.
-    fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], factors: &mut [T]);
+    fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], work: &mut [Quad<T>]);
 }
 
 impl<T, O: TaylorOde<T> + ?Sized> TaylorOde<T> for &O {
-    fn factors(&self) -> usize {
-        (**self).factors()
+    fn workspace(&self, order: usize) -> usize {
+        (**self).workspace(order)
     }
 
     #[inline]
-    fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], factors: &mut [T]) {
-        (**self).taylor(time, state, coefficients, factors);
+    fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], work: &mut [Quad<T>]) {
+        (**self).taylor(time, state, coefficients, work);
     }
 }
 
 impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<'_, P> {
-    fn factors(&self) -> usize {
-        P::FACTORS
+    fn workspace(&self, order: usize) -> usize {
+        P::taylor_workspace(order)
     }
 
     #[inline]
-    fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], factors: &mut [T]) {
+    fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], work: &mut [Quad<T>]) {
         if state.len() != 2 * P::LINKS {
             coefficients.fill(T::from_f64(f64::NAN));
             return;
         }
         let (theta, omega) = state.split_at(P::LINKS);
         self.0
-            .taylor_coefficients_into(time, theta, omega, coefficients, factors);
+            .taylor_coefficients_into(time, theta, omega, coefficients, work);
     }
 }

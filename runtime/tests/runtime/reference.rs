@@ -62,11 +62,16 @@ fn in_absolute_angles<'a>(
     })
 }
 
-/// Errors of all adaptive methods at the tolerance 1e-13, with their names.
+/// Errors of all adaptive methods at the tolerance 1e-13, with their names. Sums
+/// are compensated: near the threshold the rounding of 20,000 short steps grows
+/// 3e7 times.
 fn by_every_method(problem: &str, times: &[f64]) -> [(&'static str, Vec<f64>); 3] {
     let pendulum = BranchedDouble::paper();
     let ode = AbsoluteAngles(&pendulum);
-    let options = || Options::with_tolerance(1e-13);
+    let options = || Options {
+        compensated: true,
+        ..Options::with_tolerance(1e-13)
+    };
     [
         (
             "Dopri5",
@@ -116,7 +121,7 @@ fn regular_motion() {
         assert_eq!(errors.len(), 7);
         // The error of order 5 is some ten times that of the higher ones at
         // equal tolerance.
-        let limit = if name == "Dopri5" { 2e-11 } else { 1e-12 };
+        let limit = if name == "Dopri5" { 1e-11 } else { 1e-12 };
         assert!(errors[3] < limit, "{name} {errors:?}");
     }
 }
@@ -133,8 +138,8 @@ fn motion_near_the_threshold() {
         .chain([symmetric])
     {
         assert_eq!(errors.len(), 4);
-        let limit = if name == "Dopri5" { 2e-6 } else { 1e-7 };
-        assert!(errors[3] < limit, "{name} {errors:?}");
+        println!("near the threshold, {name}: {errors:?}");
+        assert!(errors[3] < 1e-7, "{name} {errors:?}");
     }
 }
 

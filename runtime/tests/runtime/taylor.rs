@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use branched_pendulum::integrate::InputError;
 use branched_pendulum::prelude::*;
-use branched_pendulum::taylor;
+use branched_pendulum::taylor::{self, Known, Quad, Start, Tree};
 
 /// θ'' = −sin θ, by the recurrences that emitted code consists of.
 struct Mathematical;
@@ -20,24 +20,35 @@ impl<T: Scalar> Ode<T> for Mathematical {
 }
 
 impl<T: Scalar> TaylorOde<T> for Mathematical {
-    fn factors(&self) -> usize {
-        4
+    fn workspace(&self, order: usize) -> usize {
+        taylor::workspace(1, order)
     }
 
-    fn taylor(&self, _time: T, y: &[T], coefficients: &mut [T], factors: &mut [T]) {
+    fn taylor(&self, _time: T, y: &[T], coefficients: &mut [T], work: &mut [Quad<T>]) {
+        let (coefficients, _) = coefficients.as_chunks_mut::<1>();
         let (coefficients, _) = coefficients.as_chunks_mut::<2>();
-        let (factors, _) = factors.as_chunks_mut::<2>();
-        let (factors, _) = factors.as_chunks_mut::<2>();
         let (sin, cos) = y[0].sin_cos();
-        for k in taylor::begin(coefficients, factors, &[y[0]], &[y[1]], &[-sin]) {
-            let order = taylor::whole::<T>(k);
-            let angle = coefficients[k][0];
-            let [of_sin, of_cos] = taylor::sums(k, factors);
-            let sin_k = of_sin / order + angle * cos;
-            let cos_k = -(of_cos / order + angle * sin);
-            factors[k - 1] = [[order * angle, order * angle], [cos_k, sin_k]];
-            taylor::advance(coefficients, k, &[-sin_k]);
-        }
+        let start = Start {
+            theta: &[y[0]],
+            omega: &[y[1]],
+            sines: [sin],
+            cosines: [cos],
+            bias: [T::from_f64(0.0)],
+        };
+        let one = T::from_f64(1.0);
+        let tree = Tree {
+            inertias: [one],
+            couplings: &[],
+            weights: [one],
+            lateral_weights: [T::from_f64(0.0)],
+        };
+        taylor::expand::<T, 1, 1, _>(
+            &start,
+            &tree,
+            coefficients,
+            work,
+            None::<fn(&Known<T, 1>) -> [T; 1]>,
+        );
     }
 }
 
@@ -55,11 +66,11 @@ impl Ode<f64> for Explosion {
 }
 
 impl TaylorOde<f64> for Explosion {
-    fn factors(&self) -> usize {
+    fn workspace(&self, _order: usize) -> usize {
         0
     }
 
-    fn taylor(&self, _time: f64, y: &[f64], coefficients: &mut [f64], _factors: &mut [f64]) {
+    fn taylor(&self, _time: f64, y: &[f64], coefficients: &mut [f64], _work: &mut [Quad<f64>]) {
         let mut coefficient = y[0];
         for out in coefficients {
             *out = coefficient;
@@ -82,11 +93,11 @@ impl Ode<f64> for Cubic {
 }
 
 impl TaylorOde<f64> for Cubic {
-    fn factors(&self) -> usize {
+    fn workspace(&self, _order: usize) -> usize {
         0
     }
 
-    fn taylor(&self, time: f64, y: &[f64], coefficients: &mut [f64], _factors: &mut [f64]) {
+    fn taylor(&self, time: f64, y: &[f64], coefficients: &mut [f64], _work: &mut [Quad<f64>]) {
         let known = [y[0], 3.0 * time * time, 3.0 * time, 1.0];
         for (k, out) in coefficients.iter_mut().enumerate() {
             *out = known.get(k).copied().unwrap_or(0.0);

@@ -154,7 +154,27 @@ const CASES: &[(&str, &str)] = &[
     (
         "too_many_links",
         "#[branched_pendulum(gravity = 9.8,
-    a: generations(count = 13, branching = 2, shape = rod, mass = 1, length = 1)
+    a: generations(count = 13, branching = 2, shape = rod, mass = 1, length = 1, code = unrolled)
+)] struct Pendulum;",
+    ),
+    (
+        "not_a_code",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1, code = loop)
+)] struct Pendulum;",
+    ),
+    (
+        "no_loops",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1, code = loops),
+    emit(modes)
+)] struct Pendulum;",
+    ),
+    (
+        "too_many_for_unrolled",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 13, branching = 2, shape = rod, mass = 1, length = 1),
+    emit(modes)
 )] struct Pendulum;",
     ),
     (

@@ -1,6 +1,8 @@
 //! Descriptions and scenes of small trees, as text.
 
 use branched_pendulum_codegen::scene::{Quantity, Scene};
+use branched_pendulum_codegen::stages;
+use proc_macro2::{TokenStream, TokenTree};
 
 use crate::support::{run, run_source, scene};
 
@@ -308,4 +310,54 @@ fn powers_bind_tightest() {
             "{value}"
         );
     }
+}
+
+/// Tokens of a binary tree of rods in loops.
+fn tokens_of_loops(generations: usize) -> usize {
+    fn count(tokens: TokenStream) -> usize {
+        let inside = |token| match token {
+            TokenTree::Group(group) => count(group.stream()),
+            _ => 0,
+        };
+        tokens.into_iter().map(|token| 1 + inside(token)).sum()
+    }
+    let attribute = format!(
+        "gravity = 9.8, tree: generations(count = {generations}, branching = 2, shape = rod, \
+         mass = 0.12, length = 0.3, mass_ratio = 0.5, length_ratio = 0.7), emit(energies)"
+    );
+    let item = "struct Tree;".parse().unwrap();
+    let stages = stages(attribute.parse().unwrap(), item).ok().unwrap();
+    assert_eq!(
+        stages.scene.generations.unwrap().links,
+        (1 << generations) - 1
+    );
+    count(stages.tokens)
+}
+
+#[test]
+fn code_in_loops_grows_by_one_row_of_constants_a_generation() {
+    let counts = [10, 20, 30].map(tokens_of_loops);
+    assert_eq!(counts[1] - counts[0], counts[2] - counts[1]);
+    let row = (counts[1] - counts[0]) / 10;
+    assert!(row < 200, "{row} tokens a generation");
+}
+
+#[test]
+fn large_rules_get_loops_unless_something_stands_against_it() {
+    let links = |rule: &str| {
+        let source = format!(
+            "#[branched_pendulum(gravity = 9.8, a: generations(branching = 2, shape = rod, \
+             mass = 1, length = 1, {rule})] struct Tree;"
+        );
+        scene(&source).generations.map(|found| found.links)
+    };
+    assert_eq!(links("count = 5)"), None);
+    assert_eq!(links("count = 6)"), None);
+    assert_eq!(links("count = 7)"), Some(127));
+    assert_eq!(links("count = 2, code = loops)"), Some(3));
+    assert_eq!(links("count = 7, code = unrolled)"), None);
+    assert_eq!(links("count = 7), emit(modes)"), None);
+    assert_eq!(links("count = 7), emit(energies)"), Some(127));
+    assert_eq!(links("count = 7, com = (0.5, 0.1))"), None);
+    assert_eq!(links("count = 20)"), Some((1 << 20) - 1));
 }

@@ -13,7 +13,6 @@ use branched_pendulum_tests::scenes::{
     offset::Offset,
     paper::Paper,
     paper_expanded,
-    series::Series,
     simple::Simple,
     sweep::{Sweep, SweepParameters},
     triplet::Triplet,
@@ -200,32 +199,6 @@ fn driven() {
               hamiltonian, antiphase_energy, transfer_exact, transfer_exact_from_rates,
               antiphase_friction_power],
         one: [potential_energy, to_symmetric, from_symmetric]);
-}
-
-/// Order 0 of the Taylor recurrences, whose outputs are the accelerations.
-#[test]
-fn series() {
-    let (stages, model) = (scene("series"), Series::new());
-    let mut random = Random::new(7);
-    for _ in 0..STATES {
-        let theta: [f64; 3] = random.array(-4.0, 4.0);
-        let omega: [f64; 3] = random.array(-9.0, 9.0);
-        let (mut coefficients, mut factors) = ([[0.0; 6]; 3], [[[0.0; 32]; 2]; 1]);
-        model.taylor_coefficients(&theta, &omega, &mut coefficients, &mut factors);
-        let interpreted = stages.program.evaluate(
-            Scalar::sin_cos,
-            "taylor_coefficients",
-            &[],
-            |argument, index| match argument {
-                Argument::Omega => omega[index],
-                _ => theta[index],
-            },
-        );
-        let interpreted = interpreted.expect("the scene asks for them");
-        for (compiled, interpreted) in coefficients[1][3..].iter().zip(&interpreted) {
-            assert_eq!(compiled.to_bits(), interpreted.to_bits());
-        }
-    }
 }
 
 #[test]

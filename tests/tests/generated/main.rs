@@ -2,6 +2,7 @@
 
 mod bits;
 mod fused;
+mod generations;
 mod hygiene;
 mod machine_code;
 mod scalars;

@@ -1,5 +1,6 @@
 //! Pages of `docs/` that show output show the output of today.
 
+use branched_pendulum_codegen::program::worth;
 use branched_pendulum_tests::source::{fixture, scene};
 
 #[test]
@@ -23,5 +24,15 @@ fn pipeline_shows_every_stage() {
         ("code", function),
     ] {
         assert!(!text.is_empty() && page.contains(text), "{what}:\n{text}");
+    }
+}
+
+#[test]
+fn pipeline_shows_what_passes_are_worth() {
+    let page = std::fs::read_to_string(fixture("../../docs/pipeline.md")).expect("it exists");
+    for name in ["paper", "nested"] {
+        let stages = scene(name);
+        let table = worth(&stages.scene, &stages.mechanics);
+        assert!(page.contains(&table), "{name}:\n{table}");
     }
 }

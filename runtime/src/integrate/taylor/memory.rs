@@ -3,10 +3,13 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::root::least_inverse_root;
 use crate::integrate::dense::{DenseError, Interpolant};
 use crate::integrate::options::Options;
+use crate::integrate::request::all_finite;
 use crate::integrate::sum::two_sum;
 use crate::scalar::Real;
+use crate::taylor::Quad;
 
 /// Workspace for a state of fixed dimension and polynomials of fixed order.
 #[derive(Clone, Debug)]
@@ -14,7 +17,7 @@ pub(super) struct Memory<T> {
     relative: Vec<T>,
     absolute: Vec<T>,
     order: usize,
-    /// exp(−0.7/(order − 1)).
+    /// exp(−2/(order − 1)).
     safety: T,
     /// State at the start of the step.
     pub(super) start: Vec<T>,
@@ -28,15 +31,15 @@ pub(super) struct Memory<T> {
     /// Taylor coefficients at the start, order by order.
     pub(super) coefficients: Vec<T>,
     /// Where the system forms them.
-    pub(super) factors: Vec<T>,
+    pub(super) work: Vec<Quad<T>>,
     /// Length of the step, with its sign.
     step: T,
 }
 
 impl<T: Real> Memory<T> {
-    pub(super) fn new(options: &Options<T>, order: usize, factors: usize, start: &[T]) -> Self {
+    pub(super) fn new(options: &Options<T>, order: usize, workspace: usize, start: &[T]) -> Self {
         let n = start.len();
-        let exponent = T::from_f64(-0.7) / T::from_f64((order - 1) as f64);
+        let exponent = T::from_f64(-2.0) / T::from_f64((order - 1) as f64);
         Self {
             relative: options.relative.expand(n),
             absolute: options.absolute.expand(n),
@@ -47,7 +50,7 @@ impl<T: Real> Memory<T> {
             start_residue: vec![T::ZERO; n],
             end_residue: vec![T::ZERO; n],
             coefficients: vec![T::ZERO; (order + 1) * n],
-            factors: vec![T::ZERO; order.saturating_sub(1) * factors],
+            work: vec![Quad([T::ZERO; 4]); workspace],
             step: T::ZERO,
         }
     }
@@ -55,28 +58,29 @@ impl<T: Real> Memory<T> {
     /// Length of the step by the last two terms: the larger of them, in units
     /// of its tolerance, reaches one.
     pub(super) fn step_length(&self) -> T {
-        let of_order = |order: usize| {
-            let exponent = T::ONE / T::from_f64(order as f64);
-            (T::ONE / self.scaled_norm(order)).powf(exponent)
-        };
-        self.safety * of_order(self.order - 1).min(of_order(self.order))
-    }
-
-    /// The largest coefficient of an order, each in units of the tolerance of
-    /// its component.
-    fn scaled_norm(&self, order: usize) -> T {
         let n = self.start.len();
-        let row = &self.coefficients[order * n..][..n];
-        let mut norm = T::ZERO;
-        for (i, coefficient) in row.iter().enumerate() {
-            // A component that is exactly zero by symmetry has no error,
-            // whatever its tolerance: not 0/0.
-            if *coefficient != T::ZERO {
-                let tolerance = self.absolute[i] + self.relative[i] * self.start[i].abs();
-                norm = norm.max(coefficient.abs() / tolerance);
+        let last_two = &self.coefficients[(self.order - 1) * n..][..2 * n];
+        let (before, last) = last_two.split_at(n);
+        let mut norms = [T::ZERO; 2];
+        for i in 0..n {
+            let tolerance = self.absolute[i] + self.relative[i] * self.start[i].abs();
+            for (norm, &coefficient) in norms.iter_mut().zip([&before[i], &last[i]]) {
+                // A component that is exactly zero by symmetry has no error,
+                // whatever its tolerance: not 0/0.
+                if coefficient != T::ZERO {
+                    *norm = norm.max(coefficient.abs() / tolerance);
+                }
             }
         }
-        norm
+        let [before, last] = norms.map(T::to_f64);
+        let step = least_inverse_root([(before, self.order - 1), (last, self.order)]);
+        self.safety * T::from_f64(step)
+    }
+
+    /// Whether the last two terms are finite.
+    pub(super) fn has_finite_end(&self) -> bool {
+        let n = self.start.len();
+        all_finite(&self.coefficients[(self.order - 1) * n..])
     }
 
     /// The state at the end of a step of length `step`.
@@ -104,13 +108,60 @@ impl<T: Real> Memory<T> {
     }
 }
 
-/// Σ y\[k\] τᵏ over k ≥ 1 by Horner's rule, for all components side by side.
+/// Σ y\[k\] τᵏ over k ≥ 1, by Horner's rule in τ² for odd and even k apart.
 fn increment<T: Real>(coefficients: &[T], n: usize, tau: T, out: &mut [T]) {
-    out.fill(T::ZERO);
-    for row in coefficients[n..].chunks_exact(n).rev() {
-        for (value, &coefficient) in out.iter_mut().zip(row) {
-            *value = (*value + coefficient) * tau;
+    // Four components side by side, what is left over in pairs.
+    let (fours, rest) = out.as_chunks_mut::<4>();
+    let mut first = 0;
+    for block in fours {
+        increment_block(coefficients, n, first, tau, block);
+        first += 4;
+    }
+    let (pairs, rest) = rest.as_chunks_mut::<2>();
+    for block in pairs {
+        increment_block(coefficients, n, first, tau, block);
+        first += 2;
+    }
+    for value in rest {
+        increment_block(coefficients, n, first, tau, core::array::from_mut(value));
+        first += 1;
+    }
+}
+
+/// The components from number `first` on.
+#[inline(always)]
+fn increment_block<T: Real, const W: usize>(
+    coefficients: &[T],
+    n: usize,
+    first: usize,
+    tau: T,
+    out: &mut [T; W],
+) {
+    let square = tau * tau;
+    let (mut odd, mut even) = ([T::ZERO; W], [T::ZERO; W]);
+    let component = |row: &[T]| -> [T; W] {
+        row.get(first..)
+            .and_then(<[T]>::first_chunk)
+            .copied()
+            .unwrap_or([T::NAN; W])
+    };
+    let rows = &coefficients[n..];
+    let order = rows.len() / n;
+    // Pairs of an odd and an even order; the highest odd one may be alone.
+    let (pairs, alone) = rows.split_at((order - order % 2) * n);
+    if !alone.is_empty() {
+        odd = component(alone);
+    }
+    for pair in pairs.chunks_exact(2 * n).rev() {
+        let (lower, upper) = pair.split_at(n);
+        let (lower, upper) = (component(lower), component(upper));
+        for i in 0..W {
+            odd[i] = odd[i] * square + lower[i];
+            even[i] = even[i] * square + upper[i];
         }
+    }
+    for i in 0..W {
+        out[i] = (odd[i] + even[i] * tau) * tau;
     }
 }
 

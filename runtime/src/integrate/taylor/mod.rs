@@ -1,6 +1,7 @@
 //! The Taylor series method.
 
 mod memory;
+mod root;
 mod run;
 
 use core::ops::ControlFlow;
@@ -21,15 +22,16 @@ use run::Run;
 /// Works on systems that give their Taylor coefficients, [`TaylorOde`]: models
 /// whose description says `emit(taylor)`, in [`AbsoluteAngles`].
 ///
-/// *Order*: p = ⌈5 − ln(ε)/2⌉ for the smallest tolerance ε, unless
-/// [`with_order`](Self::with_order) sets one. Jorba and Zou (section 3) have 1 in the
-/// place of 5, which is cheapest where the cost of a step grows as p²; here each
-/// order has a cost of its own besides, so that somewhat longer steps of a
-/// somewhat higher order are cheaper. *Step*: so long that
+/// *Order*: p = ⌈8 − 0.65 ln ε⌉ for the smallest tolerance ε, unless
+/// [`with_order`](Self::with_order) sets one. The step is ρ ε^(1/p) at a radius
+/// of convergence ρ. Where the cost of a step grows as p², 1 − ½ ln ε is cheapest,
+/// with steps of ρ/e² (Jorba and Zou, section 3); here it grows more like 4 + p,
+/// for which longer steps of a higher order are cheaper. *Step*: so long that
 /// neither of the last two terms, orders p − 1 and p, exceeds the tolerance
-/// `absolute_i + relative_i |y_i|` in any component, times exp(−0.7/(p − 1)) to
-/// be on the safe side (their section 3). The terms left out are smaller than
-/// these by about e² for each order. No step is rejected.
+/// `absolute_i + relative_i |y_i|` in any component, times exp(−2/(p − 1)) to
+/// be on the safe side (their section 3 has 0.7 in the place of 2: terms that
+/// fall more slowly leave more out). The terms left out are smaller by
+/// about ε^(1/p) for each order. No step is rejected.
 ///
 /// *Dense output* is the polynomial itself, of the method's order and free of
 /// evaluations. Its coefficients belong to the start of the step: at its end it
@@ -38,7 +40,7 @@ use run::Run;
 /// *Cost*: a step computes p orders of the coefficients, each of which
 /// [`Report::evaluations`] counts as one; the sums of products in order k grow
 /// with k, so a step costs O(p²). Memory, allocated when a run starts: p + 6
-/// vectors of the state's length, and (p − 1) [`TaylorOde::factors`].
+/// vectors of the state's length, and [`TaylorOde::workspace`].
 ///
 /// *Options*: [`Options::initial_step`] bounds the first step from above.
 /// [`Options::beta`] has no part here: other values than zero are refused. With
@@ -95,8 +97,8 @@ impl<T: Real> Taylor<T> {
     /// ```
     /// use branched_pendulum::prelude::*;
     ///
-    /// assert_eq!(Taylor::<f64>::new(Options::with_tolerance(1e-16)).order(), 24);
-    /// assert_eq!(Taylor::<f64>::new(Options::with_tolerance(1e-3)).order(), 9);
+    /// assert_eq!(Taylor::<f64>::new(Options::with_tolerance(1e-16)).order(), 32);
+    /// assert_eq!(Taylor::<f64>::new(Options::with_tolerance(1e-3)).order(), 13);
     /// ```
     pub fn order(&self) -> usize {
         self.order
@@ -104,16 +106,15 @@ impl<T: Real> Taylor<T> {
     }
 }
 
-const E_SQUARED: f64 = core::f64::consts::E * core::f64::consts::E;
-
-/// p = ⌈5 − ln(ε)/2⌉, for tolerances above one as for one.
+/// p = ⌈8 − 0.65 ln ε⌉, for tolerances above one as for one.
 fn order_for<T: Real>(tolerance: T) -> usize {
-    let mut order = 5;
-    // exp(2 (5 − p)) against ε: there is no logarithm without `std`.
+    // e^(−1/0.65): there is no logarithm without `std`.
+    const PER_ORDER: f64 = 0.214_711_172_341_697_3;
+    let mut order = 8;
     let mut reached = 1.0;
     while reached > tolerance.to_f64() && order < *ORDERS.end() {
         order += 1;
-        reached /= E_SQUARED;
+        reached *= PER_ORDER;
     }
     order
 }

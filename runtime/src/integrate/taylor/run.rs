@@ -25,7 +25,7 @@ impl<'a, T: Real, O: TaylorOde<T> + ?Sized> Run<'a, T, O> {
             ode,
             options,
             order,
-            memory: Memory::new(options, order, ode.factors(), &start.values),
+            memory: Memory::new(options, order, ode.workspace(order), &start.values),
             time: start.time,
             report: Report::new(),
         }
@@ -39,9 +39,10 @@ impl<'a, T: Real, O: TaylorOde<T> + ?Sized> Run<'a, T, O> {
             self.time,
             &memory.start,
             &mut memory.coefficients,
-            &mut memory.factors,
+            &mut memory.work,
         );
-        if all_finite(&memory.coefficients) {
+        // What is not finite further down shows in the end of the step.
+        if memory.has_finite_end() {
             Ok(())
         } else {
             Err(self.non_finite(self.time))
@@ -77,7 +78,8 @@ impl<'a, T: Real, O: TaylorOde<T> + ?Sized> Run<'a, T, O> {
     pub(super) fn make(&mut self, step: T, end_time: T) -> Result<(), IntegrationError<T>> {
         self.memory.make(step, self.options.compensated);
         if !all_finite(&self.memory.end) {
-            return Err(self.non_finite(end_time));
+            let at_start = !all_finite(&self.memory.coefficients);
+            return Err(self.non_finite(if at_start { self.time } else { end_time }));
         }
         self.report.accept(step.abs());
         Ok(())

@@ -19,6 +19,7 @@ pub use one::Fused;
 pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 
 use super::{Lane, Lanes, Scalar};
+use crate::generations::{Vectors, With};
 
 /// Several numbers in one register, each in its lane.
 ///
@@ -30,6 +31,9 @@ pub trait Register: Scalar {
 
     /// How many.
     const LANES: usize;
+
+    /// This register, and narrower ones for fewer numbers.
+    type Vectors: Vectors<Self::Lane>;
 
     /// The same number in every lane.
     fn splat(value: Self::Lane) -> Self;
@@ -50,6 +54,7 @@ pub trait Register: Scalar {
 /// The registers of instruction sets that this crate has no type for.
 impl<T: Lane, const N: usize> Register for Lanes<T, N> {
     type Lane = T;
+    type Vectors = With<Self>;
 
     const LANES: usize = N;
 

@@ -6,6 +6,7 @@ use super::super::Scalar;
 use super::super::dispatch;
 use super::super::sincos::fused;
 use super::Register;
+use crate::generations::Single;
 use crate::model::{Part, PartOf};
 
 /// A plain number whose [`Scalar::mul_add`] is fused: what a lane of the wide
@@ -73,6 +74,7 @@ macro_rules! fused {
 
         impl Register for Fused<$float> {
             type Lane = $float;
+            type Vectors = Single;
 
             const LANES: usize = 1;
 

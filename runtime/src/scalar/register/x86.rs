@@ -8,6 +8,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use super::super::sincos::{double, fused, sin_cos_f32};
 use super::super::{Scalar, dispatch};
 use super::Register;
+use crate::generations::With;
 use crate::model::{Part, PartOf};
 
 // SAFETY, for all calls of instructions below: those of SSE2 belong to every
@@ -65,6 +66,7 @@ macro_rules! register {
 
         impl Register for $name {
             type Lane = $lane;
+            type Vectors = With<Self>;
 
             const LANES: usize = $lanes;
 

@@ -14,8 +14,14 @@ use crate::system::Ode;
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrince5;
 
+/// The estimate belongs to the formula of order 4 and is far larger than the
+/// error that is made, but steps are many, and what they make adds up: over ten
+/// seconds to some 160 times the tolerance, where the pairs of order 8 and 9
+/// stay near it. Counting the estimate so many times brings the three together.
+const ESTIMATE_WEIGHT: f64 = 20.0;
+
 impl Pair for DormandPrince5 {
-    /// As in the authors' program.
+    /// As in the authors' program; the error that they act on is not.
     const CONTROL: ControlConstants = ControlConstants {
         order: tables::ORDER,
         safety: 0.9,
@@ -46,7 +52,7 @@ impl Pair for DormandPrince5 {
     }
 
     fn error<T: Real>(memory: &Memory<T>, span: Span<T>) -> T {
-        memory.mean_square_error(span, &E)
+        T::from_f64(ESTIMATE_WEIGHT) * memory.mean_square_error(span, &E)
     }
 
     fn prepare_dense<T: Real, O: Ode<T> + ?Sized>(

@@ -1,0 +1,469 @@
+//! Trees in generations: the equations of one link of each kind, and the model
+//! that takes them through the tree.
+
+use super::Emission;
+use super::docs::doc_lines;
+use super::function::number_tokens;
+use crate::scene::{Constants, Forces, Generations, Quantity};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+
+impl Emission<'_> {
+    /// The equations and the functions of a model in generations.
+    pub(super) fn generations(&self, generations: &Generations) -> TokenStream {
+        let equations = self.recursion(generations);
+        let functions = self.generation_functions();
+        let pendulum = self.generation_pendulum(generations);
+        let energy = self
+            .scene
+            .requests
+            .energies
+            .then(|| self.generation_energy());
+        quote! {
+            #equations
+            #functions
+            #pendulum
+            #energy
+        }
+    }
+
+    fn equations_name(&self) -> Ident {
+        format_ident!("{}Equations", self.item.ident)
+    }
+
+    pub(super) fn generations_docs(&self, generations: &Generations) -> TokenStream {
+        let Generations {
+            branching,
+            links,
+            constants: _,
+        } = generations;
+        let count = self.scene.links.len();
+        let energies = match self.scene.requests.energies {
+            true => "",
+            false => " Energies can be asked for with `emit(energies)`.",
+        };
+        doc_lines(&[
+            String::new(),
+            format!(
+                "A planar tree of {links} rigid links in {count} generations, {branching} under each link but the last ones. Angles are absolute, in radians from the downward vertical; SI units throughout."
+            ),
+            String::new(),
+            "Links stand generation by generation, and in a generation copy by copy: copy c (from 0) under link i of a generation of n links is number c n + i of the next one. `link` finds one by its path.".into(),
+            String::new(),
+            format!(
+                "The code is loops over generations, O(links), in vectors of siblings, and on all cores where there are many. The first evaluation allocates room, later ones nothing.{energies}"
+            ),
+        ])
+    }
+
+    /// The numbers of constants, of a leaf's and an inner link's answers, and of
+    /// what is kept.
+    fn recursion_sizes(&self) -> [Literal; 4] {
+        let forces = Forces::of(self.scene);
+        let torque = usize::from(forces.in_joints());
+        [forces.columns().len(), 5 + torque, 5 + torque, 3].map(Literal::usize_unsuffixed)
+    }
+
+    /// The type of the model's one field, `generations`.
+    pub(super) fn generations_type(&self) -> TokenStream {
+        let (runtime, equations) = (self.runtime(), self.equations_name());
+        let sizes = self.recursion_sizes();
+        quote!(#runtime::generations::Generations<#equations, T, #(#sizes),*>)
+    }
+
+    /// `Self { … }`, the constants in place.
+    pub(super) fn generations_value(&self, constants: &Constants) -> TokenStream {
+        let runtime = self.runtime();
+        let rows = constants.motion.iter().map(|row| {
+            let row = row.iter().map(|value| self.scalar(value));
+            quote!([#(#row),*])
+        });
+        let root = self.scalar(&constants.root);
+        let energies = self.scene.requests.energies.then_some(&constants.energy);
+        let energies = energies.into_iter().flatten().map(|row| {
+            let names = [
+                "half_mass",
+                "moment",
+                "half_inertia",
+                "lever",
+                "gravity",
+                "half_spring",
+            ];
+            let names = names.map(|name| Ident::new(name, Span::call_site()));
+            let row = row.iter().map(|value| self.scalar(value));
+            quote!(#runtime::generations::EnergyConstants { #(#names: #row),* })
+        });
+        quote! {
+            Self {
+                generations: #runtime::generations::Generations::new(
+                    &[#(#rows),*],
+                    [T::from_f64(0.0), #root],
+                    &[#(#energies),*],
+                ),
+            }
+        }
+    }
+
+    /// A quantity in the model's scalar.
+    fn scalar(&self, quantity: &Quantity) -> TokenStream {
+        let joined = |parts: &[Quantity], operator: &TokenStream| {
+            let mut parts = parts.iter().map(|part| self.scalar(part));
+            let first = parts.next();
+            quote!((#first #(#operator #parts)*))
+        };
+        match quantity {
+            Quantity::Exact(number) => number_tokens(number),
+            Quantity::Parameter(id) => {
+                let field = format_ident!("{}", self.scene.parameters[id.0].name);
+                quote!(parameters.#field)
+            }
+            Quantity::Sum(parts) => joined(parts, &quote!(+)),
+            Quantity::Product(parts) => joined(parts, &quote!(*)),
+            Quantity::Quotient(above, below) => {
+                let (above, below) = (self.scalar(above), self.scalar(below));
+                quote!((#above / #below))
+            }
+            Quantity::Power(base, exponent) => {
+                let power = vec![(**base).clone(); exponent.unsigned_abs() as usize];
+                let power = joined(&power, &quote!(*));
+                match *exponent < 0 {
+                    true => quote!((T::from_f64(1.0) / #power)),
+                    false => power,
+                }
+            }
+            Quantity::Negative(value) => {
+                let value = self.scalar(value);
+                quote!((-#value))
+            }
+        }
+    }
+
+    fn recursion(&self, generations: &Generations) -> TokenStream {
+        let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
+        let forces = Forces::of(self.scene);
+        let columns = forces.columns();
+        let sizes = self.recursion_sizes();
+        let [constants, leaf_answers, answers, kept] = sizes.clone();
+        let links = Literal::usize_unsuffixed(generations.links);
+        let copies = self.scene.links.iter().enumerate().map(|(generation, _)| {
+            Literal::usize_unsuffixed(if generation == 0 {
+                1
+            } else {
+                generations.branching
+            })
+        });
+        let names = self.scene.links.iter().map(|link| &link.name);
+        let joints = forces.in_joints();
+        // What a function does not read is not taken apart.
+        let read = |used: &[&str]| {
+            let columns = columns.iter().map(|column| match used.contains(column) {
+                true => {
+                    let column = Ident::new(column, Span::call_site());
+                    quote!(#column)
+                }
+                false => quote!(_),
+            });
+            quote!(let [#(#columns),*] = *constants;)
+        };
+        let force_names = ["friction", "drag", "spring"];
+        let with = |own: &[&'static str]| -> Vec<&'static str> {
+            own.iter().copied().chain(force_names).collect()
+        };
+        let torque = torque(forces);
+        let in_joint = in_joint(forces);
+        let (leaf_read, unread) = match forces.any() {
+            true => (read(&with(&["inertia"])), None),
+            false => (TokenStream::new(), Some(quote!(let _ = constants;))),
+        };
+        let (leaf_x, leaf_y) = match forces.any() {
+            true => (
+                quote!(square * link.sine - push * link.cosine),
+                quote!(square.mul_add(link.cosine, push * link.sine)),
+            ),
+            false => (quote!(square * link.sine), quote!(square * link.cosine)),
+        };
+        let push = forces.any().then(|| {
+            quote! {
+                // Q / J
+                let push = (#torque) * inertia;
+            }
+        });
+        let leaf_torque = joints.then(|| quote!(, #in_joint));
+        let torque_parameter = joints.then(|| quote!(torque: V,));
+        let torque_argument = joints.then(|| quote!(, torque));
+        let node_forces = forces.any().then(|| {
+            let from_below = joints.then(|| quote!(+ torque));
+            quote! {
+                let kappa = kappa - (#torque #from_below);
+            }
+        });
+        let node_answer = joints.then(|| quote!(, #in_joint));
+        let node_constants = read(&with(&["inertia", "moment"]));
+        let (stem_constants, inner_constants) = (
+            read(&["rest", "square", "ratio"]),
+            read(&["rest", "square", "ratio"]),
+        );
+        let turn_constants = read(&["reach"]);
+        let turned_leaf = match forces.any() {
+            true => quote!(swing + (#torque) * inertia),
+            false => quote!(swing),
+        };
+        let docs = doc_lines(&equations_docs(&name.to_string(), forces));
+        let allow = quote!(#[allow(clippy::many_single_char_names)]);
+        quote! {
+            #docs
+            #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+            #vis struct #name;
+
+            #allow
+            impl #name {
+                #[inline(always)]
+                fn node<V: #runtime::Scalar>(
+                    constants: &[V; #constants],
+                    link: #runtime::generations::Motion<V>,
+                    [xx, xy, yy]: [V; 3],
+                    [x, y]: [V; 2],
+                    #torque_parameter
+                ) -> ([V; #answers], [V; #kept]) {
+                    #node_constants
+                    let (sine, cosine) = (link.sine, link.cosine);
+                    let pull_x = xx.mul_add(cosine, xy * sine);
+                    let pull_y = xy.mul_add(cosine, yy * sine);
+                    let b_x = moment.mul_add(cosine, pull_x);
+                    let b_y = moment.mul_add(sine, pull_y);
+                    let whole = sine.mul_add(pull_y, cosine.mul_add(pull_x, inertia));
+                    let square = link.omega * link.omega;
+                    let trace = xx + yy + moment;
+                    let f_x = square.mul_add((-trace).mul_add(sine, pull_y), x);
+                    let f_y = (-square).mul_add((-trace).mul_add(cosine, pull_x), y);
+                    let kappa = cosine.mul_add(f_x, sine * f_y);
+                    #node_forces
+                    let inverse = V::from_f64(1.0) / whole;
+                    let (g_x, g_y) = (b_x * inverse, b_y * inverse);
+                    (
+                        [
+                            (-b_x).mul_add(g_x, xx),
+                            (-b_x).mul_add(g_y, xy),
+                            (-b_y).mul_add(g_y, yy),
+                            (-g_x).mul_add(kappa, f_x),
+                            (-g_y).mul_add(kappa, f_y)
+                            #node_answer
+                        ],
+                        [g_x, g_y, kappa * inverse],
+                    )
+                }
+            }
+
+            #allow
+            impl #runtime::generations::Recursion<#(#sizes),*> for #name {
+                const LINKS: usize = #links;
+                const COPIES: &'static [usize] = &[#(#copies),*];
+                const NAMES: &'static [&'static str] = &[#(#names),*];
+                const JOINTS: bool = #joints;
+
+                #[inline(always)]
+                fn leaf<V: #runtime::Scalar>(
+                    constants: &[V; #constants],
+                    link: #runtime::generations::Motion<V>,
+                ) -> [V; #leaf_answers] {
+                    #leaf_read
+                    #unread
+                    let square = link.omega * link.omega;
+                    #push
+                    [
+                        link.sine * link.sine,
+                        link.cosine * link.sine,
+                        link.cosine * link.cosine,
+                        #leaf_x,
+                        #leaf_y
+                        #leaf_torque
+                    ]
+                }
+
+                #[inline(always)]
+                fn stem<V: #runtime::Scalar>(
+                    constants: &[V; #constants],
+                    link: #runtime::generations::Motion<V>,
+                    below: [V; #leaf_answers],
+                ) -> ([V; #answers], [V; #kept]) {
+                    #stem_constants
+                    let [xx, xy, yy, x, y #torque_argument] = below;
+                    let phi = [square.mul_add(xx, rest), -(square * xy), square.mul_add(yy, rest)];
+                    Self::node(constants, link, phi, [-(ratio * x), ratio * y] #torque_argument)
+                }
+
+                #[inline(always)]
+                fn inner<V: #runtime::Scalar>(
+                    constants: &[V; #constants],
+                    link: #runtime::generations::Motion<V>,
+                    below: [V; #answers],
+                ) -> ([V; #answers], [V; #kept]) {
+                    #inner_constants
+                    let [xx, xy, yy, x, y #torque_argument] = below;
+                    let phi = [square.mul_add(xx, rest), square * xy, square.mul_add(yy, rest)];
+                    Self::node(constants, link, phi, [ratio * x, ratio * y] #torque_argument)
+                }
+
+                #[inline(always)]
+                fn turn<V: #runtime::Scalar>(
+                    constants: &[V; #constants],
+                    link: #runtime::generations::Motion<V>,
+                    [g_x, g_y, turn]: [V; #kept],
+                    [x, y]: [V; 2],
+                ) -> (V, [V; 2]) {
+                    #turn_constants
+                    let alpha = g_x.mul_add(x, g_y.mul_add(y, -turn));
+                    let square = link.omega * link.omega;
+                    let end_x = square.mul_add(link.sine, (-alpha).mul_add(link.cosine, x));
+                    let end_y = (-square).mul_add(link.cosine, (-alpha).mul_add(link.sine, y));
+                    (alpha, [reach * end_x, reach * end_y])
+                }
+
+                #[inline(always)]
+                fn turn_leaf<V: #runtime::Scalar>(
+                    constants: &[V; #constants],
+                    link: #runtime::generations::Motion<V>,
+                    [x, y]: [V; 2],
+                ) -> V {
+                    #leaf_read
+                    #unread
+                    let swing = link.cosine.mul_add(x, link.sine * y);
+                    #turned_leaf
+                }
+            }
+        }
+    }
+
+    fn generation_functions(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let loops = self.generations_type();
+        let energies = self.scene.requests.energies.then(|| {
+            quote! {
+                /// Kinetic energy, J, for angles `theta` (rad) and angular
+                /// velocities `omega` (rad/s): ½ m **V**² + ½ I ω² of all links,
+                /// from the velocities **V** of their centres of mass. NaN for
+                /// slices of another length than there are links. O(links).
+                #[must_use]
+                pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
+                    self.generations.kinetic_energy(theta, omega)
+                }
+
+                /// Potential energy, J, for angles `theta` (rad): of gravity and
+                /// of torsion springs, zero where every link hangs straight down.
+                /// NaN for a slice of another length than there are links.
+                /// O(links).
+                #[must_use]
+                pub fn potential_energy(&self, theta: &[T]) -> T {
+                    self.generations.potential_energy(theta)
+                }
+            }
+        });
+        quote! {
+            impl<T: #runtime::Scalar> #name<T> {
+                /// Index of the link that one comes to from the root by these
+                /// copies, each counted from 0; the root's path is empty. None
+                /// where there is no such link.
+                #[must_use]
+                pub fn link(path: &[usize]) -> ::core::option::Option<usize> {
+                    <#loops>::link(path)
+                }
+
+                /// Computes on so many threads, where the tree is large enough.
+                /// The results do not depend on it.
+                pub fn set_threads(&mut self, threads: ::core::num::NonZeroUsize) {
+                    self.generations.set_threads(threads);
+                }
+
+                #energies
+            }
+        }
+    }
+
+    fn generation_pendulum(&self, generations: &Generations) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let links = Literal::usize_unsuffixed(generations.links);
+        let loops = self.generations_type();
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
+                const LINKS: usize = #links;
+                const LINK_NAMES: &'static [&'static str] = &[];
+
+                fn link_name(
+                    index: usize,
+                ) -> ::core::option::Option<#runtime::generations::LinkName> {
+                    <#loops>::link_name(index)
+                }
+
+                fn accelerations_into(
+                    &self,
+                    _time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    alpha: &mut [T],
+                ) {
+                    self.generations.accelerations_into(theta, omega, alpha);
+                }
+            }
+        }
+    }
+
+    fn generation_energy(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
+                fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
+                    self.generations.kinetic_energy(theta, omega)
+                }
+
+                fn potential_energy_of(&self, theta: &[T]) -> T {
+                    self.generations.potential_energy(theta)
+                }
+            }
+        }
+    }
+}
+
+/// The torque that acts on a link from outside of its subtree: friction and
+/// spring in its pivot, drag.
+fn torque(forces: Forces) -> TokenStream {
+    let joint = forces.in_joints().then(|| in_joint(forces));
+    let drag = forces.drag.then(|| quote!(drag * link.omega));
+    let parts = joint.into_iter().chain(drag);
+    quote!(-(#(#parts)+*))
+}
+
+/// What a link's pivot does to its parent.
+fn in_joint(forces: Forces) -> TokenStream {
+    let friction = forces.friction.then(|| quote!(friction * link.bend_rate));
+    let spring = forces.spring.then(|| quote!(spring * link.bend));
+    let parts = friction.into_iter().chain(spring);
+    quote!(#(#parts)+*)
+}
+
+fn equations_docs(name: &str, forces: Forces) -> Vec<String> {
+    let _ = name;
+    let mut lines: Vec<String> = [
+        "The equations of one link of each generation: articulated-body recursion in",
+        "the plane (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7).",
+        "",
+        "A subtree answers an acceleration **a** of its pivot with a force Φ **a** + **β**.",
+        "With **v** = (cos θ, sin θ), **u** = (sin θ, −cos θ), and Φ, **β** summed over the",
+        "children, in units in which their pivots have distance 1:",
+        "",
+        "```text",
+        "b = m d v + Φ v,   J = I + m d² + v·Φ v",
+        "f = β − ω² (Φ u + m d u),   κ = v·f − Q,   g = b / J",
+        "Φ ← m + Φ − b gᵀ,   β ← f − g κ",
+        "ω̇ = −g·a − κ / J,   a ← a + ω̇ v − ω² u",
+        "```",
+        "",
+        "Φ u is (Φ v − v tr Φ) turned by a right angle. Leaves have",
+        "Φ = m I/J + (m² d²/J) u uᵀ. What does not depend on the angles is in the constants.",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    if forces.any() {
+        lines.push("Q is the torque of friction, drag and springs.".to_owned());
+    }
+    lines
+}

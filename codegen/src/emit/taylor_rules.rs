@@ -1,0 +1,95 @@
+//! The recurrences of the operations: what becomes of each in order k.
+
+use super::function::Binding;
+use super::taylor_order::Recurrences;
+use crate::exact::Rational;
+use crate::program::{Op, ValueId};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+impl Recurrences<'_> {
+    /// The recurrence of an operation, in the coefficients of order k and 0.
+    pub(super) fn definition(&self, id: ValueId) -> (TokenStream, Binding) {
+        let op = self.emission.op(id);
+        let varies = |id: &ValueId| self.varies[id];
+        let at = |id: ValueId, place: Binding| self.bound(id, place);
+        let zeroth = |id: ValueId| self.zeroth(id, Binding::Atom);
+        match *op {
+            Op::Neg(a) => {
+                let a = at(a, Binding::Atom);
+                (quote!(-#a), Binding::Prefix)
+            }
+            Op::Add(a, b) | Op::Sub(a, b) if varies(&a) && varies(&b) => {
+                let (a, b) = (at(a, Binding::Sum), at(b, Binding::Product));
+                let value = match op {
+                    Op::Add(..) => quote!(#a + #b),
+                    _ => quote!(#a - #b),
+                };
+                (value, Binding::Sum)
+            }
+            Op::Add(a, _) | Op::Sub(a, _) if varies(&a) => (at(a, Binding::Atom), Binding::Atom),
+            Op::Add(_, b) => (at(b, Binding::Atom), Binding::Atom),
+            Op::Sub(_, b) => {
+                let b = at(b, Binding::Atom);
+                (quote!(-#b), Binding::Prefix)
+            }
+            Op::Mul(a, b) if varies(&a) && varies(&b) => {
+                // (u v)[k] = Σ u[j] v[k−j] + u[0] v[k] + u[k] v[0]
+                let (u, v) = (at(a, Binding::Prefix), at(b, Binding::Prefix));
+                let (u_0, v_0) = (zeroth(a), zeroth(b));
+                let sum = self.sum(op);
+                (quote!(#sum + (#u_0 * #v + #u * #v_0)), Binding::Sum)
+            }
+            Op::Mul(a, b) => {
+                let (constant, moving) = if varies(&a) { (b, a) } else { (a, b) };
+                let constant = self.zeroth(constant, Binding::Prefix);
+                let moving = at(moving, Binding::Prefix);
+                (quote!(#constant * #moving), Binding::Product)
+            }
+            Op::Div(a, b) if varies(&b) => {
+                // u = v w, solved for w[k].
+                let (sum, w_0) = (self.sum(op), zeroth(id));
+                let v = at(b, Binding::Prefix);
+                let rest = quote!(#sum + #v * #w_0);
+                if *self.emission.op(a) == Op::Number(Rational::from(1)) {
+                    return (quote!(-(#rest) * #w_0), Binding::Product);
+                }
+                let v_0 = zeroth(b);
+                if varies(&a) {
+                    let u = at(a, Binding::Sum);
+                    (quote!((#u - (#rest)) / #v_0), Binding::Product)
+                } else {
+                    (quote!(-(#rest) / #v_0), Binding::Product)
+                }
+            }
+            Op::Div(a, b) => {
+                let (u, v_0) = (at(a, Binding::Product), zeroth(b));
+                (quote!(#u / #v_0), Binding::Product)
+            }
+            Op::Sqrt(a) => {
+                // u = w w, solved for w[k].
+                let (sum, w_0) = (self.sum(op), zeroth(id));
+                let u = at(a, Binding::Sum);
+                (quote!((#u - #sum) / (#w_0 + #w_0)), Binding::Product)
+            }
+            Op::Sin(angle) | Op::Cos(angle) => {
+                // k s[k] = Σ j a[j] c[k−j], k c[k] = −Σ j a[j] s[k−j]
+                let (sum, inverse) = (self.sum(op), &self.inverse_order);
+                let angle_k = at(angle, Binding::Prefix);
+                if matches!(op, Op::Sin(_)) {
+                    let cos = zeroth(self.id(&Op::Cos(angle)));
+                    (quote!(#sum * #inverse + #angle_k * #cos), Binding::Sum)
+                } else {
+                    let sin = zeroth(self.id(&Op::Sin(angle)));
+                    (
+                        quote!(-(#sum * #inverse + #angle_k * #sin)),
+                        Binding::Prefix,
+                    )
+                }
+            }
+            Op::Input(..) | Op::Constant(_) | Op::Number(_) => {
+                unreachable!("inputs have names, constants no coefficient of order k")
+            }
+        }
+    }
+}

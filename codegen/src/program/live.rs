@@ -1,0 +1,51 @@
+//! How many values wait for a later use: what the registers have to hold.
+
+use super::{Definition, Entry, Op, Program, ValueId};
+
+impl Program {
+    /// The largest number of values that wait for a later use at one time in the
+    /// code of an entry point, inputs and constants aside. Linear in the program.
+    pub fn live(&self, entry: &Entry) -> usize {
+        live(
+            &self.definitions,
+            &self.needed(&entry.outputs),
+            &entry.outputs,
+        )
+    }
+}
+
+/// Values that are kept rather than formed: they cost no register until used.
+fn is_leaf(op: &Op) -> bool {
+    matches!(op, Op::Input(..) | Op::Constant(_) | Op::Number(_))
+}
+
+/// The largest number of values that wait for a later use at one time, inputs
+/// and constants aside, if they are formed in that order.
+fn live(definitions: &[Definition], order: &[ValueId], outputs: &[ValueId]) -> usize {
+    let mut last = vec![0; definitions.len()];
+    for (place, id) in order.iter().enumerate() {
+        for operand in definitions[id.0 as usize].op.operands() {
+            last[operand.0 as usize] = place;
+        }
+    }
+    for output in outputs {
+        last[output.0 as usize] = order.len();
+    }
+    let (mut live, mut most) = (0_usize, 0);
+    for (place, id) in order.iter().enumerate() {
+        let definition = &definitions[id.0 as usize];
+        let mut operands: Vec<ValueId> = definition.op.operands().collect();
+        operands.dedup();
+        for operand in operands {
+            let formed = !is_leaf(&definitions[operand.0 as usize].op);
+            if formed && last[operand.0 as usize] == place {
+                live -= 1;
+            }
+        }
+        if !is_leaf(&definition.op) {
+            live += 1;
+        }
+        most = most.max(live);
+    }
+    most
+}

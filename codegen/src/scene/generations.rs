@@ -1,0 +1,405 @@
+//! Trees that are one rule and large: their code is loops over generations.
+
+use proc_macro2::Span;
+
+use super::bodies::Body;
+use super::requests::Resolved;
+use super::rule::Code;
+use super::template::{MAX_LINKS, Template, WholeRule};
+use super::values::message_for;
+use super::{Link, Quantity, Requests, Scene, Solve};
+use crate::exact::ExactError;
+use crate::report::{Message, Report};
+
+/// Trees of at least so many links get loops: straight code for more no longer
+/// fits the instruction cache, and is slower (`docs/performance.md`).
+const FEWEST: usize = 64;
+
+/// Most links of such a tree: what an index of 32 bits counts.
+const MOST: usize = 1 << 32;
+
+/// Most generations of such a tree whose bodies have parameters.
+const MOST_WITH_PARAMETERS: usize = 64;
+
+/// What the links of a scene in generations stand for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Generations {
+    /// Children of each link but those of the last generation.
+    pub branching: usize,
+    /// Links of all generations.
+    pub links: usize,
+    /// What the equations are made of.
+    pub constants: Constants,
+}
+
+/// The numbers of a tree whose code is loops.
+#[derive(Clone, Copy)]
+pub(super) struct Loops {
+    branching: usize,
+    links: usize,
+    span: Span,
+}
+
+/// What is asked for about a tree.
+pub(super) struct Asked<'a> {
+    pub(super) resolved: &'a Resolved,
+    pub(super) observables: bool,
+    pub(super) drive: bool,
+}
+
+/// Decides how the code of a rule is written. Where it is loops, leaves one
+/// template for a link of each generation.
+///
+/// # Errors
+/// Where the tree can neither be written out nor have loops, or has loops that
+/// it cannot have; `report` says why.
+pub(super) fn decide(
+    rule: WholeRule,
+    templates: &mut [Template],
+    asked: &Asked<'_>,
+    report: &mut Report,
+) -> Result<Option<Loops>, ()> {
+    let mut links: usize = 0;
+    let mut count: usize = 1;
+    for _ in &*templates {
+        links = links.saturating_add(count);
+        count = count.saturating_mul(rule.branching);
+    }
+    let wanted = match rule.code {
+        Some(Code::Unrolled) => return Ok(None),
+        Some(Code::Loops) => true,
+        None => links >= FEWEST,
+    };
+    if !wanted {
+        return Ok(None);
+    }
+    match obstacle(templates, asked) {
+        Some(what) if rule.code.is_some() => {
+            report.error(rule.span, Message::NoLoops { what });
+            Err(())
+        }
+        Some(what) if links > MAX_LINKS => {
+            let limit = MAX_LINKS;
+            report.error(rule.span, Message::TooManyForUnrolled { what, limit });
+            Err(())
+        }
+        Some(_) => Ok(None),
+        None if links > MOST => {
+            report.error(rule.span, Message::TooManyLinks { limit: MOST });
+            Err(())
+        }
+        None => {
+            for template in templates {
+                template.copies = 1;
+            }
+            Ok(Some(Loops {
+                branching: rule.branching,
+                links,
+                span: rule.span,
+            }))
+        }
+    }
+}
+
+/// The constants of a scene whose code is loops; `None` after reporting what is
+/// wrong.
+pub(super) fn generations(loops: Loops, scene: &Scene, report: &mut Report) -> Option<Generations> {
+    let Loops {
+        branching,
+        links,
+        span,
+    } = loops;
+    let constants = match Constants::of(scene, branching) {
+        Ok(constants) => constants,
+        Err(error) => {
+            report.error(span, message_for(error));
+            return None;
+        }
+    };
+    if let Some(name) = constants.unrepresentable(&Forces::of(scene).columns()) {
+        let name = name.to_owned();
+        report.error(span, Message::ConstantRange { name });
+        return None;
+    }
+    Some(Generations {
+        branching,
+        links,
+        constants,
+    })
+}
+
+/// What loops do not do, in words.
+fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
+    let Requests {
+        energies: _,
+        momenta,
+        modes,
+        symmetric,
+        transfer,
+        budget,
+        taylor,
+        solve,
+    } = &asked.resolved.requests;
+    // Loops are the recursion.
+    let factorization = *solve == Some(Solve::Factorization);
+    let requests = [
+        (*momenta, "`emit(momenta)`"),
+        (*modes, "`emit(modes)`"),
+        (*symmetric, "`emit(symmetric)`"),
+        (transfer.is_some(), "`emit(transfer)`"),
+        (budget.is_some(), "`emit(budget)`"),
+        (*taylor, "`emit(taylor)`"),
+        (asked.observables, "`observe(…)`"),
+        (asked.drive, "`drive(…)`"),
+        (factorization, "`solve = factorization`"),
+        (templates.len() < 2, "a single generation"),
+    ];
+    // What brings others along comes last.
+    let request = requests.into_iter().rev().find(|(wanted, _)| *wanted);
+    if let Some((_, what)) = request {
+        return Some(what.to_owned());
+    }
+    let lateral = templates
+        .iter()
+        .any(|template| !template.body.com.lateral.is_zero() || !template.pivot.lateral.is_zero());
+    if lateral {
+        return Some("lateral offsets".to_owned());
+    }
+    // Their constants are formed of those of all generations below, in code.
+    let parameters = templates.len() > MOST_WITH_PARAMETERS
+        && templates.iter().any(|template| {
+            let Body {
+                mass, inertia, com, ..
+            } = &template.body;
+            let parts = [mass, inertia, &com.along, &template.pivot.along];
+            parts.into_iter().any(|value| value.exact().is_none())
+        });
+    if parameters {
+        return Some(format!(
+            "parameters in more than {MOST_WITH_PARAMETERS} generations"
+        ));
+    }
+    let at_pivot = templates.iter().skip(1).any(|t| t.pivot.along.is_zero());
+    at_pivot.then(|| "children that hang from their parent's pivot".to_owned())
+}
+
+/// The constants of a scene in generations, exact where no parameter is
+/// involved. SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Constants {
+    /// What the equations of each generation read, in the order of
+    /// [`Forces::columns`].
+    pub motion: Vec<Vec<Quantity>>,
+    /// What its energies read: half of the mass, first moment, half of the moment
+    /// of inertia about the pivot, lever, gravity's moment, half of the spring.
+    pub energy: Vec<[Quantity; 6]>,
+    /// −g over the first lever: what the root's equations take from above.
+    pub root: Quantity,
+}
+
+/// Which torques act on the links, in one generation at least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Forces {
+    /// Viscous friction in pivots.
+    pub friction: bool,
+    /// Viscous drag against the ground.
+    pub drag: bool,
+    /// Torsion springs in pivots.
+    pub spring: bool,
+}
+
+impl Forces {
+    /// Of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        let any = |force: fn(&Link) -> &Option<Quantity>| {
+            scene.links.iter().any(|link| force(link).is_some())
+        };
+        Self {
+            friction: any(|link| &link.friction),
+            drag: any(|link| &link.drag),
+            spring: any(|link| &link.spring),
+        }
+    }
+
+    /// Whether links pull at their parents by torques.
+    pub fn in_joints(self) -> bool {
+        self.friction || self.spring
+    }
+
+    /// Whether there are any.
+    pub fn any(self) -> bool {
+        self.in_joints() || self.drag
+    }
+
+    /// The names of the columns.
+    pub fn columns(self) -> Vec<&'static str> {
+        let mut columns = vec!["rest", "inertia", "moment", "square", "ratio", "reach"];
+        let forces = [
+            (self.friction, "friction"),
+            (self.drag, "drag"),
+            (self.spring, "spring"),
+        ];
+        columns.extend(
+            forces
+                .into_iter()
+                .filter(|(there, _)| *there)
+                .map(|(_, name)| name),
+        );
+        columns
+    }
+}
+
+impl Constants {
+    /// Of a scene whose `links` are one of each generation, below each other.
+    ///
+    /// # Errors
+    /// [`ExactError`] where a number gets too long, or a leaf has no inertia about
+    /// its pivot.
+    fn of(scene: &Scene, branching: usize) -> Result<Self, ExactError> {
+        let forces = Forces::of(scene);
+        let copies = Quantity::integer(i64::try_from(branching).unwrap_or(i64::MAX));
+        let links = &scene.links;
+        let (mut motion, mut energy) = (Vec::new(), Vec::new());
+        // Mass of one subtree of the generation below; none below the leaves.
+        let mut below = Quantity::zero();
+        for (generation, link) in links.iter().enumerate().rev() {
+            let child = links.get(generation + 1);
+            let lever = child.map_or_else(Quantity::zero, |child| child.pivot.along.clone());
+            let about = Turning::of(link)?;
+            let hanging = product([&copies, &below]);
+            let first_moment = Quantity::sum([about.moment.clone(), product([&lever, &hanging])]);
+            energy.push([
+                half(&about.mass),
+                about.moment.clone(),
+                half(&about.inertia),
+                lever.clone(),
+                product([&scene.gravity, &first_moment]),
+                half(&value(&link.spring)),
+            ]);
+            let mut row = match child {
+                None => leaf(&about)?,
+                Some(child) => {
+                    let next = links.get(generation + 2).map(|next| &next.pivot.along);
+                    inner(&about, &lever, &copies, &Turning::of(child)?, next)?
+                }
+            };
+            for (there, force) in [
+                (forces.friction, &link.friction),
+                (forces.drag, &link.drag),
+                (forces.spring, &link.spring),
+            ] {
+                if there {
+                    row.push(value(force));
+                }
+            }
+            motion.push(row);
+            below = Quantity::sum([about.mass, hanging]);
+        }
+        motion.reverse();
+        energy.reverse();
+        let lever = links
+            .get(1)
+            .map_or_else(Quantity::zero, |link| link.pivot.along.clone());
+        Ok(Self {
+            motion,
+            energy,
+            root: scene.gravity.clone().divided_by(lever)?.negative(),
+        })
+    }
+
+    /// The first value that no `f64` can hold, by its column.
+    fn unrepresentable(&self, columns: &[&'static str]) -> Option<&'static str> {
+        let fits = |quantity: &Quantity| quantity.exact().is_none_or(|n| n.to_f64().is_finite());
+        let motion = self.motion.iter().flat_map(|row| columns.iter().zip(row));
+        let wrong = motion.into_iter().find(|(_, value)| !fits(value));
+        let energy = self.energy.iter().flatten().all(fits) && fits(&self.root);
+        wrong
+            .map(|(name, _)| *name)
+            .or((!energy).then_some("energy"))
+    }
+}
+
+/// A link about its pivot.
+struct Turning {
+    mass: Quantity,
+    /// m d.
+    moment: Quantity,
+    /// I + m d².
+    inertia: Quantity,
+    /// I.
+    central: Quantity,
+}
+
+impl Turning {
+    fn of(link: &Link) -> Result<Self, ExactError> {
+        let distance = &link.com.along;
+        let moment = product([&link.mass, distance]);
+        Ok(Self {
+            mass: link.mass.clone(),
+            inertia: Quantity::sum([link.inertia.clone(), product([&moment, distance])]),
+            moment,
+            central: link.inertia.clone(),
+        })
+    }
+}
+
+fn product<const N: usize>(factors: [&Quantity; N]) -> Quantity {
+    Quantity::product(factors.into_iter().cloned())
+}
+
+fn half(value: &Quantity) -> Quantity {
+    // Division by an exact number other than zero.
+    let quotient = value.clone().divided_by(Quantity::integer(2));
+    quotient.unwrap_or_else(|_| Quantity::zero())
+}
+
+fn value(force: &Option<Quantity>) -> Quantity {
+    force.clone().unwrap_or_else(Quantity::zero)
+}
+
+/// 1/J alone.
+fn leaf(body: &Turning) -> Result<Vec<Quantity>, ExactError> {
+    let mut row = vec![Quantity::zero(); 6];
+    row[1] = Quantity::integer(1).divided_by(body.inertia.clone())?;
+    Ok(row)
+}
+
+/// The constants of a link with children at distance ℓ, in units in which ℓ is
+/// one: the children's answers are in units of their own lever ℓ_j, those of
+/// leaves are without unit.
+///
+/// A leaf pulls at its pivot with Φ = m I/J + (m² d²/J) u uᵀ, other children with
+/// Φ = m + (what they answer)/ℓ_j².
+fn inner(
+    body: &Turning,
+    lever: &Quantity,
+    copies: &Quantity,
+    child: &Turning,
+    next: Option<&Quantity>,
+) -> Result<Vec<Quantity>, ExactError> {
+    let moment = product([&body.moment, lever]);
+    let share = product([copies, lever, lever, &child.mass]);
+    let (rest, square, ratio, reach) = match next {
+        None => {
+            let turning = product([&child.moment, lever]);
+            (
+                product([&share, &child.central]).divided_by(child.inertia.clone())?,
+                product([&turning, &turning]).divided_by(child.inertia.clone())?,
+                turning.clone(),
+                turning.divided_by(child.inertia.clone())?,
+            )
+        }
+        Some(next) => {
+            let ratio = lever.clone().divided_by(next.clone())?;
+            (share, product([&ratio, &ratio]), ratio.clone(), ratio)
+        }
+    };
+    Ok(vec![
+        rest,
+        body.inertia.clone(),
+        moment,
+        square,
+        ratio,
+        reach,
+    ])
+}

@@ -1,0 +1,101 @@
+//! What a trajectory to a given error costs.
+//!
+//! `integration-speed --help` says what is measured.
+
+use std::error::Error;
+use std::process::ExitCode;
+
+use branched_pendulum::prelude::*;
+use branched_pendulum_examples::exit;
+use branched_pendulum_examples::integration_speed::measure::{ERRORS, points, time_for};
+use branched_pendulum_examples::solvers::scenes::{Ideal, Rods};
+use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};
+
+const HELP: &str = "\
+How long does a motion of ten seconds take, to a given error at its end, by the
+generated Taylor series and by two Runge-Kutta methods? Microseconds, the least
+of all tolerances that reach the error. benches/peers measures the same motions
+with heyoka.
+
+Usage: integration-speed
+
+  --help  this text
+";
+
+/// Runs of each tolerance.
+const REPEATS: usize = 25;
+
+/// Of the problems, those of this duration, in seconds.
+const END: f64 = 10.0;
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        [] => match run() {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => {
+                eprintln!("integration-speed: {error}");
+                ExitCode::FAILURE
+            }
+        },
+        ["--help" | "-h"] => {
+            print!("{HELP}");
+            ExitCode::SUCCESS
+        }
+        _ => exit::wrong_command_line("integration-speed", &"takes no argument but --help"),
+    }
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
+    print!("{:32}", "error");
+    for error in ERRORS {
+        print!("{error:>9.0e}");
+    }
+    println!();
+    for problem in problems()?.iter().filter(|problem| problem.end == END) {
+        match problem.tree {
+            Tree::Paper => rows(&AbsoluteAngles(&Ideal::new()), problem)?,
+            Tree::Rods => rows(&AbsoluteAngles(&Rods::new()), problem)?,
+        }
+    }
+    Ok(())
+}
+
+fn rows<O: TaylorOde<f64>>(ode: &O, problem: &Problem) -> Result<(), Box<dyn Error>> {
+    let options = |tolerance| Options {
+        compensated: true,
+        ..Options::with_tolerance(tolerance)
+    };
+    let methods = [
+        (
+            "Taylor",
+            points(ode, problem, REPEATS, |tolerance| {
+                Taylor::new(options(tolerance))
+            })?,
+        ),
+        (
+            "Dop853",
+            points(ode, problem, REPEATS, |tolerance| {
+                Dop853::new(options(tolerance))
+            })?,
+        ),
+        (
+            "Verner98",
+            points(ode, problem, REPEATS, |tolerance| {
+                Verner98::new(options(tolerance))
+            })?,
+        ),
+    ];
+    for (method, points) in methods {
+        print!("{:32}", format!("{}, {method}", problem.name));
+        for error in ERRORS {
+            match time_for(&points, error) {
+                Some(micros) => print!("{micros:>9.0}"),
+                None => print!("{:>9}", "-"),
+            }
+        }
+        println!();
+    }
+    Ok(())
+}

@@ -1,0 +1,5 @@
+//! What a trajectory to a given error costs, for the comparison with heyoka.
+//!
+//! `benches/peers/heyoka_trajectory.py` measures the same problems.
+
+pub mod measure;

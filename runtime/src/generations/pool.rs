@@ -1,0 +1,67 @@
+//! Room for evaluations, allocated once.
+
+use alloc::vec::Vec;
+
+/// Buffers that evaluations borrow. There are as many as there were evaluations
+/// at one time: a model that one thread uses holds one.
+///
+/// Without the feature `std`, which has the locks, every evaluation allocates.
+#[derive(Debug)]
+pub(super) struct Pool<T> {
+    /// Whoever comes first.
+    #[cfg(feature = "std")]
+    first: std::sync::Mutex<Vec<T>>,
+    /// For evaluations that find it lent.
+    #[cfg(feature = "std")]
+    others: std::sync::Mutex<Vec<Vec<T>>>,
+    #[cfg(not(feature = "std"))]
+    none: core::marker::PhantomData<T>,
+}
+
+impl<T> Pool<T> {
+    pub(super) fn new() -> Self {
+        Self {
+            #[cfg(feature = "std")]
+            first: std::sync::Mutex::new(Vec::new()),
+            #[cfg(feature = "std")]
+            others: std::sync::Mutex::new(Vec::new()),
+            #[cfg(not(feature = "std"))]
+            none: core::marker::PhantomData,
+        }
+    }
+}
+
+fn grown<T: Copy>(buffer: &mut Vec<T>, length: usize, zero: T) -> &mut [T] {
+    if buffer.len() < length {
+        buffer.resize(length, zero);
+    }
+    buffer
+}
+
+impl<T: Copy> Pool<T> {
+    /// Lends a buffer of at least `length` numbers to `work`. What they are is
+    /// left open, so that it does not matter if an earlier borrower panicked.
+    #[cfg(feature = "std")]
+    #[inline]
+    pub(super) fn lend<R>(&self, length: usize, zero: T, work: impl FnOnce(&mut [T]) -> R) -> R {
+        use std::sync::{PoisonError, TryLockError};
+        match self.first.try_lock() {
+            Ok(mut buffer) => return work(grown(&mut buffer, length, zero)),
+            Err(TryLockError::Poisoned(poisoned)) => {
+                return work(grown(&mut poisoned.into_inner(), length, zero));
+            }
+            Err(TryLockError::WouldBlock) => {}
+        }
+        let others = || self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut buffer = others().pop().unwrap_or_default();
+        let result = work(grown(&mut buffer, length, zero));
+        others().push(buffer);
+        result
+    }
+
+    /// The same, allocated for this once.
+    #[cfg(not(feature = "std"))]
+    pub(super) fn lend<R>(&self, length: usize, zero: T, work: impl FnOnce(&mut [T]) -> R) -> R {
+        work(grown(&mut Vec::new(), length, zero))
+    }
+}

@@ -1,0 +1,242 @@
+//! Requests that no method can answer.
+
+use core::fmt;
+
+use crate::scalar::Real;
+
+/// A request that no method can answer; nothing was computed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum InputError<T> {
+    /// A tolerance is negative or not finite, or zero where it must not be.
+    Tolerance {
+        /// `"relative"`, `"absolute"` or `"projection"`.
+        name: &'static str,
+        /// Index of the component; 0 for a uniform tolerance.
+        component: usize,
+        /// The tolerance given.
+        value: T,
+    },
+    /// Tolerances per component do not fit the state.
+    ToleranceCount {
+        /// `"relative"` or `"absolute"`.
+        name: &'static str,
+        /// Number of components of the state.
+        expected: usize,
+        /// Number of tolerances given.
+        found: usize,
+    },
+    /// Relative and absolute tolerance of a component are both zero.
+    NoTolerance {
+        /// Index of the component.
+        component: usize,
+    },
+    /// A step size in the options is negative or not finite, or zero where it
+    /// must not be.
+    Step {
+        /// `"initial"`, `"longest"`, `"shortest"` or `"fixed"`.
+        name: &'static str,
+        /// The step given.
+        value: T,
+    },
+    /// The length of a single step is infinite or NaN.
+    FixedStep {
+        /// The step given.
+        value: T,
+    },
+    /// The shortest step allowed is longer than the longest.
+    StepRange {
+        /// Shortest step given.
+        shortest: T,
+        /// Longest step given.
+        longest: T,
+    },
+    /// Beta is outside 0 to 0.2.
+    Beta {
+        /// The beta given.
+        value: T,
+    },
+    /// Beta is given to a method whose steps it has no part in.
+    BetaUnused {
+        /// The beta given.
+        value: T,
+    },
+    /// A Taylor method of an order that there is not.
+    Order {
+        /// The order given.
+        order: usize,
+        /// The lowest order there is.
+        smallest: usize,
+        /// The highest.
+        largest: usize,
+    },
+    /// A splitting is asked for where H is not T(p) + U(q).
+    NotSeparable {
+        /// Index of the coordinate whose rate, or whose momentum's rate, depends
+        /// on what it must not.
+        coordinate: usize,
+        /// Which of the two.
+        rate: Inseparable,
+        /// By how much it does, relative to its size.
+        change: T,
+    },
+    /// The state has no components.
+    EmptyState,
+    /// The state does not fit the equations.
+    Dimension {
+        /// Dimension of the equations.
+        expected: usize,
+        /// Number of components given.
+        found: usize,
+    },
+    /// The starting time is infinite or NaN.
+    StartTime {
+        /// The time given.
+        value: T,
+    },
+    /// A component of the starting state is infinite or NaN.
+    StartValue {
+        /// Index of the component.
+        component: usize,
+        /// The value given.
+        value: T,
+    },
+    /// A time to integrate to, or to sample at, is infinite or NaN.
+    Time {
+        /// Index among the times given; 0 for an end time.
+        index: usize,
+        /// The time given.
+        value: T,
+    },
+    /// Times to sample at turn back: they must run one way from the start.
+    TimeOrder {
+        /// Index of the offending time.
+        index: usize,
+        /// The time before it, or the starting time.
+        previous: T,
+        /// The offending time.
+        value: T,
+    },
+}
+
+/// What keeps a Hamiltonian from being T(p) + U(q).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inseparable {
+    /// Velocities depend on the coordinates, as those of links that hang from
+    /// other links do.
+    Velocity,
+    /// Rates of momenta depend on momenta: by a kinetic energy that depends on
+    /// the coordinates, or by friction.
+    Force,
+}
+
+impl<T: Real> fmt::Display for InputError<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Tolerance {
+                name: "projection",
+                component: _,
+                value,
+            } => write!(
+                f,
+                "tolerance of the projection is {value}: it must be finite and positive"
+            ),
+            Self::Tolerance {
+                name,
+                component,
+                value,
+            } => write!(
+                f,
+                "{name} tolerance of component {component} is {value}: \
+                 it must be finite and not negative"
+            ),
+            Self::ToleranceCount {
+                name,
+                expected,
+                found,
+            } => {
+                write!(
+                    f,
+                    "{found} {name} tolerances given for a state of {expected} components"
+                )
+            }
+            Self::NoTolerance { component } => write!(
+                f,
+                "relative and absolute tolerance of component {component} are both zero: \
+                 at least one must be positive"
+            ),
+            Self::Step {
+                name: "shortest",
+                value,
+            } => {
+                write!(
+                    f,
+                    "shortest step is {value}: it must be finite and not negative"
+                )
+            }
+            Self::Step { name, value } => {
+                write!(f, "{name} step is {value}: it must be finite and positive")
+            }
+            Self::FixedStep { value } => write!(f, "the length of a step is {value}"),
+            Self::StepRange { shortest, longest } => {
+                write!(
+                    f,
+                    "shortest step {shortest} is longer than the longest step {longest}"
+                )
+            }
+            Self::Beta { value } => write!(f, "beta is {value}: it must be between 0 and 0.2"),
+            Self::BetaUnused { value } => write!(
+                f,
+                "beta is {value}: this method has no use for it, leave it zero"
+            ),
+            Self::Order {
+                order,
+                smallest,
+                largest,
+            } => write!(
+                f,
+                "the order is {order}: it must be between {smallest} and {largest}"
+            ),
+            Self::NotSeparable {
+                coordinate,
+                rate,
+                change,
+            } => {
+                let (rate, cause) = match rate {
+                    Inseparable::Velocity => ("velocity of coordinate", "coordinates"),
+                    Inseparable::Force => ("rate of momentum", "momenta"),
+                };
+                write!(
+                    f,
+                    "the {rate} {coordinate} depends on the {cause}, by {change} of its size: \
+                     H is not T(p) + U(q), \
+                     so that a splitting would not be symplectic and hardly consistent; \
+                     Gauss methods need no such form"
+                )
+            }
+            Self::EmptyState => write!(f, "the state has no components"),
+            Self::Dimension { expected, found } => {
+                write!(
+                    f,
+                    "the state has {found} components, the equations have {expected}"
+                )
+            }
+            Self::StartTime { value } => write!(f, "the starting time is {value}"),
+            Self::StartValue { component, value } => {
+                write!(f, "component {component} of the starting state is {value}")
+            }
+            Self::Time { index, value } => write!(f, "requested time {index} is {value}"),
+            Self::TimeOrder {
+                index,
+                previous,
+                value,
+            } => write!(
+                f,
+                "requested time {index} is {value}, after {previous}: \
+                 times must run one way from the start"
+            ),
+        }
+    }
+}
+
+impl<T: Real> core::error::Error for InputError<T> {}

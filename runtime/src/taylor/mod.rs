@@ -1,0 +1,25 @@
+//! What emitted recurrences of Taylor coefficients are made of.
+//!
+//! [`expand`] has the recurrences of a tree: emitted code hands it the
+//! constants of its equation of motion. What else moves the tree, functions of
+//! the time and torques of friction and springs, emitted code computes order by
+//! order, with [`sums`] for its products of series.
+//!
+//! [`integrate::Taylor`] is the method that uses it.
+//!
+//! [`integrate::Taylor`]: crate::integrate::Taylor
+
+mod expand;
+mod levers;
+mod matrix;
+mod quad;
+mod rows;
+mod sums;
+
+pub use expand::{Known, Start, Tree, expand, workspace};
+pub use levers::Coupling;
+pub use quad::Quad;
+pub(crate) use quad::run_f64;
+#[doc(hidden)]
+pub use quad::{Kernel, Pack};
+pub use sums::{Factors, rows, sums, whole};

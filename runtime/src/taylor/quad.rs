@@ -1,0 +1,233 @@
+//! Four numbers side by side: what the recurrences work on.
+
+use crate::scalar::Scalar;
+
+/// Four numbers side by side in memory, aligned as vector instructions like it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub struct Quad<T>(
+    /// The numbers.
+    pub [T; 4],
+);
+
+impl<T: Scalar> Quad<T> {
+    /// The same number four times.
+    #[inline(always)]
+    #[must_use]
+    pub fn splat(value: T) -> Self {
+        Self([value; 4])
+    }
+}
+
+/// The arithmetic of four numbers at once, in registers.
+pub trait Pack<T>: Copy {
+    /// The same number four times.
+    fn splat(value: T) -> Self;
+    /// From memory.
+    fn load(quad: &Quad<T>) -> Self;
+    /// To memory.
+    fn store(self, quad: &mut Quad<T>);
+    /// Sum.
+    fn plus(self, other: Self) -> Self;
+    /// Difference.
+    fn minus(self, other: Self) -> Self;
+    /// Product.
+    fn times(self, other: Self) -> Self;
+    /// `self` + a b, rounded once or twice.
+    fn plus_product(self, a: Self, b: Self) -> Self;
+    /// `self` − a b, rounded once or twice.
+    fn minus_product(self, a: Self, b: Self) -> Self;
+    /// Element `LANE` in all places.
+    fn broadcast<const LANE: usize>(self) -> Self;
+}
+
+/// For every number type: operation by operation. Loops and no closures: what
+/// is not inlined into a function with wider registers is slow.
+impl<T: Scalar> Pack<T> for Quad<T> {
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self([value; 4])
+    }
+
+    #[inline(always)]
+    fn load(quad: &Quad<T>) -> Self {
+        *quad
+    }
+
+    #[inline(always)]
+    fn store(self, quad: &mut Quad<T>) {
+        *quad = self;
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = self.0[i] + other.0[i];
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = self.0[i] - other.0[i];
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = self.0[i] * other.0[i];
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = self.0[i] + a.0[i] * b.0[i];
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn minus_product(self, a: Self, b: Self) -> Self {
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = self.0[i] - a.0[i] * b.0[i];
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn broadcast<const LANE: usize>(self) -> Self {
+        Self([self.0[LANE]; 4])
+    }
+}
+
+/// Runs `kernel` with the vector instructions that the machine has for `f64`.
+#[inline(always)]
+pub(crate) fn run_f64<K: Kernel<f64>>(kernel: K) {
+    machine::run(kernel);
+}
+
+/// A computation in packs.
+pub trait Kernel<T> {
+    /// Computes.
+    fn run<P: Pack<T>>(self);
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[allow(unsafe_code)]
+mod machine {
+    use core::arch::x86_64::{
+        __m256d, _mm256_add_pd, _mm256_fmadd_pd, _mm256_fnmadd_pd, _mm256_load_pd, _mm256_mul_pd,
+        _mm256_permute4x64_pd, _mm256_set1_pd, _mm256_store_pd, _mm256_sub_pd,
+    };
+
+    use super::{Kernel, Pack, Quad};
+
+    #[inline(always)]
+    pub(super) fn run<K: Kernel<f64>>(kernel: K) {
+        if std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma") {
+            // SAFETY: the machine has the two features that the function
+            // enables.
+            unsafe { fused(kernel) }
+        } else {
+            kernel.run::<Quad<f64>>();
+        }
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    fn fused<K: Kernel<f64>>(kernel: K) {
+        kernel.run::<Register>();
+    }
+
+    /// A register of AVX2. Products are fused with the sums they go into.
+    ///
+    /// Its functions ask for AVX2 and FMA: this type does not leave the module
+    /// but as the parameter of a kernel that [`run`] has seen the features for.
+    #[derive(Clone, Copy)]
+    struct Register(__m256d);
+
+    // SAFETY, of all calls below: `Register` is named in `fused` alone, which
+    // runs on machines with AVX2 and FMA. Loads and stores go through
+    // references to 32 bytes that are aligned to 32 bytes, `Quad<f64>`.
+    impl Pack<f64> for Register {
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            // SAFETY: see above.
+            Self(unsafe { _mm256_set1_pd(value) })
+        }
+
+        #[inline(always)]
+        fn load(quad: &Quad<f64>) -> Self {
+            // SAFETY: see above.
+            Self(unsafe { _mm256_load_pd(quad.0.as_ptr()) })
+        }
+
+        #[inline(always)]
+        fn store(self, quad: &mut Quad<f64>) {
+            // SAFETY: see above.
+            unsafe { _mm256_store_pd(quad.0.as_mut_ptr(), self.0) }
+        }
+
+        #[inline(always)]
+        fn plus(self, other: Self) -> Self {
+            // SAFETY: see above.
+            Self(unsafe { _mm256_add_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn minus(self, other: Self) -> Self {
+            // SAFETY: see above.
+            Self(unsafe { _mm256_sub_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn times(self, other: Self) -> Self {
+            // SAFETY: see above.
+            Self(unsafe { _mm256_mul_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn plus_product(self, a: Self, b: Self) -> Self {
+            // SAFETY: see above.
+            Self(unsafe { _mm256_fmadd_pd(a.0, b.0, self.0) })
+        }
+
+        #[inline(always)]
+        fn minus_product(self, a: Self, b: Self) -> Self {
+            // SAFETY: see above.
+            Self(unsafe { _mm256_fnmadd_pd(a.0, b.0, self.0) })
+        }
+
+        #[inline(always)]
+        fn broadcast<const LANE: usize>(self) -> Self {
+            // SAFETY: see above.
+            Self(unsafe {
+                match LANE {
+                    0 => _mm256_permute4x64_pd::<0b00_00_00_00>(self.0),
+                    1 => _mm256_permute4x64_pd::<0b01_01_01_01>(self.0),
+                    2 => _mm256_permute4x64_pd::<0b10_10_10_10>(self.0),
+                    _ => _mm256_permute4x64_pd::<0b11_11_11_11>(self.0),
+                }
+            })
+        }
+    }
+}
+
+#[cfg(not(all(feature = "std", target_arch = "x86_64")))]
+mod machine {
+    use super::{Kernel, Quad};
+
+    #[inline(always)]
+    pub(super) fn run<K: Kernel<f64>>(kernel: K) {
+        kernel.run::<Quad<f64>>();
+    }
+}
