@@ -11,7 +11,7 @@
 //! - [`ensemble`]: many trajectories on all cores,
 //! - [`batch`]: accelerations of many states, in vector registers,
 //! - [`sectors`]: what identical subtrees do in phase and against each other,
-//! - [`taylor`]: sums that emitted Taylor recurrences are made of,
+//! - [`taylor`]: the recurrences of Taylor coefficients that emitted code uses,
 //! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
 //! - [`data`]: CSV files.
 //!
