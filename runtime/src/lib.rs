@@ -12,7 +12,7 @@
 //! - [`batch`]: accelerations of many states, in vector registers,
 //! - [`generations`]: large trees, in loops,
 //! - [`sectors`]: what identical subtrees do in phase and against each other,
-//! - [`taylor`]: sums that emitted Taylor recurrences are made of,
+//! - [`taylor`]: the recurrences of Taylor coefficients that emitted code uses,
 //! - [`transfer_forms`]: several forms of one energy transfer,
 //! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
 //!   errors of truncated transfers,
