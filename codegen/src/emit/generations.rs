@@ -209,7 +209,9 @@ impl Emission<'_> {
             false => quote!(swing),
         };
         let docs = doc_lines(&equations_docs(&name.to_string(), forces));
-        let allow = quote!(#[allow(clippy::many_single_char_names)]);
+        // Of commas: all tokens stand where the attribute does, see `emit`.
+        let allow =
+            quote!(#[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]);
         quote! {
             #docs
             #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]

@@ -38,6 +38,9 @@ tree!(Loops16383, 14);
 tree!(Loops131071, 17);
 tree!(Loops1048575, 20);
 
+/// Writes accelerations of angles and velocities.
+type Evaluate<'a> = dyn FnMut(&[f64], &[f64], &mut [f64]) + 'a;
+
 /// Least times for one link, ns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
@@ -82,7 +85,7 @@ fn row<P: Pendulum<f64>>(
     let theta = random(1, links, states, std::f64::consts::PI).by_state;
     let omega = random(2, links, states, 9.0).by_state;
     let mut alpha = vec![vec![0.0; links]; states];
-    let mut best = |evaluate: &mut dyn FnMut(&[f64], &[f64], &mut [f64])| {
+    let mut best = |evaluate: &mut Evaluate| {
         let passes = (3_000_000 / (links * states)).clamp(15, 400);
         let mut least = f64::INFINITY;
         for _ in 0..passes {
