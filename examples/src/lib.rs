@@ -1,10 +1,11 @@
 //! What the example programs do, as a library, so that tests can call it.
 //!
-//! Each program in `src/bin` is a thin shell around one module here.
+//! Each program in `src/bin` is a thin shell around one module here; but for
+//! `evaluation-speed`, whose many scenes take long to compile and whose modules are
+//! its own.
 
 pub mod branched_double;
 pub mod energy_cascade;
-pub mod evaluation_speed;
 pub mod exit;
 pub mod integration_speed;
 pub mod quadrature;

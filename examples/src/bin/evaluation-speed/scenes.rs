@@ -7,9 +7,6 @@
 // One attribute a tree; their docs are in the attribute's output.
 #![allow(missing_docs)]
 
-pub use factorization::Paper;
-pub use recursion::{Tree7, Tree15, Tree31, Tree127};
-
 /// By elimination along the tree.
 pub mod factorization {
     use branched_pendulum::prelude::*;

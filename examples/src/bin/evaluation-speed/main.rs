@@ -2,10 +2,23 @@
 //!
 //! `evaluation-speed --help` says what is measured.
 
+pub mod accuracy;
+pub mod articulated;
+pub mod by_hand;
+pub mod dense;
+pub mod large;
+pub mod measure;
+pub mod output;
+mod random;
+pub mod scenes;
+pub mod states;
+pub mod table;
+#[cfg(test)]
+mod tests;
+
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use branched_pendulum_examples::evaluation_speed::{accuracy, large, measure, output};
 use branched_pendulum_examples::exit;
 
 const HELP: &str = "\
