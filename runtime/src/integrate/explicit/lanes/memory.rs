@@ -3,7 +3,6 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::integrate::explicit::arithmetic::Row;
 use crate::integrate::explicit::dop853::tables::STAGES;
 use crate::integrate::options::Options;
 use crate::scalar::register::Register;
@@ -91,19 +90,20 @@ impl<R: Register> Memory<R> {
     }
 
     /// Makes the end of the step the start of the next one, in the lanes of
-    /// `accepted`. The rates there become its first stage.
+    /// `accepted`. The rates there become its first stage. `n` components.
     #[inline(always)]
-    pub(super) fn advance(&mut self, accepted: R::Mask, compensated: bool) {
-        let n = self.start.len();
+    pub(super) fn advance(&mut self, n: usize, accepted: R::Mask, compensated: bool) {
         let (first, rest) = self.rates.split_at_mut(n);
         let last = &rest[(STAGES - 1) * n..][..n];
+        let (start, end) = (&mut self.start[..n], &self.end[..n]);
         for i in 0..n {
-            self.start[i] = self.end[i].choose(self.start[i], accepted);
+            start[i] = end[i].choose(start[i], accepted);
             first[i] = last[i].choose(first[i], accepted);
         }
         if compensated {
+            let (residue, rest) = (&mut self.start_residue[..n], &self.end_residue[..n]);
             for i in 0..n {
-                self.start_residue[i] = self.end_residue[i].choose(self.start_residue[i], accepted);
+                residue[i] = rest[i].choose(residue[i], accepted);
             }
         }
     }
@@ -148,24 +148,20 @@ fn smallest_divisor<T: Real>() -> T {
     smallest
 }
 
-/// Calls `assign(i, sum of row)` for every component i, the sum running over
-/// the stages of `row`, with products and sums in one operation.
-// One index into all slices at once.
-#[allow(clippy::needless_range_loop)]
+/// Component i of the sum of a row over the stages, for states of `n`
+/// components, with products and sums in one operation.
+///
+/// No closure takes part: those are functions of their own, which the compiler
+/// may leave without the instructions of the registers.
 #[inline(always)]
-pub(super) fn for_each_sum<R: Scalar, const N: usize>(
-    row: &Row<N>,
-    rates: &[R],
-    n: usize,
-    mut assign: impl FnMut(usize, R),
-) {
-    // Slices of one known length: no bounds check is left inside the loop.
-    let stages: [&[R]; N] = row.map(|(stage, _)| &rates[(stage - 1) * n..][..n]);
-    for i in 0..n {
-        let mut sum = R::from_f64(row[0].1) * stages[0][i];
-        for j in 1..N {
-            sum = R::from_f64(row[j].1).mul_add(stages[j][i], sum);
-        }
-        assign(i, sum);
+pub(super) fn sum<R: Scalar>(row: &[(usize, f64)], rates: &[R], n: usize, i: usize) -> R {
+    let mut terms = row.iter();
+    let Some(&(stage, factor)) = terms.next() else {
+        return R::from_f64(0.0);
+    };
+    let mut sum = R::from_f64(factor) * rates[(stage - 1) * n + i];
+    for &(stage, factor) in terms {
+        sum = R::from_f64(factor).mul_add(rates[(stage - 1) * n + i], sum);
     }
+    sum
 }

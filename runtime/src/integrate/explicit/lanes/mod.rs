@@ -100,7 +100,7 @@ where
                 continue;
             };
             let end = memory.step(&model, span, options.compensated);
-            let errors = numbers(memory.error(size));
+            let errors = numbers(memory.error(n, size));
             let finite = Finite {
                 stages: numbers(memory.checks[STAGES - 1]),
                 end: numbers(end),
@@ -123,7 +123,7 @@ where
                     }
                 }
             }
-            memory.advance(R::mask(|lane| accepted[lane]), options.compensated);
+            memory.advance(n, R::mask(|lane| accepted[lane]), options.compensated);
             if ended {
                 self.finish(&request, &mut memory, &mut slots);
             }

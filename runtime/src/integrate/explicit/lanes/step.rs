@@ -1,6 +1,6 @@
 //! One step of Dormand and Prince's method of order 8(5,3) in every lane.
 
-use super::memory::{Memory, for_each_sum};
+use super::memory::{Memory, sum};
 use crate::integrate::explicit::arithmetic::{Row, Span};
 use crate::integrate::explicit::dop853::B_MINUS_THIRD;
 use crate::integrate::explicit::dop853::tables::{
@@ -52,7 +52,7 @@ impl<R: Register> Memory<R> {
     /// counted from 1.
     #[inline(always)]
     pub(super) fn evaluate<P: Rescale<R>>(&mut self, model: &Rates<P>, time: R, stage: usize) {
-        let n = self.stage.len();
+        let n = 2 * P::LINKS;
         let rates = &mut self.rates[(stage - 1) * n..][..n];
         R::outlined::<0, _, _>(model, (time, self.stage.as_slice(), &mut *rates));
         let zero = R::from_f64(0.0);
@@ -76,11 +76,12 @@ impl<R: Register> Memory<R> {
         stage: usize,
         row: &Row<N>,
     ) {
-        let n = self.start.len();
+        let n = 2 * P::LINKS;
         let (start, values) = (&self.start[..n], &mut self.stage[..n]);
-        for_each_sum(row, &self.rates, n, |i, sum| {
-            values[i] = span.step.mul_add(sum, start[i]);
-        });
+        let rates = &self.rates[..(STAGES + 1) * n];
+        for i in 0..n {
+            values[i] = span.step.mul_add(sum(row, rates, n, i), start[i]);
+        }
         self.evaluate(model, node(span, C[stage - 1]), stage);
     }
 
@@ -104,20 +105,22 @@ impl<R: Register> Memory<R> {
         self.stage(model, span, 10, &A10);
         self.stage(model, span, 11, &A11);
         self.stage(model, span, 12, &A12);
-        let n = self.start.len();
+        let n = 2 * P::LINKS;
         let (start, end) = (&self.start[..n], &mut self.end[..n]);
+        let rates = &self.rates[..(STAGES + 1) * n];
         if compensated {
             let (residue, rest) = (&self.start_residue[..n], &mut self.end_residue[..n]);
-            for_each_sum(&B, &self.rates, n, |i, sum| {
-                (end[i], rest[i]) = two_sum(start[i], span.step.mul_add(sum, residue[i]));
-            });
+            for i in 0..n {
+                let change = span.step.mul_add(sum(&B, rates, n, i), residue[i]);
+                (end[i], rest[i]) = two_sum(start[i], change);
+            }
         } else {
-            for_each_sum(&B, &self.rates, n, |i, sum| {
-                end[i] = span.step.mul_add(sum, start[i]);
-            });
+            for i in 0..n {
+                end[i] = span.step.mul_add(sum(&B, rates, n, i), start[i]);
+            }
         }
         let mut check = R::from_f64(0.0);
-        for (value, stage) in self.end.iter().zip(&mut self.stage) {
+        for (value, stage) in end.iter().zip(&mut self.stage) {
             check = value.mul_add(R::from_f64(0.0), check);
             *stage = *value;
         }
@@ -125,27 +128,23 @@ impl<R: Register> Memory<R> {
         check
     }
 
-    /// Scaled error of the step: one is the largest allowed. As in the plain
-    /// method (Solving ODEs I, section II.10, eq. (10.17)), `size` being the
-    /// lengths of the steps.
+    /// Scaled error of the step of `n` components: one is the largest allowed.
+    /// As in the plain method (Solving ODEs I, section II.10, eq. (10.17)),
+    /// `size` being the lengths of the steps.
     #[inline(always)]
-    pub(super) fn error(&self, size: R) -> R {
-        let n = self.start.len();
-        let (start, end, rates) = (&self.start[..n], &self.end[..n], &self.rates);
-        let one = R::from_f64(1.0);
+    pub(super) fn error(&self, n: usize, size: R) -> R {
+        let (start, end) = (&self.start[..n], &self.end[..n]);
+        let (relative, absolute) = (&self.relative[..n], &self.absolute[..n]);
+        let rates = &self.rates[..(STAGES + 1) * n];
         let (mut fifth, mut third) = (R::from_f64(0.0), R::from_f64(0.0));
-        let inverse = |i: usize| {
+        for i in 0..n {
             let largest = start[i].larger_size(end[i]);
-            one / self.relative[i].mul_add(largest, self.absolute[i])
-        };
-        for_each_sum(&E_FIFTH, rates, n, |i, sum| {
-            let ratio = sum * inverse(i);
+            let inverse = R::from_f64(1.0) / relative[i].mul_add(largest, absolute[i]);
+            let ratio = sum(&E_FIFTH, rates, n, i) * inverse;
             fifth = ratio.mul_add(ratio, fifth);
-        });
-        for_each_sum(&B_MINUS_THIRD, rates, n, |i, sum| {
-            let ratio = sum * inverse(i);
+            let ratio = sum(&B_MINUS_THIRD, rates, n, i) * inverse;
             third = ratio.mul_add(ratio, third);
-        });
+        }
         let mixed = R::from_f64(0.01).mul_add(third, fifth);
         // No error at all: zero over any number.
         let mixed = mixed.larger_size(self.smallest);

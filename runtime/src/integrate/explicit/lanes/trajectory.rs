@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::memory::{Memory, Numbers, numbers, numbers_in};
+use super::memory::{Memory, Numbers, numbers, numbers_in, sum};
 use super::step::{node, row};
 use crate::integrate::control::{FirstStep, StepControl};
 use crate::integrate::error::IntegrationError;
@@ -269,16 +269,8 @@ fn failed_stage<R: Register>(
     };
     let values: Vec<R> = (0..n)
         .map(|i| {
-            let mut sum = R::from_f64(0.0);
-            for (place, &(stage, factor)) in row(stage).iter().enumerate() {
-                let (factor, rate) = (R::from_f64(factor), memory.rates[(stage - 1) * n + i]);
-                sum = if place == 0 {
-                    factor * rate
-                } else {
-                    factor.mul_add(rate, sum)
-                };
-            }
-            span.step.mul_add(sum, memory.start[i])
+            span.step
+                .mul_add(sum(row(stage), &memory.rates, n, i), memory.start[i])
         })
         .collect();
     let time = numbers(node(span, C[stage - 1]))[lane];
