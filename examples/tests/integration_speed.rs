@@ -28,8 +28,8 @@ fn errors_fall_to_rounding() {
     }
 }
 
-/// In lanes, an emitted model goes where it goes alone. A deviation grows up to
-/// 3e7 times in 10 s there, and some thousand times in 5 s.
+/// In lanes, an emitted model goes where it goes alone. Only 5 s: a deviation
+/// grows up to 3e7 times in 10 s there.
 #[test]
 fn lanes_agree_with_the_plain_method_near_the_threshold() {
     let (model, starts) = (Ideal::new(), near_threshold(101));

@@ -178,7 +178,7 @@ impl<'a> Ensemble<'a> {
     /// are fused here where the machine can; both keep the tolerance. A lane whose
     /// trajectory has ended takes the next start.
     ///
-    /// For one end time, without values in between. Memory: 18 registers for each
+    /// For one end time, without values in between. Memory: 20 registers for each
     /// component of a state on each thread; steps allocate nothing.
     ///
     /// # Examples
