@@ -7,7 +7,8 @@ import time
 import heyoka as hy
 import numpy as np
 
-from heyoka_batch import accelerations, paper, tree
+from heyoka_batch import Symbolic
+from scenes import eliminated, paper, tree
 
 END = 10.0
 ERRORS = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14]
@@ -25,7 +26,7 @@ def integrator(system, start, tolerance):
 
 
 def measure(name, links, start, expected):
-    variables, outputs = accelerations(links)
+    variables, outputs = eliminated(links, Symbolic)
     n = len(links)
     rates = variables[n:] + outputs
     system = list(zip(variables, rates))

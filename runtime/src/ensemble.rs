@@ -13,9 +13,10 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use crate::integrate::{DenseStep, IntegrationError, Integrator, Solution};
-use crate::scalar::Real;
-use crate::system::{Ode, State};
+use crate::integrate::explicit::lanes::{self, Task};
+use crate::integrate::{DenseStep, Dop853, IntegrationError, Integrator, Solution};
+use crate::scalar::{InstructionSet, Lane, Real};
+use crate::system::{Ode, Rescale, State};
 
 /// How an ensemble is computed.
 ///
@@ -101,27 +102,36 @@ impl<'a> Ensemble<'a> {
         items: &[I],
         work: impl Fn(usize, &I) -> R + Sync,
     ) -> Vec<R> {
-        let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        // The counters carry no data: relaxed order suffices.
-        let worker = || {
+        self.on_threads(items.len(), |queue| {
             let mut results = Vec::new();
-            loop {
-                let index = next.fetch_add(1, Ordering::Relaxed);
-                let Some(item) = items.get(index) else {
-                    return results;
-                };
-                results.push((index, work(index, item)));
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                if let Some(progress) = self.progress {
-                    progress(done);
+            while let Some(index) = queue.next() {
+                if let Some(item) = items.get(index) {
+                    results.push((index, work(index, item)));
+                    queue.done();
                 }
             }
+            results
+        })
+    }
+
+    /// Runs `worker` on every thread, for results in the order of their indices.
+    fn on_threads<R: Send>(
+        &self,
+        items: usize,
+        worker: impl Fn(&Queue<'_>) -> Vec<(usize, R)> + Sync,
+    ) -> Vec<R> {
+        let queue = Queue {
+            items,
+            next: AtomicUsize::new(0),
+            done: AtomicUsize::new(0),
+            progress: self.progress,
         };
+        let worker = || worker(&queue);
         let threads = self
             .threads
             .or_else(|| thread::available_parallelism().ok())
             .map_or(1, NonZeroUsize::get)
-            .min(items.len());
+            .min(items);
         let mut results: Vec<(usize, R)> = thread::scope(|scope| {
             // This thread works too.
             let others: Vec<_> = (1..threads).map(|_| scope.spawn(worker)).collect();
@@ -153,5 +163,125 @@ impl<'a> Ensemble<'a> {
     {
         let run_on = |_: &mut DenseStep<'_, T>| std::ops::ControlFlow::Continue(());
         self.map(starts, |_, start| method.integrate(ode, start, end, run_on))
+    }
+
+    /// Integrates a pendulum from every start to the time `end`, as many starts
+    /// at a time on each thread as the widest vector registers of the machine
+    /// have lanes: eight in `f64` with AVX-512.
+    ///
+    /// States are absolute angles (rad), then angular velocities (rad/s), as for
+    /// [`AbsoluteAngles`](crate::system::AbsoluteAngles). Each trajectory has its own steps, chosen by the rules
+    /// of `method` from its own errors, and its own errors and account, as
+    /// [`integrate`](Self::integrate) gives them. Its bits depend on its start
+    /// alone: not on its place, the other starts or the number of threads. They
+    /// are not those of [`integrate`](Self::integrate), because products and sums
+    /// are fused here where the machine can; both keep the tolerance. A lane whose
+    /// trajectory has ended takes the next start.
+    ///
+    /// For one end time, without values in between. Memory: 20 registers for each
+    /// component of a state on each thread; steps allocate nothing.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use branched_pendulum::ensemble::Ensemble;
+    /// use branched_pendulum::prelude::*;
+    ///
+    /// /// A uniform rod, as the attribute writes trees; holds 3 g / (2 length).
+    /// struct Rod<T>(T);
+    ///
+    /// impl<T: Scalar> Pendulum<T> for Rod<T> {
+    ///     const LINKS: usize = 1;
+    ///     const LINK_NAMES: &'static [&'static str] = &["rod"];
+    ///
+    ///     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+    ///         T::accelerate(self, time, theta, omega, alpha);
+    ///     }
+    /// }
+    ///
+    /// impl<T: Scalar> Rescale<T> for Rod<T> {
+    ///     type Of<S: Scalar> = Rod<S>;
+    ///
+    ///     fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
+    ///         Rod(convert(self.0))
+    ///     }
+    ///
+    ///     #[inline(always)]
+    ///     fn evaluate(
+    ///         &self,
+    ///         _time: T,
+    ///         theta: impl Fn(usize) -> T,
+    ///         _omega: impl Fn(usize) -> T,
+    ///         mut alpha: impl FnMut(usize, T),
+    ///     ) {
+    ///         alpha(0, -(self.0 * theta(0).sin_cos().0));
+    ///     }
+    /// }
+    ///
+    /// let rod = Rod(1.5 * 9.80665);
+    /// let starts: Vec<State<f64>> = (1..100)
+    ///     .map(|i| State::at_rest(0.0, &[0.03 * f64::from(i)]))
+    ///     .collect();
+    /// let method = Dop853::new(Options::with_tolerance(1e-10));
+    /// let lanes = Ensemble::new().integrate_in_lanes(&method, &rod, &starts, 10.0);
+    /// let plain = Ensemble::new().integrate(&method, &AbsoluteAngles(&rod), &starts, 10.0);
+    /// for (lane, plain) in lanes.into_iter().zip(plain) {
+    ///     let (lane, plain) = (lane?.state.values[0], plain?.state.values[0]);
+    ///     assert!((lane - plain).abs() < 1e-7);
+    /// }
+    /// # Ok::<(), IntegrationError<f64>>(())
+    /// ```
+    pub fn integrate_in_lanes<T, P>(
+        &self,
+        method: &Dop853<T>,
+        pendulum: &P,
+        starts: &[State<T>],
+        end: T,
+    ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+    {
+        let task = Task {
+            instructions: InstructionSet::widest(),
+            pendulum,
+            options: method.options(),
+            starts,
+            end,
+        };
+        self.on_threads(starts.len(), |queue| {
+            let mut results = Vec::new();
+            let done = |index, end| {
+                results.push((index, end));
+                queue.done();
+            };
+            lanes::integrate(&task, || queue.next(), done);
+            results
+        })
+    }
+}
+
+/// The items that no thread has taken yet, and the number of those done.
+struct Queue<'a> {
+    items: usize,
+    next: AtomicUsize,
+    done: AtomicUsize,
+    progress: Option<&'a (dyn Fn(usize) + Sync)>,
+}
+
+// The counters carry no data: relaxed order suffices.
+impl Queue<'_> {
+    /// The index of an item that is this thread's from now on.
+    fn next(&self) -> Option<usize> {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        (index < self.items).then_some(index)
+    }
+
+    /// Counts an item that is done.
+    fn done(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        if let Some(progress) = self.progress {
+            progress(done);
+        }
     }
 }

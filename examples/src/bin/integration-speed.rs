@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum_examples::exit;
+use branched_pendulum_examples::integration_speed::ensemble::{near_threshold, speeds};
 use branched_pendulum_examples::integration_speed::measure::{ERRORS, points, time_for};
 use branched_pendulum_examples::solvers::scenes::{Ideal, Rods};
 use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};
@@ -17,7 +18,10 @@ generated Taylor series and by two Runge-Kutta methods? Microseconds, the least
 of all tolerances that reach the error. benches/peers measures the same motions
 with heyoka.
 
-Usage: integration-speed
+With `ensemble`: how many trajectories of the paper's pendulum a second, released
+at angles near its threshold, one by one and in the lanes of vector registers?
+
+Usage: integration-speed [ensemble]
 
   --help  this text
 ";
@@ -32,19 +36,41 @@ fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words.as_slice() {
-        [] => match run() {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => {
-                eprintln!("integration-speed: {error}");
-                ExitCode::FAILURE
-            }
-        },
+        [] => report(run()),
+        ["ensemble"] => report(ensemble()),
         ["--help" | "-h"] => {
             print!("{HELP}");
             ExitCode::SUCCESS
         }
-        _ => exit::wrong_command_line("integration-speed", &"takes no argument but --help"),
+        _ => exit::wrong_command_line(
+            "integration-speed",
+            &"takes no argument but `ensemble` or --help",
+        ),
     }
+}
+
+fn report(end: Result<(), Box<dyn Error>>) -> ExitCode {
+    match end {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("integration-speed: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn ensemble() -> Result<(), Box<dyn Error>> {
+    let tolerance = 1e-9;
+    let starts = near_threshold(10_000);
+    println!(
+        "{} starts, {END} s, tolerance {tolerance:e}, on one thread",
+        starts.len()
+    );
+    let speeds = speeds(&starts, END, tolerance, 5)?;
+    println!("one by one  {:>8.0} trajectories/s", speeds.plain);
+    println!("in lanes    {:>8.0} trajectories/s", speeds.lanes);
+    println!("            {:>8.2} times", speeds.lanes / speeds.plain);
+    Ok(())
 }
 
 fn run() -> Result<(), Box<dyn Error>> {

@@ -2,4 +2,5 @@
 //!
 //! `benches/peers/heyoka_trajectory.py` measures the same problems.
 
+pub mod ensemble;
 pub mod measure;

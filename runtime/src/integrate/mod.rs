@@ -24,7 +24,7 @@ mod control;
 mod dense;
 mod error;
 mod events;
-mod explicit;
+pub(crate) mod explicit;
 mod fixed;
 mod integrator;
 mod options;

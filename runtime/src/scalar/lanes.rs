@@ -2,11 +2,11 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Scalar;
 use super::register::Register;
+use super::{Real, Scalar};
 
 /// A number that has lanes: `f64` or `f32`.
-pub trait Lane: Scalar + Sealed {
+pub trait Lane: Real + Sealed {
     /// As [`Scalar::sin_cos_each`], for code that is compiled for wide
     /// registers already.
     #[doc(hidden)]

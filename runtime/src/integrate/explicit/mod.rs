@@ -4,6 +4,8 @@ mod arithmetic;
 mod dop853;
 mod dopri5;
 mod driver;
+#[cfg(feature = "std")]
+pub(crate) mod lanes;
 mod memory;
 #[cfg(test)]
 mod order_conditions;

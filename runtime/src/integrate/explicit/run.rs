@@ -47,32 +47,9 @@ impl<'a, T: Real, O: ?Sized> Run<'a, T, O> {
         step: T,
         last: bool,
     ) -> Result<(), IntegrationError<T>> {
-        let limit = options.step_limit;
-        if self.report.accepted + self.report.rejected >= limit {
-            return Err(IntegrationError::StepLimit {
-                limit,
-                last: self.state(),
-                report: Report {
-                    stop: StopReason::StepLimit,
-                    ..self.report
-                },
-            });
-        }
-        // Below this, time plus step is mostly rounding.
-        let lost = T::from_f64(10.0) * T::EPSILON * self.time.abs();
-        // The end may be as near as it likes.
-        if !last && (step < options.min_step || step <= lost) {
-            return Err(IntegrationError::StepTooSmall {
-                step,
-                shortest: options.min_step.max(lost),
-                last: self.state(),
-                report: Report {
-                    stop: StopReason::StepTooSmall,
-                    ..self.report
-                },
-            });
-        }
-        Ok(())
+        check_step(options, &self.report, (self.time, step, last), || {
+            self.state()
+        })
     }
 
     /// The last accepted state.
@@ -109,4 +86,40 @@ impl<'a, T: Real, O: ?Sized> Run<'a, T, O> {
             },
         }
     }
+}
+
+/// Whether a run with this account may try a step from `time` of length `step`;
+/// `last` if it reaches the end. `state` is the last accepted one.
+pub(super) fn check_step<T: Real>(
+    options: &Options<T>,
+    report: &Report<T>,
+    (time, step, last): (T, T, bool),
+    state: impl FnOnce() -> State<T>,
+) -> Result<(), IntegrationError<T>> {
+    let limit = options.step_limit;
+    if report.accepted + report.rejected >= limit {
+        return Err(IntegrationError::StepLimit {
+            limit,
+            last: state(),
+            report: Report {
+                stop: StopReason::StepLimit,
+                ..*report
+            },
+        });
+    }
+    // Below this, time plus step is mostly rounding.
+    let lost = T::from_f64(10.0) * T::EPSILON * time.abs();
+    // The end may be as near as it likes.
+    if !last && (step < options.min_step || step <= lost) {
+        return Err(IntegrationError::StepTooSmall {
+            step,
+            shortest: options.min_step.max(lost),
+            last: state(),
+            report: Report {
+                stop: StopReason::StepTooSmall,
+                ..*report
+            },
+        });
+    }
+    Ok(())
 }

@@ -35,6 +35,18 @@ pub trait Register: Scalar {
     /// This register, and narrower ones for fewer numbers.
     type Vectors: Vectors<Self::Lane>;
 
+    /// Says of each lane whether it is meant.
+    type Mask: Copy;
+
+    /// The mask of the lanes of which `meant` is true.
+    fn mask(meant: impl Fn(usize) -> bool) -> Self::Mask;
+
+    /// This register's numbers in the lanes of `mask`, those of `other` elsewhere.
+    fn choose(self, other: Self, mask: Self::Mask) -> Self;
+
+    /// The larger size, lane by lane; any of the two where one is no number.
+    fn larger_size(self, other: Self) -> Self;
+
     /// The same number in every lane.
     fn splat(value: Self::Lane) -> Self;
 
@@ -55,8 +67,34 @@ pub trait Register: Scalar {
 impl<T: Lane, const N: usize> Register for Lanes<T, N> {
     type Lane = T;
     type Vectors = With<Self>;
+    type Mask = [bool; N];
 
     const LANES: usize = N;
+
+    #[inline(always)]
+    fn mask(meant: impl Fn(usize) -> bool) -> [bool; N] {
+        core::array::from_fn(meant)
+    }
+
+    #[inline(always)]
+    fn choose(self, other: Self, mask: [bool; N]) -> Self {
+        let mut result = other;
+        for (lane, meant) in mask.into_iter().enumerate() {
+            if meant {
+                result.0[lane] = self.0[lane];
+            }
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn larger_size(self, other: Self) -> Self {
+        let mut result = self;
+        for (size, other) in result.0.iter_mut().zip(other.0) {
+            *size = size.abs().max(other.abs());
+        }
+        result
+    }
 
     #[inline(always)]
     fn splat(value: T) -> Self {

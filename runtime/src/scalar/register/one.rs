@@ -75,8 +75,24 @@ macro_rules! fused {
         impl Register for Fused<$float> {
             type Lane = $float;
             type Vectors = Single;
+            type Mask = bool;
 
             const LANES: usize = 1;
+
+            #[inline(always)]
+            fn mask(meant: impl Fn(usize) -> bool) -> bool {
+                meant(0)
+            }
+
+            #[inline(always)]
+            fn choose(self, other: Self, mask: bool) -> Self {
+                if mask { self } else { other }
+            }
+
+            #[inline(always)]
+            fn larger_size(self, other: Self) -> Self {
+                fused::Pack::larger(self, other)
+            }
 
             #[inline(always)]
             fn splat(value: $float) -> Self {

@@ -22,7 +22,8 @@ macro_rules! register {
     (
         $(#[$docs:meta])*
         $name:ident: $vector:ident = $lanes:literal of $lane:ident,
-        $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident
+        $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident,
+        $max:ident, $and:ident, $andnot:ident, $or:ident
     ) => {
         $(#[$docs])*
         #[derive(Clone, Copy, Debug)]
@@ -67,8 +68,30 @@ macro_rules! register {
         impl Register for $name {
             type Lane = $lane;
             type Vectors = With<Self>;
+            /// All bits set, or none.
+            type Mask = Self;
 
             const LANES: usize = $lanes;
+
+            #[inline(always)]
+            fn mask(meant: impl Fn(usize) -> bool) -> Self {
+                Self::from_array(core::array::from_fn(|lane| {
+                    $lane::from_bits(if meant(lane) { !0 } else { 0 })
+                }))
+            }
+
+            #[inline(always)]
+            fn choose(self, other: Self, mask: Self) -> Self {
+                // SAFETY: see the top.
+                Self(unsafe { $or($and(mask.0, self.0), $andnot(mask.0, other.0)) })
+            }
+
+            #[inline(always)]
+            fn larger_size(self, other: Self) -> Self {
+                let sign = Self::splat(-0.0).0;
+                // SAFETY: see the top.
+                Self(unsafe { $max($andnot(sign, self.0), $andnot(sign, other.0)) })
+            }
 
             #[inline(always)]
             fn splat(value: $lane) -> Self {
@@ -117,37 +140,43 @@ macro_rules! register {
 register! {
     /// A register of SSE2.
     F64x2: __m128d = 2 of f64,
-    _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd
+    _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd,
+    _mm_max_pd, _mm_and_pd, _mm_andnot_pd, _mm_or_pd
 }
 
 register! {
     /// A register of SSE2.
     F32x4: __m128 = 4 of f32,
-    _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps
+    _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps,
+    _mm_max_ps, _mm_and_ps, _mm_andnot_ps, _mm_or_ps
 }
 
 register! {
     /// A register of AVX2.
     F64x4: __m256d = 4 of f64,
-    _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd
+    _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
+    _mm256_max_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd
 }
 
 register! {
     /// A register of AVX2.
     F32x8: __m256 = 8 of f32,
-    _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps
+    _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps,
+    _mm256_max_ps, _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps
 }
 
 register! {
     /// A register of AVX-512.
     F64x8: __m512d = 8 of f64,
-    _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_sqrt_pd
+    _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_sqrt_pd,
+    _mm512_max_pd, _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd
 }
 
 register! {
     /// A register of AVX-512.
     F32x16: __m512 = 16 of f32,
-    _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps
+    _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps,
+    _mm512_max_ps, _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps
 }
 
 /// Those that fuse.
