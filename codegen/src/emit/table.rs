@@ -58,11 +58,11 @@ impl Emission<'_> {
             let parent = link.parent.map_or(0, |parent| parent.0);
             Literal::usize_unsuffixed(parent)
         });
-        let motion = self.constant_rows("motion", &table.motion);
+        let [motion, motion_value] = self.constant_rows("motion", &table.motion);
         let energies = self.scene.requests.energies;
-        let (energy, energy_value) = match energies {
-            true => (self.constant_rows("energy", &table.energy), quote!(energy)),
-            false => (TokenStream::new(), quote!(#runtime::generations::rows(&[]))),
+        let [energy, energy_value] = match energies {
+            true => self.constant_rows("energy", &table.energy),
+            false => [TokenStream::new(), quote!(#runtime::generations::rows(&[]))],
         };
         let root = self.scalar(&table.root);
         quote! {
@@ -72,7 +72,7 @@ impl Emission<'_> {
             Self {
                 links: #runtime::generations::Table::new(
                     &PARENTS,
-                    motion,
+                    #motion_value,
                     [T::from_f64(0.0), #root],
                     #energy_value,
                 ),
@@ -80,9 +80,9 @@ impl Emission<'_> {
         }
     }
 
-    /// A table of constants, and a vector of that name in the model's scalar, in
+    /// A table of constants, and the vector of these in the model's scalar, in
     /// which values of parameters are put in place.
-    fn constant_rows<R: AsRef<[Quantity]>>(&self, name: &str, rows: &[R]) -> TokenStream {
+    fn constant_rows<R: AsRef<[Quantity]>>(&self, name: &str, rows: &[R]) -> [TokenStream; 2] {
         let runtime = self.runtime();
         let constants = Ident::new(&name.to_uppercase(), Span::call_site());
         let name = Ident::new(name, Span::call_site());
@@ -105,12 +105,19 @@ impl Emission<'_> {
             quote!([#(#numbers),*])
         });
         let lines = quote!(#(#lines),*);
-        let mutable = (!placed.is_empty()).then(|| quote!(mut));
-        quote! {
+        let table = quote! {
             static #constants: [[[f64; 2]; #width]; #count] = [#lines];
-            let #mutable #name = #runtime::generations::rows(&#constants);
-            #(#placed)*
-        }
+        };
+        let value = quote!(#runtime::generations::rows(&#constants));
+        let value = match placed.is_empty() {
+            true => value,
+            false => quote! {{
+                let mut #name = #value;
+                #(#placed)*
+                #name
+            }},
+        };
+        [table, value]
     }
 
     fn table_functions(&self) -> TokenStream {

@@ -48,7 +48,8 @@ pub(super) fn wanted(
     let obstacle = unlooped(templates, asked)
         .or_else(|| at_parents_pivot(templates))
         .or_else(|| several_pivots(templates));
-    if let (Some(what), Some(span)) = (obstacle, span) {
+    // What is unreadable may look like an obstacle.
+    if let (Some(what), Some(span), true) = (obstacle, span, report.is_empty()) {
         let what = what.to_owned();
         report.error(span, Message::NoLoops { what });
     }
