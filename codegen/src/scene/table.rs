@@ -12,8 +12,8 @@ use super::{Link, Quantity, Scene};
 use crate::exact::ExactError;
 use crate::report::{Message, Report};
 
-/// Trees of more links than this get a loop: straight code for more no longer
-/// fits the instruction cache, and takes long to compile (`docs/performance.md`).
+/// Trees of more links than this get a loop: straight code for more is no faster,
+/// and takes long to derive and compile (`docs/performance.md`).
 const MOST_UNROLLED: usize = 100;
 
 /// The constants of each link of a scene whose code is a loop over them, exact

@@ -26,7 +26,8 @@ const HANGING: usize = 3;
 ///
 /// # Cost
 /// O(links). Sines and cosines are computed several at a time, the recursion link
-/// by link.
+/// by link, in the order of their depth: links of one depth do not wait for each
+/// other.
 ///
 /// # Source
 /// R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
@@ -34,6 +35,8 @@ const HANGING: usize = 3;
 pub struct Table<P, T, const C: usize, const R: usize, const K: usize> {
     /// Parents stand before their children, depth first; the root's own is 0.
     parents: &'static [u32],
+    /// The links by depth: neighbours do not wait for each other.
+    order: Vec<u32>,
     /// What the equations of a link read.
     constants: Vec<[T; C]>,
     /// The factors of what it answers, and of what it takes from its parent:
@@ -43,6 +46,18 @@ pub struct Table<P, T, const C: usize, const R: usize, const K: usize> {
     energies: Vec<[T; 7]>,
     pool: Pool<T>,
     recursion: PhantomData<P>,
+}
+
+/// The links by their depth, those of one depth in their order.
+fn by_depth(parents: &[u32]) -> Vec<u32> {
+    let mut depths: Vec<usize> = Vec::with_capacity(parents.len());
+    for &parent in parents {
+        // The root comes first, and has none above.
+        depths.push(depths.get(parent as usize).map_or(0, |depth| depth + 1));
+    }
+    let mut order: Vec<u32> = (0..).take(parents.len()).collect();
+    order.sort_by_key(|&link| depths.get(link as usize).copied());
+    order
 }
 
 /// Rows of a table in a model's scalar. Each number is given as the `f64` nearest
@@ -84,6 +99,7 @@ where
         }
         Self {
             parents,
+            order: by_depth(parents),
             constants,
             hanging,
             root,
@@ -272,8 +288,12 @@ fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
     V: Vector<T>,
 {
     below.fill(T::from_f64(0.0));
-    let rows = table.constants.iter().zip(&table.hanging);
-    for (link, (constants, hanging)) in rows.enumerate().rev() {
+    for &link in table.order.iter().rev() {
+        let link = link as usize;
+        let (Some(constants), Some(hanging)) = (table.constants.get(link), table.hanging.get(link))
+        else {
+            return;
+        };
         let constants = splat::<T, V, C>(constants);
         let [square, ratio, _] = splat::<T, V, HANGING>(hanging);
         let motion = state.motion::<V>(link, P::JOINTS);
@@ -318,8 +338,12 @@ fn down<P, T, V, const C: usize, const R: usize, const K: usize>(
     T: Scalar,
     V: Vector<T>,
 {
-    let rows = table.constants.iter().zip(&table.hanging);
-    for (link, (constants, hanging)) in rows.enumerate() {
+    for &link in &table.order {
+        let link = link as usize;
+        let (Some(constants), Some(hanging)) = (table.constants.get(link), table.hanging.get(link))
+        else {
+            return;
+        };
         let constants = splat::<T, V, C>(constants);
         let motion = state.motion::<V>(link, P::JOINTS);
         let pivot = if link == 0 {
@@ -346,6 +370,7 @@ impl<P, T: Clone, const C: usize, const R: usize, const K: usize> Clone for Tabl
     fn clone(&self) -> Self {
         let Self {
             parents,
+            order,
             constants,
             hanging,
             root,
@@ -355,6 +380,7 @@ impl<P, T: Clone, const C: usize, const R: usize, const K: usize> Clone for Tabl
         } = self;
         Self {
             parents,
+            order: order.clone(),
             constants: constants.clone(),
             hanging: hanging.clone(),
             root: root.clone(),
@@ -371,6 +397,7 @@ impl<P, T: PartialEq, const C: usize, const R: usize, const K: usize> PartialEq
     fn eq(&self, other: &Self) -> bool {
         let Self {
             parents,
+            order: _,
             constants,
             hanging,
             root,
@@ -392,6 +419,7 @@ impl<P, T: fmt::Debug, const C: usize, const R: usize, const K: usize> fmt::Debu
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             parents,
+            order: _,
             constants,
             hanging,
             root,
