@@ -225,8 +225,8 @@ impl<T: Scalar> State<'_, T> {
 fn load<T: Scalar, V: Vector<T>, const N: usize>(all: &[T], link: usize) -> [V; N] {
     let own = all.get(link * N..link * N + N).unwrap_or_default();
     let mut values = [V::from_f64(0.0); N];
-    for i in 0..N {
-        values[i] = V::load(own, i);
+    for (i, value) in values.iter_mut().enumerate() {
+        *value = V::load(own, i);
     }
     values
 }
@@ -235,8 +235,8 @@ fn load<T: Scalar, V: Vector<T>, const N: usize>(all: &[T], link: usize) -> [V; 
 #[inline(always)]
 fn store<T: Scalar, V: Vector<T>, const N: usize>(values: [V; N], all: &mut [T], link: usize) {
     let own = all.get_mut(link * N..link * N + N).unwrap_or_default();
-    for i in 0..N {
-        values[i].store(own, i);
+    for (i, value) in values.into_iter().enumerate() {
+        value.store(own, i);
     }
 }
 
