@@ -5,6 +5,7 @@
 //! entry       = "crate" "=" path
 //!             | "gravity" "=" expression
 //!             | "solve" "=" name
+//!             | "code" "=" name
 //!             | "emit" "(" [ request { "," request } [ "," ] ] ")"
 //!             | "drive" "(" [ property { "," property } [ "," ] ] ")"
 //!             | "observe" "(" [ observable { "," observable } [ "," ] ] ")"
@@ -58,6 +59,8 @@ pub struct Description {
     pub gravity: Option<Property>,
     /// `solve = ...`: the two names.
     pub solve: Option<(Ident, Ident)>,
+    /// `code = ...`: the two names.
+    pub code: Option<(Ident, Ident)>,
     /// `drive(...)`.
     pub drive: Option<Drive>,
     /// The links at the top level; a right description has one.

@@ -47,6 +47,7 @@ pub fn parse(
         crate_path: None,
         gravity: None,
         solve: None,
+        code: None,
         drive: None,
         roots: Vec::new(),
         requests: Vec::new(),
@@ -71,6 +72,12 @@ pub fn parse(
             Entry::Solve(name, value) => {
                 let (span, message) = (name.span(), Message::duplicate_property(&name));
                 if description.solve.replace((name, value)).is_some() {
+                    report.error(span, message);
+                }
+            }
+            Entry::Code(name, value) => {
+                let (span, message) = (name.span(), Message::duplicate_property(&name));
+                if description.code.replace((name, value)).is_some() {
                     report.error(span, message);
                 }
             }
@@ -167,6 +174,7 @@ enum Entry {
     Crate(Ident, syn::Path),
     Gravity(Property),
     Solve(Ident, Ident),
+    Code(Ident, Ident),
     Drive(Drive),
     Emit(Ident, Vec<Request>),
     Observe(Ident, Vec<Observable>),
@@ -209,7 +217,8 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
     node(name, input, report).map(Entry::Link)
 }
 
-/// `crate = path`, `gravity = value` or `solve = name`, after the name.
+/// `crate = path`, `gravity = value`, `solve = name` or `code = name`, after the
+/// name.
 fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Entry, Fault> {
     if name == "crate" {
         take::<Token![=]>(input, "`=`")?;
@@ -224,6 +233,11 @@ fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Entry, Fault> {
         take::<Token![=]>(input, "`=`")?;
         let value = identifier(input, "`factorization` or `recursion`")?;
         return Ok(Entry::Solve(name, value));
+    }
+    if name == "code" {
+        take::<Token![=]>(input, "`=`")?;
+        let value = identifier(input, "`loops` or `unrolled`")?;
+        return Ok(Entry::Code(name, value));
     }
     let message = Message::unknown_entry(name.to_string());
     Err(Diagnostic::new(name.span(), message).into())

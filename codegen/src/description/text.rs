@@ -17,7 +17,7 @@ impl Display for Description {
         if let Some(gravity) = &self.gravity {
             writeln!(f, "{gravity}")?;
         }
-        if let Some((name, value)) = &self.solve {
+        for (name, value) in self.solve.iter().chain(&self.code) {
             writeln!(f, "{name} = {value}")?;
         }
         if let Some(drive) = &self.drive {

@@ -29,6 +29,9 @@ impl Emission<'_> {
         if let Some(generations) = &scene.generations {
             return self.generations_docs(generations);
         }
+        if scene.table.is_some() {
+            return self.table_docs();
+        }
         let links: Vec<&str> = scene.links.iter().map(|link| link.name.as_str()).collect();
         let mut lines = vec![
             String::new(),
@@ -260,7 +263,7 @@ impl Emission<'_> {
     }
 }
 
-fn wrapped_names(names: &[&str]) -> String {
+pub(super) fn wrapped_names(names: &[&str]) -> String {
     const MOST: usize = 16;
     let listed: Vec<String> = names
         .iter()

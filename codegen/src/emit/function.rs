@@ -424,6 +424,15 @@ impl Emission<'_> {
 /// `T::from_f64(2.0)`, or `T::from_parts(0.1, -5.551115123125783e-18)` for a
 /// number that no `f64` is.
 pub(super) fn number_tokens(number: &Rational) -> TokenStream {
+    let [high, low] = part_tokens(number);
+    match number.to_parts().1 == 0.0 {
+        true => quote!(T::from_f64(#high)),
+        false => quote!(T::from_parts(#high, #low)),
+    }
+}
+
+/// The `f64` nearest to a number, and the `f64` nearest to the rest.
+pub(super) fn part_tokens(number: &Rational) -> [TokenStream; 2] {
     let signed = |value: f64, size: Literal| match value.is_sign_negative() {
         true => quote!(-#size),
         false => quote!(#size),
@@ -431,11 +440,11 @@ pub(super) fn number_tokens(number: &Rational) -> TokenStream {
     let (high, low) = number.to_parts();
     let decimal = signed(high, Literal::f64_unsuffixed(high.abs()));
     if low == 0.0 {
-        return quote!(T::from_f64(#decimal));
+        return [decimal, quote!(0.0)];
     }
     // Some eighteen zeros lead it.
     let size = low.abs();
     let short = format!("{size:e}").parse();
     let rest = signed(low, short.unwrap_or_else(|_| Literal::f64_unsuffixed(size)));
-    quote!(T::from_parts(#decimal, #rest))
+    [decimal, rest]
 }

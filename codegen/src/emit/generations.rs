@@ -11,14 +11,14 @@ use quote::{format_ident, quote};
 impl Emission<'_> {
     /// The equations and the functions of a model in generations.
     pub(super) fn generations(&self, generations: &Generations) -> TokenStream {
-        let equations = self.recursion(generations);
+        let equations = self.generation_equations(generations);
         let functions = self.generation_functions();
         let pendulum = self.generation_pendulum(generations);
         let energy = self
             .scene
             .requests
             .energies
-            .then(|| self.generation_energy());
+            .then(|| self.loop_energy("generations"));
         quote! {
             #equations
             #functions
@@ -27,7 +27,7 @@ impl Emission<'_> {
         }
     }
 
-    fn equations_name(&self) -> Ident {
+    pub(super) fn equations_name(&self) -> Ident {
         format_ident!("{}Equations", self.item.ident)
     }
 
@@ -58,7 +58,7 @@ impl Emission<'_> {
 
     /// The numbers of constants, of a leaf's and an inner link's answers, and of
     /// what is kept.
-    fn recursion_sizes(&self) -> [Literal; 4] {
+    pub(super) fn recursion_sizes(&self) -> [Literal; 4] {
         let forces = Forces::of(self.scene);
         let torque = usize::from(forces.in_joints());
         [forces.columns().len(), 5 + torque, 5 + torque, 3].map(Literal::usize_unsuffixed)
@@ -105,7 +105,7 @@ impl Emission<'_> {
     }
 
     /// A quantity in the model's scalar.
-    fn scalar(&self, quantity: &Quantity) -> TokenStream {
+    pub(super) fn scalar(&self, quantity: &Quantity) -> TokenStream {
         let joined = |parts: &[Quantity], operator: &TokenStream| {
             let mut parts = parts.iter().map(|part| self.scalar(part));
             let first = parts.next();
@@ -138,13 +138,7 @@ impl Emission<'_> {
         }
     }
 
-    fn recursion(&self, generations: &Generations) -> TokenStream {
-        let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
-        let forces = Forces::of(self.scene);
-        let columns = forces.columns();
-        let sizes = self.recursion_sizes();
-        let [constants, leaf_answers, answers, kept] = sizes.clone();
-        let links = Literal::usize_unsuffixed(generations.links);
+    fn generation_equations(&self, generations: &Generations) -> TokenStream {
         let copies = self.scene.links.iter().enumerate().map(|(generation, _)| {
             Literal::usize_unsuffixed(if generation == 0 {
                 1
@@ -153,6 +147,27 @@ impl Emission<'_> {
             })
         });
         let names = self.scene.links.iter().map(|link| &link.name);
+        self.recursion(
+            generations.links,
+            &quote!(#(#copies),*),
+            &quote!(#(#names),*),
+        )
+    }
+
+    /// The equations of links, for loops over so many, with the copies and names
+    /// of generations.
+    pub(super) fn recursion(
+        &self,
+        links: usize,
+        copies: &TokenStream,
+        names: &TokenStream,
+    ) -> TokenStream {
+        let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
+        let forces = Forces::of(self.scene);
+        let columns = forces.columns();
+        let sizes = self.recursion_sizes();
+        let [constants, leaf_answers, answers, kept] = sizes.clone();
+        let links = Literal::usize_unsuffixed(links);
         let joints = forces.in_joints();
         // What a function does not read is not taken apart.
         let read = |used: &[&str]| {
@@ -208,7 +223,7 @@ impl Emission<'_> {
             true => quote!(swing + (#torque) * inertia),
             false => quote!(swing),
         };
-        let docs = doc_lines(&equations_docs(&name.to_string(), forces));
+        let docs = doc_lines(&equations_docs(self.scene.table.is_some(), forces));
         // Of commas: all tokens stand where the attribute does, see `emit`.
         let allow =
             quote!(#[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]);
@@ -259,8 +274,8 @@ impl Emission<'_> {
             #allow
             impl #runtime::generations::Recursion<#(#sizes),*> for #name {
                 const LINKS: usize = #links;
-                const COPIES: &'static [usize] = &[#(#copies),*];
-                const NAMES: &'static [&'static str] = &[#(#names),*];
+                const COPIES: &'static [usize] = &[#copies];
+                const NAMES: &'static [&'static str] = &[#names];
                 const JOINTS: bool = #joints;
 
                 #[inline(always)]
@@ -409,16 +424,18 @@ impl Emission<'_> {
         }
     }
 
-    fn generation_energy(&self) -> TokenStream {
+    /// The energies of what the model's one field holds.
+    pub(super) fn loop_energy(&self, field: &str) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
+        let field = Ident::new(field, Span::call_site());
         quote! {
             impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
                 fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
-                    self.generations.kinetic_energy(theta, omega)
+                    self.#field.kinetic_energy(theta, omega)
                 }
 
                 fn potential_energy_of(&self, theta: &[T]) -> T {
-                    self.generations.potential_energy(theta)
+                    self.#field.potential_energy(theta)
                 }
             }
         }
@@ -442,10 +459,13 @@ fn in_joint(forces: Forces) -> TokenStream {
     quote!(#(#parts)+*)
 }
 
-fn equations_docs(name: &str, forces: Forces) -> Vec<String> {
-    let _ = name;
+fn equations_docs(table: bool, forces: Forces) -> Vec<String> {
+    let which = match table {
+        true => "The equations of one link: articulated-body recursion in",
+        false => "The equations of one link of each generation: articulated-body recursion in",
+    };
     let mut lines: Vec<String> = [
-        "The equations of one link of each generation: articulated-body recursion in",
+        which,
         "the plane (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7).",
         "",
         "A subtree answers an acceleration **a** of its pivot with a force Φ **a** + **β**.",

@@ -13,6 +13,7 @@ mod names;
 mod observables;
 mod parts;
 mod stub;
+mod table;
 mod taylor;
 mod taylor_order;
 mod taylor_rules;
@@ -55,6 +56,10 @@ pub fn emit(
     let model = emission.model();
     if let Some(generations) = &scene.generations {
         let code = emission.generations(generations);
+        return quote!(#model #code);
+    }
+    if let Some(table) = &scene.table {
+        let code = emission.table(table);
         return quote!(#model #code);
     }
     let functions = program.entries.iter().map(|entry| match entry.purpose {

@@ -21,12 +21,14 @@ impl Emission<'_> {
             let field = self.field(id);
             quote!(#field: T)
         });
-        let fields: Vec<TokenStream> = match self.scene.generations {
-            Some(_) => {
-                let loops = self.generations_type();
-                vec![quote!(generations: #loops)]
-            }
-            None => fields.collect(),
+        let fields: Vec<TokenStream> = if self.scene.generations.is_some() {
+            let loops = self.generations_type();
+            vec![quote!(generations: #loops)]
+        } else if self.scene.table.is_some() {
+            let table = self.table_type();
+            vec![quote!(links: #table)]
+        } else {
+            fields.collect()
         };
         let constructors = if self.scene.parameters.is_empty() {
             self.literal_constructors()
@@ -60,7 +62,7 @@ impl Emission<'_> {
             .iter()
             .filter(|name| !words.contains(*name))
             // Loops hold their constants on the heap.
-            .filter(|name| **name != "Copy" || self.scene.generations.is_none())
+            .filter(|name| **name != "Copy" || !self.scene.in_loops())
             .map(|name| {
                 let name = Ident::new(name, Span::call_site());
                 match name.to_string().as_str() {
@@ -77,6 +79,9 @@ impl Emission<'_> {
     fn constants(&self) -> TokenStream {
         if let Some(generations) = &self.scene.generations {
             return self.generations_value(&generations.constants);
+        }
+        if let Some(table) = &self.scene.table {
+            return self.table_value(table);
         }
         let stored = self.stored_constants();
         let mut known = BTreeMap::new();

@@ -344,7 +344,9 @@ impl Message {
     pub fn unknown_entry(name: String) -> Self {
         let nearest = nearest(
             &name,
-            &["gravity", "crate", "solve", "drive", "emit", "observe"],
+            &[
+                "gravity", "crate", "solve", "code", "drive", "emit", "observe",
+            ],
         );
         Self::UnknownEntry { name, nearest }
     }

@@ -50,8 +50,8 @@ impl Message {
                 "not a setting of the scene",
                 suggest(
                     nearest,
-                    "settings are `gravity = ...`, `crate = ...`, `solve = ...`, `drive(...)`, \
-                     `emit(...)`, `observe(...)`",
+                    "settings are `gravity = ...`, `crate = ...`, `solve = ...`, `code = ...`, \
+                     `drive(...)`, `emit(...)`, `observe(...)`",
                 ),
             ),
             M::MissingGravity => problem(
@@ -180,10 +180,10 @@ impl Message {
                 "write `code = loops`, `code = unrolled`, or nothing: large trees get loops",
             ),
             M::NoLoops { what } => problem(
-                format!("no loops over generations with {what}"),
+                format!("no loops with {what}"),
                 "this cannot be in loops",
                 "leave `code = loops` out, or what it does not go with; loops compute \
-                 accelerations and energies of trees that are one rule",
+                 accelerations and energies",
             ),
             M::TooManyForUnrolled { what, limit } => problem(
                 format!("more than {limit} links with {what}"),

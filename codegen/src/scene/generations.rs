@@ -128,8 +128,30 @@ pub(super) fn generations(loops: Loops, scene: &Scene, report: &mut Report) -> O
     })
 }
 
-/// What loops do not do, in words.
+/// What loops over generations do not do, in words.
 fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
+    if let Some(what) = unlooped(templates, asked) {
+        return Some(what.to_owned());
+    }
+    // Their constants are formed of those of all generations below, in code.
+    let parameters = templates.len() > MOST_WITH_PARAMETERS
+        && templates.iter().any(|template| {
+            let Body {
+                mass, inertia, com, ..
+            } = &template.body;
+            let parts = [mass, inertia, &com.along, &template.pivot.along];
+            parts.into_iter().any(|value| value.exact().is_none())
+        });
+    if parameters {
+        return Some(format!(
+            "parameters in more than {MOST_WITH_PARAMETERS} generations"
+        ));
+    }
+    at_parents_pivot(templates).map(str::to_owned)
+}
+
+/// What no loops do, in words.
+pub(super) fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
     let Requests {
         energies: _,
         momenta,
@@ -157,30 +179,18 @@ fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
     // What brings others along comes last.
     let request = requests.into_iter().rev().find(|(wanted, _)| *wanted);
     if let Some((_, what)) = request {
-        return Some(what.to_owned());
+        return Some(what);
     }
     let lateral = templates
         .iter()
         .any(|template| !template.body.com.lateral.is_zero() || !template.pivot.lateral.is_zero());
-    if lateral {
-        return Some("lateral offsets".to_owned());
-    }
-    // Their constants are formed of those of all generations below, in code.
-    let parameters = templates.len() > MOST_WITH_PARAMETERS
-        && templates.iter().any(|template| {
-            let Body {
-                mass, inertia, com, ..
-            } = &template.body;
-            let parts = [mass, inertia, &com.along, &template.pivot.along];
-            parts.into_iter().any(|value| value.exact().is_none())
-        });
-    if parameters {
-        return Some(format!(
-            "parameters in more than {MOST_WITH_PARAMETERS} generations"
-        ));
-    }
+    lateral.then_some("lateral offsets")
+}
+
+/// Their parent's lever is the unit of length.
+pub(super) fn at_parents_pivot(templates: &[Template]) -> Option<&'static str> {
     let at_pivot = templates.iter().skip(1).any(|t| t.pivot.along.is_zero());
-    at_pivot.then(|| "children that hang from their parent's pivot".to_owned())
+    at_pivot.then_some("children that hang from their parent's pivot")
 }
 
 /// The constants of a scene in generations, exact where no parameter is
@@ -320,18 +330,18 @@ impl Constants {
 }
 
 /// A link about its pivot.
-struct Turning {
-    mass: Quantity,
+pub(super) struct Turning {
+    pub(super) mass: Quantity,
     /// m d.
-    moment: Quantity,
+    pub(super) moment: Quantity,
     /// I + m d².
-    inertia: Quantity,
+    pub(super) inertia: Quantity,
     /// I.
     central: Quantity,
 }
 
 impl Turning {
-    fn of(link: &Link) -> Result<Self, ExactError> {
+    pub(super) fn of(link: &Link) -> Result<Self, ExactError> {
         let distance = &link.com.along;
         let moment = product([&link.mass, distance]);
         Ok(Self {
@@ -343,22 +353,22 @@ impl Turning {
     }
 }
 
-fn product<const N: usize>(factors: [&Quantity; N]) -> Quantity {
+pub(super) fn product<const N: usize>(factors: [&Quantity; N]) -> Quantity {
     Quantity::product(factors.into_iter().cloned())
 }
 
-fn half(value: &Quantity) -> Quantity {
+pub(super) fn half(value: &Quantity) -> Quantity {
     // Division by an exact number other than zero.
     let quotient = value.clone().divided_by(Quantity::integer(2));
     quotient.unwrap_or_else(|_| Quantity::zero())
 }
 
-fn value(force: &Option<Quantity>) -> Quantity {
+pub(super) fn value(force: &Option<Quantity>) -> Quantity {
     force.clone().unwrap_or_else(Quantity::zero)
 }
 
 /// 1/J alone.
-fn leaf(body: &Turning) -> Result<Vec<Quantity>, ExactError> {
+pub(super) fn leaf(body: &Turning) -> Result<Vec<Quantity>, ExactError> {
     let mut row = vec![Quantity::zero(); 6];
     row[1] = Quantity::integer(1).divided_by(body.inertia.clone())?;
     Ok(row)
@@ -370,7 +380,7 @@ fn leaf(body: &Turning) -> Result<Vec<Quantity>, ExactError> {
 ///
 /// A leaf pulls at its pivot with Φ = m I/J + (m² d²/J) u uᵀ, other children with
 /// Φ = m + (what they answer)/ℓ_j².
-fn inner(
+pub(super) fn inner(
     body: &Turning,
     lever: &Quantity,
     copies: &Quantity,

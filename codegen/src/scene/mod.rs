@@ -27,6 +27,7 @@ mod resolve;
 mod rule;
 mod singular;
 mod symbols;
+mod table;
 mod template;
 mod text;
 mod values;
@@ -38,6 +39,7 @@ pub use observables::{
 };
 pub use quantity::Quantity;
 pub use resolve::resolve;
+pub use table::Table;
 
 /// Index of a link in [`Scene::links`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -85,6 +87,8 @@ pub struct Scene {
     /// generations: then `links` holds one link of each generation, below each
     /// other, and there are no groups.
     pub generations: Option<Generations>,
+    /// The constants of all links, where the code is a loop over a table.
+    pub table: Option<Table>,
 }
 
 /// Path of the runtime crate in the user's crate: `::branched_pendulum`, or
@@ -98,20 +102,27 @@ pub struct CratePath {
 }
 
 impl Scene {
+    /// Whether the code is loops, over generations or a table of links.
+    pub fn in_loops(&self) -> bool {
+        self.generations.is_some() || self.table.is_some()
+    }
+
     /// The scene that the algebra derives: itself, or the first link alone where
     /// the code is loops, whose equations are those of one link under any force
     /// (`emit::generations`).
     pub fn derived(&self) -> std::borrow::Cow<'_, Self> {
-        if self.generations.is_none() {
+        if !self.in_loops() {
             return std::borrow::Cow::Borrowed(self);
         }
         let mut first = Self {
             requests: Requests::default(),
             generations: None,
+            table: None,
             ..self.clone()
         };
         first.links.truncate(1);
         first.orbits.truncate(1);
+        first.groups.clear();
         std::borrow::Cow::Owned(first)
     }
 }

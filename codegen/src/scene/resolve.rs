@@ -5,7 +5,9 @@ use super::expand::{check_names, check_size, expand};
 use super::generations::{Asked, decide, generations};
 use super::observables::resolve_observables;
 use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_solve};
+use super::rule::resolve_code;
 use super::singular::check_regular;
+use super::table;
 use super::template::Builder;
 use super::values::{Usage, Values};
 use super::{CratePath, Quantity, Scene, Sign};
@@ -39,14 +41,20 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         observables: !description.observables.is_empty(),
         drive: drive.is_some(),
     };
+    let code = resolve_code(description.code.as_ref(), report);
     let loops = match whole {
-        Some(rule) => decide(rule, &mut templates, &asked, report).ok()?,
+        Some(mut rule) => {
+            rule.code = rule.code.or(code.map(|(code, _)| code));
+            decide(rule, &mut templates, &asked, report).ok()?
+        }
         None => None,
     };
     if !check_size(&templates, report) {
         return None;
     }
     let expansion = expand(&templates);
+    let links = expansion.links.len();
+    let in_table = whole.is_none() && table::wanted(code, links, &templates, &asked, report);
     let owners = check_names(&expansion, &templates, report);
     for (parameter, span) in values.parameters.iter().zip(&values.spans) {
         if owners.contains_key(&parameter.name) {
@@ -73,6 +81,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         requests: resolved.requests,
         observables: Vec::new(),
         generations: None,
+        table: None,
     };
     if readable {
         if !scene.groups.is_empty() {
@@ -88,6 +97,9 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         && let Some(loops) = loops
     {
         scene.generations = generations(loops, &scene, report);
+    }
+    if report.is_empty() && in_table {
+        scene.table = table::table(&scene, report);
     }
     report.is_empty().then_some(scene)
 }

@@ -1,6 +1,6 @@
 //! Whole generations by rule.
 
-use proc_macro2::Span;
+use proc_macro2::{Ident, Span};
 
 use super::bodies::{Body, Dimension, Shape};
 use super::properties::{Kind, find_shape};
@@ -30,6 +30,30 @@ pub(super) enum Code {
     Loops,
     /// Link by link.
     Unrolled,
+}
+
+impl Code {
+    /// By its name in the attribute.
+    fn named(name: &str) -> Option<Self> {
+        match name {
+            "loops" => Some(Self::Loops),
+            "unrolled" => Some(Self::Unrolled),
+            _ => None,
+        }
+    }
+}
+
+/// Reads the attribute's own `code = ...`, with its place.
+pub(super) fn resolve_code(
+    written: Option<&(Ident, Ident)>,
+    report: &mut Report,
+) -> Option<(Code, Span)> {
+    let (_, value) = written?;
+    let found = Code::named(&value.to_string());
+    if found.is_none() {
+        report.error(value.span(), Message::NotACode);
+    }
+    found.map(|code| (code, value.span()))
 }
 
 /// Quantities of a generation rule beside those of its body.
@@ -147,11 +171,7 @@ fn code(value: &Value) -> Option<Code> {
     else {
         return None;
     };
-    match name.to_string().as_str() {
-        "loops" => Some(Code::Loops),
-        "unrolled" => Some(Code::Unrolled),
-        _ => None,
-    }
+    Code::named(&name.to_string())
 }
 
 /// A shape as the value of a property.

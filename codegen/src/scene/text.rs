@@ -22,6 +22,7 @@ impl Display for Scene {
             requests,
             observables,
             generations,
+            table,
         } = self;
         writeln!(f, "scene {name}")?;
         writeln!(f, "crate {crate_path}")?;
@@ -47,6 +48,9 @@ impl Display for Scene {
                 f,
                 "{links} links in generations, {branching} under each; one of each:"
             )?;
+        }
+        if table.is_some() {
+            writeln!(f, "in a loop over a table of links")?;
         }
         for link in links {
             self.write_link(link, f)?;

@@ -24,14 +24,14 @@ pub struct EnergyConstants<T> {
 
 /// Sums, a few hundred terms at a time: the error of a long sum grows with its
 /// length.
-struct Sum<T> {
+pub(super) struct Sum<T> {
     total: T,
     part: T,
     terms: usize,
 }
 
 impl<T: Scalar> Sum<T> {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         let zero = T::from_f64(0.0);
         Self {
             total: zero,
@@ -41,7 +41,7 @@ impl<T: Scalar> Sum<T> {
     }
 
     #[inline(always)]
-    fn add(&mut self, term: T) {
+    pub(super) fn add(&mut self, term: T) {
         self.part = self.part + term;
         self.terms += 1;
         if self.terms == 512 {
@@ -52,7 +52,7 @@ impl<T: Scalar> Sum<T> {
         }
     }
 
-    fn total(&self) -> T {
+    pub(super) fn total(&self) -> T {
         self.total + self.part
     }
 }

@@ -19,6 +19,10 @@
 //! by part, each one small enough for the cache; from [`THREADED`] links on, on
 //! several threads. The result has the same bits for any number of threads.
 //!
+//! # Trees of irregular shape
+//! have constants for each link, and a [`Table`] takes the same equations through
+//! them link by link.
+//!
 //! # Source
 //! R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
 //! (articulated-body algorithm), in the plane; `docs/physics.md`, section 2.
@@ -32,6 +36,8 @@ mod pool;
 mod recursion;
 mod shared;
 mod sweep;
+mod table;
+mod table_energy;
 mod threads;
 mod vector;
 pub(crate) mod vectors;
@@ -44,6 +50,7 @@ use core::num::NonZeroUsize;
 pub use energy::EnergyConstants;
 pub use name::LinkName;
 pub use recursion::{Motion, Recursion};
+pub use table::{Table, rows};
 #[doc(hidden)]
 pub use vector::{Single, SliceKernel, Vector, Vectors};
 #[doc(hidden)]

@@ -39,10 +39,10 @@ pub trait Recursion<const C: usize, const L: usize, const R: usize, const K: usi
     const LINKS: usize;
 
     /// Copies of each generation under each link of the one before; 1 for the
-    /// root.
+    /// root. Empty for the links of a [`Table`](super::Table).
     const COPIES: &'static [usize];
 
-    /// Names of the generations.
+    /// Names of the generations; empty for the links of a table.
     const NAMES: &'static [&'static str];
 
     /// Whether the functions read [`Motion::bend`] and [`Motion::bend_rate`].

@@ -264,7 +264,7 @@ fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
 
 // Loops: `map` and `from_fn` are not always inlined, and must be.
 #[inline(always)]
-fn splat<T: Copy, V: Vector<T>, const N: usize>(numbers: &[T; N]) -> [V; N] {
+pub(super) fn splat<T: Copy, V: Vector<T>, const N: usize>(numbers: &[T; N]) -> [V; N] {
     let mut values = [V::from_f64(0.0); N];
     for i in 0..N {
         values[i] = V::splat(numbers[i]);

@@ -290,6 +290,15 @@ const CASES: &[(&str, &str)] = &[
         "#[branched_pendulum(gravity = 1, solve = recursion, a: rod(mass = 1, length = 1), solve = factorization)] struct Pendulum;",
     ),
     (
+        "unknown_code",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), code = tables)] struct Pendulum;",
+    ),
+    (
+        "no_table",
+        "#[branched_pendulum(gravity = 1, code = loops, a: rod(mass = 1, length = 1) [
+    b: rod(mass = 1, length = 1), c: rod(mass = 1, length = 1, at = 0.5)])] struct Pendulum;",
+    ),
+    (
         "duplicate_request",
         "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
     emit(energies, energies, transfer(exact, exact)))] struct Pendulum;",

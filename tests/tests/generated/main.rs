@@ -7,5 +7,6 @@ mod hygiene;
 mod machine_code;
 mod scalars;
 mod sectors;
+mod table;
 mod toolchain;
 mod transfer_forms;

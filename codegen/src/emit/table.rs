@@ -1,0 +1,184 @@
+//! Large trees of irregular shape: a table of links, and the model that takes the
+//! equations of one link through it.
+
+use super::Emission;
+use super::docs::doc_lines;
+use super::function::part_tokens;
+use crate::scene::{Quantity, Table};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+
+impl Emission<'_> {
+    /// The equations and the functions of a model in a table.
+    pub(super) fn table(&self, _: &Table) -> TokenStream {
+        let none = TokenStream::new();
+        let equations = self.recursion(self.scene.links.len(), &none, &none);
+        let functions = self.table_functions();
+        let pendulum = self.table_pendulum();
+        let energies = self.scene.requests.energies;
+        let energy = energies.then(|| self.loop_energy("links"));
+        quote! {
+            #equations
+            #functions
+            #pendulum
+            #energy
+        }
+    }
+
+    pub(super) fn table_docs(&self) -> TokenStream {
+        let count = self.scene.links.len();
+        let energies = match self.scene.requests.energies {
+            true => "",
+            false => " Energies can be asked for with `emit(energies)`.",
+        };
+        doc_lines(&[
+            String::new(),
+            format!(
+                "A planar tree of {count} rigid links. Angles are absolute, in radians from the downward vertical, in the order of `LINK_NAMES`; SI units throughout."
+            ),
+            String::new(),
+            format!(
+                "The code is a loop over a table of links, O(links), of the equations that are shown where they stand. The first evaluation allocates room, later ones nothing.{energies}"
+            ),
+        ])
+    }
+
+    /// The type of the model's one field, `links`.
+    pub(super) fn table_type(&self) -> TokenStream {
+        let (runtime, equations) = (self.runtime(), self.equations_name());
+        let [constants, _, answers, kept] = self.recursion_sizes();
+        quote!(#runtime::generations::Table<#equations, T, #constants, #answers, #kept>)
+    }
+
+    /// `Self { … }`, the constants in place.
+    pub(super) fn table_value(&self, table: &Table) -> TokenStream {
+        let runtime = self.runtime();
+        let count = Literal::usize_unsuffixed(self.scene.links.len());
+        let parents = self.scene.links.iter().map(|link| {
+            let parent = link.parent.map_or(0, |parent| parent.0);
+            Literal::usize_unsuffixed(parent)
+        });
+        let [motion, motion_value] = self.constant_rows("motion", &table.motion);
+        let energies = self.scene.requests.energies;
+        let [energy, energy_value] = match energies {
+            true => self.constant_rows("energy", &table.energy),
+            false => [TokenStream::new(), quote!(#runtime::generations::rows(&[]))],
+        };
+        let root = self.scalar(&table.root);
+        quote! {
+            static PARENTS: [u32; #count] = [#(#parents),*];
+            #motion
+            #energy
+            Self {
+                links: #runtime::generations::Table::new(
+                    &PARENTS,
+                    #motion_value,
+                    [T::from_f64(0.0), #root],
+                    #energy_value,
+                ),
+            }
+        }
+    }
+
+    /// A table of constants, and the vector of these in the model's scalar, in
+    /// which values of parameters are put in place.
+    fn constant_rows<R: AsRef<[Quantity]>>(&self, name: &str, rows: &[R]) -> [TokenStream; 2] {
+        let runtime = self.runtime();
+        let constants = Ident::new(&name.to_uppercase(), Span::call_site());
+        let name = Ident::new(name, Span::call_site());
+        let count = Literal::usize_unsuffixed(rows.len());
+        let width = rows.first().map_or(0, |row| row.as_ref().len());
+        let width = Literal::usize_unsuffixed(width);
+        let mut placed = Vec::new();
+        let lines = rows.iter().enumerate().map(|(link, row)| {
+            let numbers = row.as_ref().iter().enumerate().map(|(column, value)| {
+                let parts = value.exact().map(part_tokens);
+                let [high, low] = parts.unwrap_or_else(|| {
+                    let value = self.scalar(value);
+                    let link = Literal::usize_unsuffixed(link);
+                    let column = Literal::usize_unsuffixed(column);
+                    placed.push(quote!(#name[#link][#column] = #value;));
+                    [quote!(0.0), quote!(0.0)]
+                });
+                quote!([#high, #low])
+            });
+            quote!([#(#numbers),*])
+        });
+        let lines = quote!(#(#lines),*);
+        let table = quote! {
+            static #constants: [[[f64; 2]; #width]; #count] = [#lines];
+        };
+        let value = quote!(#runtime::generations::rows(&#constants));
+        let value = match placed.is_empty() {
+            true => value,
+            false => quote! {{
+                let mut #name = #value;
+                #(#placed)*
+                #name
+            }},
+        };
+        [table, value]
+    }
+
+    fn table_functions(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let links = self.links();
+        let energies = self.scene.requests.energies.then(|| {
+            quote! {
+                /// Kinetic energy, J, for angles `theta` (rad) and angular
+                /// velocities `omega` (rad/s): ½ m **V**² + ½ I ω² of all links,
+                /// from the velocities **V** of their centres of mass. NaN for
+                /// slices of another length than there are links. O(links).
+                #[must_use]
+                pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
+                    self.links.kinetic_energy(theta, omega)
+                }
+
+                /// Potential energy, J, for angles `theta` (rad): m g h of all
+                /// links and ½ κ (θ − θ_parent)² of torsion springs, zero where
+                /// every link hangs straight down. NaN for a slice of another
+                /// length than there are links. O(links).
+                #[must_use]
+                pub fn potential_energy(&self, theta: &[T]) -> T {
+                    self.links.potential_energy(theta)
+                }
+            }
+        });
+        quote! {
+            impl<T: #runtime::Scalar> #name<T> {
+                /// Angular accelerations (rad/s²) for angles `theta` (rad) and
+                /// angular velocities `omega` (rad/s), in fused arithmetic where
+                /// the machine has it. O(links).
+                #[must_use]
+                pub fn accelerations(&self, theta: &[T; #links], omega: &[T; #links]) -> [T; #links] {
+                    let mut alpha = [T::from_f64(0.0); #links];
+                    self.links.accelerations_into(theta, omega, &mut alpha);
+                    alpha
+                }
+
+                #energies
+            }
+        }
+    }
+
+    fn table_pendulum(&self) -> TokenStream {
+        let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
+        let names = self.scene.links.iter().map(|link| &link.name);
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
+                const LINKS: usize = #links;
+                const LINK_NAMES: &'static [&'static str] = &[#(#names),*];
+
+                fn accelerations_into(
+                    &self,
+                    _time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    alpha: &mut [T],
+                ) {
+                    self.links.accelerations_into(theta, omega, alpha);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Large trees that are no rule: their code is a loop over a table of links.
+
+use proc_macro2::Span;
+
+use super::generations::{
+    Asked, Forces, Turning, at_parents_pivot, half, inner, leaf, product, unlooped, value,
+};
+use super::rule::Code;
+use super::template::Template;
+use super::values::message_for;
+use super::{Link, Quantity, Scene};
+use crate::exact::ExactError;
+use crate::report::{Message, Report};
+
+/// Trees of more links than this get a loop: straight code for more is no faster,
+/// and takes long to derive and compile (`docs/performance.md`).
+const MOST_UNROLLED: usize = 100;
+
+/// The constants of each link of a scene whose code is a loop over them, exact
+/// where no parameter is involved. SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// What the equations of each link read, in the order of
+    /// [`Forces::columns`]. `square`, `ratio` and `reach` are those of the link
+    /// on its parent; zero for the root.
+    pub motion: Vec<Vec<Quantity>>,
+    /// What its energies read, in the order of [`Table::ENERGY`].
+    pub energy: Vec<[Quantity; 7]>,
+    /// −g over the root's lever: what the root's equations take from above.
+    pub root: Quantity,
+}
+
+/// Whether the code is to be a loop over a table. Where it cannot be and must,
+/// `report` says why.
+pub(super) fn wanted(
+    code: Option<(Code, Span)>,
+    links: usize,
+    templates: &[Template],
+    asked: &Asked<'_>,
+    report: &mut Report,
+) -> bool {
+    let span = match code {
+        Some((Code::Unrolled, _)) => return false,
+        Some((Code::Loops, span)) => Some(span),
+        None if links > MOST_UNROLLED => None,
+        None => return false,
+    };
+    let obstacle = unlooped(templates, asked)
+        .or_else(|| at_parents_pivot(templates))
+        .or_else(|| several_pivots(templates));
+    // What is unreadable may look like an obstacle.
+    if let (Some(what), Some(span), true) = (obstacle, span, report.is_empty()) {
+        let what = what.to_owned();
+        report.error(span, Message::NoLoops { what });
+    }
+    obstacle.is_none()
+}
+
+/// The distance of its children is a link's unit of length.
+fn several_pivots(templates: &[Template]) -> Option<&'static str> {
+    let mut levers = vec![None; templates.len()];
+    let differ = templates.iter().any(|template| {
+        let lever = template.parent.and_then(|parent| levers.get_mut(parent));
+        let along = &template.pivot.along;
+        lever.is_some_and(|lever| *lever.get_or_insert(along) != along)
+    });
+    differ.then_some("children at several places of a link")
+}
+
+/// The constants of a scene; `None` after reporting what is wrong.
+pub(super) fn table(scene: &Scene, report: &mut Report) -> Option<Table> {
+    let table = match Table::of(scene) {
+        Ok(table) => table,
+        Err(error) => {
+            report.error(Span::call_site(), message_for(error));
+            return None;
+        }
+    };
+    if let Some(name) = table.unrepresentable(&Forces::of(scene).columns()) {
+        let name = name.to_owned();
+        report.error(Span::call_site(), Message::ConstantRange { name });
+        return None;
+    }
+    Some(table)
+}
+
+impl Table {
+    /// Half of the mass; first moment and half of the moment of inertia about the
+    /// pivot; distance from the parent's pivot; weight; gravity's first moment;
+    /// half of the spring's stiffness.
+    pub const ENERGY: [&'static str; 7] = [
+        "half_mass",
+        "moment",
+        "half_inertia",
+        "pivot",
+        "weight",
+        "gravity",
+        "half_spring",
+    ];
+
+    /// Of a scene all children of whose links hang at one distance other than
+    /// zero.
+    ///
+    /// # Errors
+    /// [`ExactError`] where a number gets too long, or a leaf has no inertia about
+    /// its pivot.
+    fn of(scene: &Scene) -> Result<Self, ExactError> {
+        let (forces, links) = (Forces::of(scene), &scene.links);
+        let one = Quantity::integer(1);
+        // Distance of a link's children; none for a leaf.
+        let mut levers = vec![None; links.len()];
+        for link in links {
+            if let Some(lever) = link.parent.and_then(|parent| levers.get_mut(parent.0)) {
+                *lever = Some(&link.pivot.along);
+            }
+        }
+        let bodies = links.iter().map(Turning::of);
+        let bodies: Vec<Turning> = bodies.collect::<Result<_, _>>()?;
+        let mut motion = Vec::with_capacity(links.len());
+        for (body, lever) in bodies.iter().zip(&levers) {
+            motion.push(match lever {
+                None => leaf(body)?,
+                Some(lever) => {
+                    let mut row = vec![Quantity::zero(); 6];
+                    row[1] = body.inertia.clone();
+                    row[2] = product([&body.moment, lever]);
+                    row
+                }
+            });
+        }
+        // What children are to their parents: the share of `rest`, and the
+        // factors of their answers.
+        let mut rests: Vec<Vec<Quantity>> = vec![Vec::new(); links.len()];
+        for (index, (link, body)) in links.iter().zip(&bodies).enumerate() {
+            let Some(parent) = link.parent else {
+                continue;
+            };
+            let on = inner(
+                &bodies[parent.0],
+                &link.pivot.along,
+                &one,
+                body,
+                levers[index],
+            )?;
+            let [rest, _, _, factors @ ..] = on.as_slice() else {
+                continue;
+            };
+            rests[parent.0].push(rest.clone());
+            motion[index][3..].clone_from_slice(factors);
+        }
+        for ((row, link), rest) in motion.iter_mut().zip(links).zip(rests) {
+            row[0] = Quantity::sum(rest);
+            let values = [
+                (forces.friction, &link.friction),
+                (forces.drag, &link.drag),
+                (forces.spring, &link.spring),
+            ];
+            let there = values.into_iter().filter(|(there, _)| *there);
+            row.extend(there.map(|(_, force)| value(force)));
+        }
+        let energy = links.iter().zip(&bodies);
+        let energy = energy.map(|(link, body)| energy_row(scene, link, body));
+        let lever = levers.first().copied().flatten().cloned();
+        Ok(Self {
+            motion,
+            energy: energy.collect(),
+            root: scene
+                .gravity
+                .clone()
+                .divided_by(lever.unwrap_or_else(Quantity::zero))?
+                .negative(),
+        })
+    }
+
+    /// The first value that no `f64` can hold, by its column.
+    fn unrepresentable(&self, columns: &[&'static str]) -> Option<&'static str> {
+        let fits = |quantity: &Quantity| quantity.exact().is_none_or(|n| n.to_f64().is_finite());
+        let motion = self.motion.iter().flat_map(|row| columns.iter().zip(row));
+        let energy = self
+            .energy
+            .iter()
+            .flat_map(|row| Self::ENERGY.iter().zip(row));
+        let wrong = motion.chain(energy).find(|(_, value)| !fits(value));
+        wrong
+            .map(|(name, _)| *name)
+            .or((!fits(&self.root)).then_some("gravity"))
+    }
+}
+
+fn energy_row(scene: &Scene, link: &Link, body: &Turning) -> [Quantity; 7] {
+    [
+        half(&body.mass),
+        body.moment.clone(),
+        half(&body.inertia),
+        link.pivot.along.clone(),
+        product([&scene.gravity, &body.mass]),
+        product([&scene.gravity, &body.moment]),
+        half(&value(&link.spring)),
+    ]
+}

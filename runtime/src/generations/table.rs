@@ -1,0 +1,438 @@
+//! Trees of any shape: the recursion over a table of links.
+
+use alloc::vec::Vec;
+use core::fmt;
+use core::marker::PhantomData;
+
+use super::pool::Pool;
+use super::recursion::{Motion, Recursion};
+use super::sweep::splat;
+use super::table_energy as energy;
+use super::vector::{SliceKernel, Step, Vector, Vectors, each};
+use crate::scalar::Scalar;
+
+/// The columns of a link's constants that say how it acts on its parent.
+const HANGING: usize = 3;
+
+/// A large tree of irregular shape: the parent and the constants of each link, and
+/// room for evaluations.
+///
+/// Emitted models hold one. `P` are the equations, and `C`, `R` and `K` their
+/// numbers; see [`Recursion`]. All children of a link hang at one place, their
+/// distance is the link's unit of length. Room is allocated by the first
+/// evaluation, and again by evaluations at the same time in other threads; nothing
+/// is allocated after that. (Without the feature `std` every evaluation
+/// allocates.)
+///
+/// # Cost
+/// O(links). Sines and cosines are computed several at a time, the recursion link
+/// by link, in the order of their depth: links of one depth do not wait for each
+/// other.
+///
+/// # Source
+/// R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
+/// (articulated-body algorithm), in the plane.
+pub struct Table<P, T, const C: usize, const R: usize, const K: usize> {
+    /// Parents stand before their children, depth first; the root's own is 0.
+    parents: &'static [u32],
+    /// The links by depth: neighbours do not wait for each other.
+    order: Vec<u32>,
+    /// What the equations of a link read.
+    constants: Vec<[T; C]>,
+    /// The factors of what it answers, and of what it takes from its parent:
+    /// `square`, `ratio`, `reach`.
+    hanging: Vec<[T; HANGING]>,
+    root: [T; 2],
+    energies: Vec<[T; 7]>,
+    pool: Pool<T>,
+    recursion: PhantomData<P>,
+}
+
+/// The links by their depth, those of one depth in their order.
+fn by_depth(parents: &[u32]) -> Vec<u32> {
+    let mut depths: Vec<usize> = Vec::with_capacity(parents.len());
+    for &parent in parents {
+        // The root comes first, and has none above.
+        depths.push(depths.get(parent as usize).map_or(0, |depth| depth + 1));
+    }
+    let mut order: Vec<u32> = (0..).take(parents.len()).collect();
+    order.sort_by_key(|&link| depths.get(link as usize).copied());
+    order
+}
+
+/// Rows of a table in a model's scalar. Each number is given as the `f64` nearest
+/// to it and the `f64` nearest to the rest.
+#[must_use]
+pub fn rows<T: Scalar, const N: usize>(exact: &[[[f64; 2]; N]]) -> Vec<[T; N]> {
+    let row = |row: &[[f64; 2]; N]| row.map(|[high, low]| T::from_parts(high, low));
+    exact.iter().map(row).collect()
+}
+
+impl<P, T, const C: usize, const R: usize, const K: usize> Table<P, T, C, R, K>
+where
+    P: Recursion<C, R, R, K>,
+    T: Scalar,
+{
+    /// A tree with the parent of each link, the constants of each, what the root
+    /// takes from above, and the constants of the energies, none where these are
+    /// not asked for.
+    ///
+    /// A row of `motion` has `rest`, `inertia` and `moment` of the link, then
+    /// `square`, `ratio` and `reach` of the link on its parent, then its forces.
+    /// One of `energies` has half of the mass, the first moment and half of the
+    /// moment of inertia about the pivot, the pivot's distance from the parent's,
+    /// weight, gravity's first moment, and half of the spring's stiffness.
+    #[must_use]
+    pub fn new(
+        parents: &'static [u32],
+        motion: Vec<[T; C]>,
+        root: [T; 2],
+        energies: Vec<[T; 7]>,
+    ) -> Self {
+        const { assert!(C >= 6 && R >= 5, "columns that have meanings here") };
+        let (mut constants, one) = (motion, T::from_f64(1.0));
+        let mut hanging = Vec::with_capacity(constants.len());
+        for row in &mut constants {
+            // A link's own answers and accelerations are in its own unit.
+            hanging.push([row[3], row[4], row[5]]);
+            (row[3], row[4], row[5]) = (one, one, one);
+        }
+        Self {
+            parents,
+            order: by_depth(parents),
+            constants,
+            hanging,
+            root,
+            energies,
+            pool: Pool::new(),
+            recursion: PhantomData,
+        }
+    }
+
+    /// Writes the angular accelerations, as
+    /// [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into).
+    pub fn accelerations_into(&self, theta: &[T], omega: &[T], alpha: &mut [T]) {
+        let zero = T::from_f64(0.0);
+        if [theta.len(), omega.len(), alpha.len()] != [P::LINKS; 3] {
+            alpha.fill(T::from_f64(f64::NAN));
+            return;
+        }
+        self.pool.lend((2 + R + K) * P::LINKS, zero, |buffer| {
+            T::over_slices(Accelerations {
+                table: self,
+                theta,
+                omega,
+                alpha,
+                buffer,
+            });
+        });
+    }
+
+    /// Kinetic energy, J. NaN for slices of another length than there are links.
+    #[must_use]
+    pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
+        if [theta.len(), omega.len()] != [P::LINKS; 2] {
+            return T::from_f64(f64::NAN);
+        }
+        let room = energy::KINETIC * P::LINKS;
+        self.pool.lend(room, T::from_f64(0.0), |buffer| {
+            energy::kinetic(self.parents, &self.energies, theta, omega, buffer)
+        })
+    }
+
+    /// Potential energy, J, zero where every link hangs straight down. NaN for a
+    /// slice of another length than there are links.
+    #[must_use]
+    pub fn potential_energy(&self, theta: &[T]) -> T {
+        if theta.len() != P::LINKS {
+            return T::from_f64(f64::NAN);
+        }
+        let room = energy::POTENTIAL * P::LINKS;
+        self.pool.lend(room, T::from_f64(0.0), |buffer| {
+            energy::potential(self.parents, &self.energies, theta, buffer)
+        })
+    }
+}
+
+/// One evaluation.
+struct Accelerations<'a, P, T, const C: usize, const R: usize, const K: usize> {
+    table: &'a Table<P, T, C, R, K>,
+    theta: &'a [T],
+    omega: &'a [T],
+    alpha: &'a mut [T],
+    buffer: &'a mut [T],
+}
+
+/// Sines and cosines.
+struct Turns<'a, T> {
+    theta: &'a [T],
+    sines: &'a mut [T],
+    cosines: &'a mut [T],
+}
+
+impl<T: Scalar> Step<T> for Turns<'_, T> {
+    #[inline(always)]
+    fn at<V: Vector<T>>(&mut self, index: usize) {
+        let (sine, cosine) = V::load(self.theta, index).sin_cos();
+        sine.store(self.sines, index);
+        cosine.store(self.cosines, index);
+    }
+}
+
+/// What does not change on the way through the links.
+struct State<'a, T> {
+    parents: &'a [u32],
+    theta: &'a [T],
+    omega: &'a [T],
+    sines: &'a [T],
+    cosines: &'a [T],
+}
+
+impl<T: Scalar> State<'_, T> {
+    #[inline(always)]
+    fn parent(&self, link: usize) -> usize {
+        self.parents.get(link).map_or(0, |&parent| parent as usize)
+    }
+
+    /// Links stand depth first: a link's first child comes next.
+    #[inline(always)]
+    fn is_leaf(&self, link: usize) -> bool {
+        link + 1 >= self.parents.len() || self.parent(link + 1) != link
+    }
+
+    #[inline(always)]
+    fn motion<V: Vector<T>>(&self, link: usize, joints: bool) -> Motion<V> {
+        let (theta, omega) = (V::load(self.theta, link), V::load(self.omega, link));
+        let (mut bend, mut bend_rate) = (theta, omega);
+        if joints && link > 0 {
+            let parent = self.parent(link);
+            bend = bend - V::load(self.theta, parent);
+            bend_rate = bend_rate - V::load(self.omega, parent);
+        }
+        Motion {
+            sine: V::load(self.sines, link),
+            cosine: V::load(self.cosines, link),
+            theta,
+            omega,
+            bend,
+            bend_rate,
+        }
+    }
+}
+
+/// Loads `N` numbers of a link.
+#[inline(always)]
+fn load<T: Scalar, V: Vector<T>, const N: usize>(all: &[T], link: usize) -> [V; N] {
+    let own = all.get(link * N..link * N + N).unwrap_or_default();
+    let mut values = [V::from_f64(0.0); N];
+    for (i, value) in values.iter_mut().enumerate() {
+        *value = V::load(own, i);
+    }
+    values
+}
+
+/// Stores `N` numbers of a link.
+#[inline(always)]
+fn store<T: Scalar, V: Vector<T>, const N: usize>(values: [V; N], all: &mut [T], link: usize) {
+    let own = all.get_mut(link * N..link * N + N).unwrap_or_default();
+    for (i, value) in values.into_iter().enumerate() {
+        value.store(own, i);
+    }
+}
+
+impl<P, T, const C: usize, const R: usize, const K: usize> SliceKernel<T>
+    for Accelerations<'_, P, T, C, R, K>
+where
+    P: Recursion<C, R, R, K>,
+    T: Scalar,
+{
+    #[inline(always)]
+    fn run<W: Vectors<T>>(self) {
+        let n = self.alpha.len();
+        let (sines, buffer) = self.buffer.split_at_mut(n);
+        let (cosines, buffer) = buffer.split_at_mut(n);
+        let (below, buffer) = buffer.split_at_mut(R * n);
+        let kept = buffer.get_mut(..K * n).unwrap_or_default();
+        let (theta, omega) = (self.theta, self.omega);
+        each::<T, W>(
+            n,
+            &mut Turns {
+                theta,
+                sines,
+                cosines,
+            },
+        );
+        let state = State {
+            parents: self.table.parents,
+            theta,
+            omega,
+            sines,
+            cosines,
+        };
+        up::<P, T, W::One, C, R, K>(self.table, &state, below, kept);
+        down::<P, T, W::One, C, R, K>(self.table, &state, below, kept, self.alpha);
+    }
+}
+
+/// From the leaves to the root. `below` sums the answers of each link's children,
+/// in the link's unit of length.
+#[inline(always)]
+fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
+    table: &Table<P, T, C, R, K>,
+    state: &State<'_, T>,
+    below: &mut [T],
+    kept: &mut [T],
+) where
+    P: Recursion<C, R, R, K>,
+    T: Scalar,
+    V: Vector<T>,
+{
+    below.fill(T::from_f64(0.0));
+    for &link in table.order.iter().rev() {
+        let link = link as usize;
+        let (Some(constants), Some(hanging)) = (table.constants.get(link), table.hanging.get(link))
+        else {
+            return;
+        };
+        let constants = splat::<T, V, C>(constants);
+        let [square, ratio, _] = splat::<T, V, HANGING>(hanging);
+        let motion = state.motion::<V>(link, P::JOINTS);
+        let (mut answers, across, along);
+        if state.is_leaf(link) {
+            answers = P::leaf(&constants, motion);
+            (across, along) = (-square, -ratio);
+        } else {
+            let (own, own_kept) = P::inner(&constants, motion, load::<T, V, R>(below, link));
+            store(own_kept, kept, link);
+            answers = own;
+            (across, along) = (square, ratio);
+        }
+        if link == 0 {
+            return;
+        }
+        let factors = [square, across, square, along, ratio];
+        let parent = state.parent(link);
+        let sums = load::<T, V, R>(below, parent);
+        for i in 0..R {
+            answers[i] = match factors.get(i) {
+                Some(&factor) => factor.mul_add(answers[i], sums[i]),
+                // Torques have no unit of length.
+                None => answers[i] + sums[i],
+            };
+        }
+        store(answers, below, parent);
+    }
+}
+
+/// From the root to the leaves. The accelerations of the children's pivots take
+/// the place of the children's answers.
+#[inline(always)]
+fn down<P, T, V, const C: usize, const R: usize, const K: usize>(
+    table: &Table<P, T, C, R, K>,
+    state: &State<'_, T>,
+    ends: &mut [T],
+    kept: &[T],
+    alpha: &mut [T],
+) where
+    P: Recursion<C, R, R, K>,
+    T: Scalar,
+    V: Vector<T>,
+{
+    for &link in &table.order {
+        let link = link as usize;
+        let (Some(constants), Some(hanging)) = (table.constants.get(link), table.hanging.get(link))
+        else {
+            return;
+        };
+        let constants = splat::<T, V, C>(constants);
+        let motion = state.motion::<V>(link, P::JOINTS);
+        let pivot = if link == 0 {
+            splat::<T, V, 2>(&table.root)
+        } else {
+            let reach = V::splat(hanging[2]);
+            let [x, y] = load::<T, V, 2>(ends, state.parent(link));
+            [reach * x, reach * y]
+        };
+        let acceleration = if state.is_leaf(link) {
+            P::turn_leaf(&constants, motion, pivot)
+        } else {
+            let (acceleration, end) =
+                P::turn(&constants, motion, load::<T, V, K>(kept, link), pivot);
+            store(end, ends, link);
+            acceleration
+        };
+        acceleration.store(alpha, link);
+    }
+}
+
+impl<P, T: Clone, const C: usize, const R: usize, const K: usize> Clone for Table<P, T, C, R, K> {
+    /// The copy has room of its own.
+    fn clone(&self) -> Self {
+        let Self {
+            parents,
+            order,
+            constants,
+            hanging,
+            root,
+            energies,
+            pool: _,
+            recursion,
+        } = self;
+        Self {
+            parents,
+            order: order.clone(),
+            constants: constants.clone(),
+            hanging: hanging.clone(),
+            root: root.clone(),
+            energies: energies.clone(),
+            pool: Pool::new(),
+            recursion: *recursion,
+        }
+    }
+}
+
+impl<P, T: PartialEq, const C: usize, const R: usize, const K: usize> PartialEq
+    for Table<P, T, C, R, K>
+{
+    fn eq(&self, other: &Self) -> bool {
+        let Self {
+            parents,
+            order: _,
+            constants,
+            hanging,
+            root,
+            energies,
+            pool: _,
+            recursion: _,
+        } = self;
+        *parents == other.parents
+            && *constants == other.constants
+            && *hanging == other.hanging
+            && *root == other.root
+            && *energies == other.energies
+    }
+}
+
+impl<P, T: fmt::Debug, const C: usize, const R: usize, const K: usize> fmt::Debug
+    for Table<P, T, C, R, K>
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            parents,
+            order: _,
+            constants,
+            hanging,
+            root,
+            energies,
+            pool: _,
+            recursion: _,
+        } = self;
+        f.debug_struct("Table")
+            .field("parents", parents)
+            .field("constants", constants)
+            .field("hanging", hanging)
+            .field("root", root)
+            .field("energies", energies)
+            .finish_non_exhaustive()
+    }
+}
