@@ -150,7 +150,14 @@ fn deliver(arguments: &Arguments, text: &str) -> Result<ExitCode, String> {
             return Ok(ExitCode::from(1));
         }
     } else {
-        print!("{text}");
+        use std::io::{ErrorKind, Write};
+        let written = std::io::stdout().write_all(text.as_bytes());
+        // Whoever reads a pipe may have read enough.
+        if let Err(error) = written
+            && error.kind() != ErrorKind::BrokenPipe
+        {
+            return Err(format!("cannot write: {error}"));
+        }
     }
     Ok(ExitCode::SUCCESS)
 }
