@@ -351,30 +351,36 @@ impl Emission<'_> {
         }
     }
 
+    /// The energies of a model in loops, which its field `loops` computes.
+    pub(super) fn energies_of(&self, loops: &TokenStream) -> TokenStream {
+        if !self.scene.requests.energies {
+            return TokenStream::new();
+        }
+        quote! {
+            /// Kinetic energy, J, for angles `theta` (rad) and angular
+            /// velocities `omega` (rad/s): ½ m **V**² + ½ I ω² of all links,
+            /// from the velocities **V** of their centres of mass. NaN for
+            /// slices of another length than there are links. O(links).
+            #[must_use]
+            pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
+                self.#loops.kinetic_energy(theta, omega)
+            }
+
+            /// Potential energy, J, for angles `theta` (rad): m g h of all
+            /// links and ½ κ (θ − θ_parent)² of torsion springs, zero where
+            /// every link hangs straight down. NaN for a slice of another
+            /// length than there are links. O(links).
+            #[must_use]
+            pub fn potential_energy(&self, theta: &[T]) -> T {
+                self.#loops.potential_energy(theta)
+            }
+        }
+    }
+
     fn generation_functions(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let loops = self.generations_type();
-        let energies = self.scene.requests.energies.then(|| {
-            quote! {
-                /// Kinetic energy, J, for angles `theta` (rad) and angular
-                /// velocities `omega` (rad/s): ½ m **V**² + ½ I ω² of all links,
-                /// from the velocities **V** of their centres of mass. NaN for
-                /// slices of another length than there are links. O(links).
-                #[must_use]
-                pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
-                    self.generations.kinetic_energy(theta, omega)
-                }
-
-                /// Potential energy, J, for angles `theta` (rad): of gravity and
-                /// of torsion springs, zero where every link hangs straight down.
-                /// NaN for a slice of another length than there are links.
-                /// O(links).
-                #[must_use]
-                pub fn potential_energy(&self, theta: &[T]) -> T {
-                    self.generations.potential_energy(theta)
-                }
-            }
-        });
+        let energies = self.energies_of(&quote!(generations));
         quote! {
             impl<T: #runtime::Scalar> #name<T> {
                 /// Index of the link that one comes to from the root by these

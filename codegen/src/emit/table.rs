@@ -123,27 +123,7 @@ impl Emission<'_> {
     fn table_functions(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let links = self.links();
-        let energies = self.scene.requests.energies.then(|| {
-            quote! {
-                /// Kinetic energy, J, for angles `theta` (rad) and angular
-                /// velocities `omega` (rad/s): ½ m **V**² + ½ I ω² of all links,
-                /// from the velocities **V** of their centres of mass. NaN for
-                /// slices of another length than there are links. O(links).
-                #[must_use]
-                pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
-                    self.links.kinetic_energy(theta, omega)
-                }
-
-                /// Potential energy, J, for angles `theta` (rad): m g h of all
-                /// links and ½ κ (θ − θ_parent)² of torsion springs, zero where
-                /// every link hangs straight down. NaN for a slice of another
-                /// length than there are links. O(links).
-                #[must_use]
-                pub fn potential_energy(&self, theta: &[T]) -> T {
-                    self.links.potential_energy(theta)
-                }
-            }
-        });
+        let energies = self.energies_of(&quote!(links));
         quote! {
             impl<T: #runtime::Scalar> #name<T> {
                 /// Angular accelerations (rad/s²) for angles `theta` (rad) and
