@@ -467,16 +467,23 @@ fn in_joint(forces: Forces) -> TokenStream {
 
 fn equations_docs(table: bool, forces: Forces) -> Vec<String> {
     let which = match table {
-        true => "The equations of one link: articulated-body recursion in",
-        false => "The equations of one link of each generation: articulated-body recursion in",
+        true => "one link",
+        false => "one link of each generation",
     };
-    let mut lines: Vec<String> = [
-        which,
-        "the plane (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7).",
+    let torque = match forces.any() {
+        true => " Q is the torque of friction, drag and springs.",
+        false => "",
+    };
+    // One string a paragraph: `doc_lines` wraps them.
+    [
+        &format!(
+            "The equations of {which}: articulated-body recursion in the plane \
+             (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7)."
+        ),
         "",
-        "A subtree answers an acceleration **a** of its pivot with a force Φ **a** + **β**.",
-        "With **v** = (cos θ, sin θ), **u** = (sin θ, −cos θ), and Φ, **β** summed over the",
-        "children, in units in which their pivots have distance 1:",
+        "A subtree answers an acceleration **a** of its pivot with a force Φ **a** + **β**. \
+         With **v** = (cos θ, sin θ), **u** = (sin θ, −cos θ), and Φ, **β** summed over the \
+         children, in units in which their pivots have distance 1:",
         "",
         "```text",
         "b = m d v + Φ v,   J = I + m d² + v·Φ v",
@@ -485,13 +492,12 @@ fn equations_docs(table: bool, forces: Forces) -> Vec<String> {
         "ω̇ = −g·a − κ / J,   a ← a + ω̇ v − ω² u",
         "```",
         "",
-        "Φ u is (Φ v − v tr Φ) turned by a right angle. Leaves have",
-        "Φ = m I/J + (m² d²/J) u uᵀ. What does not depend on the angles is in the constants.",
+        &format!(
+            "Φ u is (Φ v − v tr Φ) turned by a right angle. Leaves have \
+             Φ = m I/J + (m² d²/J) u uᵀ. What does not depend on the angles is in the \
+             constants.{torque}"
+        ),
     ]
     .map(str::to_owned)
-    .to_vec();
-    if forces.any() {
-        lines.push("Q is the torque of friction, drag and springs.".to_owned());
-    }
-    lines
+    .to_vec()
 }
