@@ -182,9 +182,7 @@ fn common<P: Pack, const G: usize>(angles: [P; G]) -> ([P; G], [P; G]) {
 fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) -> ([P; G], [P; G]) {
     let one = P::from_f64(1.0);
     let half = P::from_f64(-0.5);
-    // (high − low)², but for low².
-    let twice = for_each!(one; i => high[i] * (low[i] + low[i]));
-    let square = for_each!(one; i => high[i].mul_add(high[i], -twice[i]));
+    let square = for_each!(one; i => high[i] * high[i]);
     let tail = polynomial(square, P::Lane::SINE);
     let cube = for_each!(one; i => high[i] * square[i]);
     // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
@@ -192,7 +190,9 @@ fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) ->
     let sine = for_each!(one; i => high[i] - lost[i]);
     let tail = polynomial(square, P::Lane::COSINE);
     let tail = for_each!(one; i => square[i].mul_add(tail[i], half));
-    let cosine = for_each!(one; i => square[i].mul_add(tail[i], one));
+    // cos(high − low) = cos(high) + low high
+    let lost = for_each!(one; i => high[i].mul_add(tail[i], low[i]));
+    let cosine = for_each!(one; i => high[i].mul_add(lost[i], one));
     let (mut sines, mut cosines) = (sine, cosine);
     for i in 0..G {
         (sines[i], cosines[i]) = P::exchange(quarters[i], sine[i], cosine[i]);
