@@ -133,7 +133,8 @@ macro_rules! fused {
             type Array = [$float; 1];
 
             #[inline(always)]
-            fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
+            fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
+                let sine = high - lost;
                 let (quarter, sine, cosine) =
                     (quarter.0.to_bits(), sine.0.to_bits(), cosine.0.to_bits());
                 let sign = (-0.0 as $float).to_bits();

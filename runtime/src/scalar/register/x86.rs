@@ -18,12 +18,24 @@ use crate::model::{Part, PartOf};
 // types hold so many numbers of that size, in order and without padding, which
 // makes the transmutations right.
 
+/// What the registers that fuse know of angles.
+macro_rules! near {
+    () => {
+        #[inline(always)]
+        fn sin_cos_blocks<const N: usize, const M: usize>(
+            angles: &[[Self; N]; M],
+        ) -> ([[Self; N]; M], [[Self; N]; M]) {
+            fused::blocks(angles)
+        }
+    };
+}
+
 macro_rules! register {
     (
         $(#[$docs:meta])*
         $name:ident: $vector:ident = $lanes:literal of $lane:ident,
         $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident,
-        $max:ident, $and:ident, $andnot:ident, $or:ident
+        $max:ident, $and:ident, $andnot:ident, $or:ident, $larger:ident $(, $angles:ident)?
     ) => {
         $(#[$docs])*
         #[derive(Clone, Copy, Debug)]
@@ -73,6 +85,8 @@ macro_rules! register {
 
             const LANES: usize = $lanes;
 
+            $($angles!();)?
+
             #[inline(always)]
             fn mask(meant: impl Fn(usize) -> bool) -> Self {
                 Self::from_array(core::array::from_fn(|lane| {
@@ -88,9 +102,7 @@ macro_rules! register {
 
             #[inline(always)]
             fn larger_size(self, other: Self) -> Self {
-                let sign = Self::splat(-0.0).0;
-                // SAFETY: see the top.
-                Self(unsafe { $max($andnot(sign, self.0), $andnot(sign, other.0)) })
+                $larger(self, other)
             }
 
             #[inline(always)]
@@ -141,42 +153,42 @@ register! {
     /// A register of SSE2.
     F64x2: __m128d = 2 of f64,
     _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd,
-    _mm_max_pd, _mm_and_pd, _mm_andnot_pd, _mm_or_pd
+    _mm_max_pd, _mm_and_pd, _mm_andnot_pd, _mm_or_pd, larger_f64x2
 }
 
 register! {
     /// A register of SSE2.
     F32x4: __m128 = 4 of f32,
     _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps,
-    _mm_max_ps, _mm_and_ps, _mm_andnot_ps, _mm_or_ps
+    _mm_max_ps, _mm_and_ps, _mm_andnot_ps, _mm_or_ps, larger_f32x4
 }
 
 register! {
     /// A register of AVX2.
     F64x4: __m256d = 4 of f64,
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
-    _mm256_max_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd
+    _mm256_max_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd, larger_f64x4, near
 }
 
 register! {
     /// A register of AVX2.
     F32x8: __m256 = 8 of f32,
     _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps,
-    _mm256_max_ps, _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps
+    _mm256_max_ps, _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps, larger_f32x8, near
 }
 
 register! {
     /// A register of AVX-512.
     F64x8: __m512d = 8 of f64,
     _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_sqrt_pd,
-    _mm512_max_pd, _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd
+    _mm512_max_pd, _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd, larger_f64x8, near
 }
 
 register! {
     /// A register of AVX-512.
     F32x16: __m512 = 16 of f32,
     _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps,
-    _mm512_max_ps, _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps
+    _mm512_max_ps, _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps, larger_f32x16, near
 }
 
 /// Those that fuse.
@@ -306,7 +318,7 @@ impl double::Pack for F64x4 {
 
     #[inline(always)]
     fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
-        fused::Pack::exchange(quarter, sine, cosine)
+        fused::Pack::exchange(quarter, sine, Self::from_f64(0.0), cosine)
     }
 }
 
@@ -326,24 +338,20 @@ impl fused::Pack for F64x4 {
     type Array = [f64; 4];
 
     #[inline(always)]
-    fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
+    fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
         // SAFETY: see the top.
         unsafe {
             let sign = _mm256_set1_pd(-0.0);
             let quarter = _mm256_castpd_si256(quarter.0);
-            let next = _mm256_add_epi64(quarter, _mm256_set1_epi64x(1));
             // Blends look at the highest bits.
             let odd = _mm256_castsi256_pd(_mm256_slli_epi64::<63>(quarter));
-            let turned = |a, b, quarters| {
-                let signs = _mm256_castsi256_pd(_mm256_slli_epi64::<62>(quarters));
-                Self(_mm256_xor_pd(
-                    _mm256_blendv_pd(a, b, odd),
-                    _mm256_and_pd(sign, signs),
-                ))
-            };
+            let signs = _mm256_castsi256_pd(_mm256_slli_epi64::<62>(quarter));
+            let signs = _mm256_and_pd(sign, signs);
+            let sine = _mm256_blendv_pd((high - lost).0, cosine.0, odd);
+            let cosine = _mm256_blendv_pd(cosine.0, (lost - high).0, odd);
             (
-                turned(sine.0, cosine.0, quarter),
-                turned(cosine.0, sine.0, next),
+                Self(_mm256_xor_pd(sine, signs)),
+                Self(_mm256_xor_pd(cosine, signs)),
             )
         }
     }
@@ -385,23 +393,20 @@ impl fused::Pack for F32x8 {
     type Array = [f32; 8];
 
     #[inline(always)]
-    fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
+    fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
         // SAFETY: see the top.
         unsafe {
             let sign = _mm256_set1_ps(-0.0);
             let quarter = _mm256_castps_si256(quarter.0);
-            let next = _mm256_add_epi32(quarter, _mm256_set1_epi32(1));
+            // Blends look at the highest bits.
             let odd = _mm256_castsi256_ps(_mm256_slli_epi32::<31>(quarter));
-            let turned = |a, b, quarters| {
-                let signs = _mm256_castsi256_ps(_mm256_slli_epi32::<30>(quarters));
-                Self(_mm256_xor_ps(
-                    _mm256_blendv_ps(a, b, odd),
-                    _mm256_and_ps(sign, signs),
-                ))
-            };
+            let signs = _mm256_castsi256_ps(_mm256_slli_epi32::<30>(quarter));
+            let signs = _mm256_and_ps(sign, signs);
+            let sine = _mm256_blendv_ps((high - lost).0, cosine.0, odd);
+            let cosine = _mm256_blendv_ps(cosine.0, (lost - high).0, odd);
             (
-                turned(sine.0, cosine.0, quarter),
-                turned(cosine.0, sine.0, next),
+                Self(_mm256_xor_ps(sine, signs)),
+                Self(_mm256_xor_ps(cosine, signs)),
             )
         }
     }
@@ -443,23 +448,21 @@ impl fused::Pack for F64x8 {
     type Array = [f64; 8];
 
     #[inline(always)]
-    fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
+    fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
         // SAFETY: see the top.
         unsafe {
             let sign = _mm512_castpd_si512(_mm512_set1_pd(-0.0));
             let quarter = _mm512_castpd_si512(quarter.0);
-            let one = _mm512_set1_epi64(1);
-            let next = _mm512_add_epi64(quarter, one);
-            let odd = _mm512_test_epi64_mask(quarter, one);
-            let turned = |a, b, quarters| {
-                let value = _mm512_castpd_si512(_mm512_mask_blend_pd(odd, a, b));
-                let signs = _mm512_slli_epi64::<62>(quarters);
+            let odd = _mm512_test_epi64_mask(quarter, _mm512_set1_epi64(1));
+            let signs = _mm512_slli_epi64::<62>(quarter);
+            let signed = |value| {
+                let value = _mm512_castpd_si512(value);
                 let value = _mm512_ternarylogic_epi64::<XOR_AND>(value, signs, sign);
                 Self(_mm512_castsi512_pd(value))
             };
             (
-                turned(sine.0, cosine.0, quarter),
-                turned(cosine.0, sine.0, next),
+                signed(_mm512_mask_mov_pd((high - lost).0, odd, cosine.0)),
+                signed(_mm512_mask_sub_pd(cosine.0, odd, lost.0, high.0)),
             )
         }
     }
@@ -494,23 +497,21 @@ impl fused::Pack for F32x16 {
     type Array = [f32; 16];
 
     #[inline(always)]
-    fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
+    fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
         // SAFETY: see the top.
         unsafe {
             let sign = _mm512_castps_si512(_mm512_set1_ps(-0.0));
             let quarter = _mm512_castps_si512(quarter.0);
-            let one = _mm512_set1_epi32(1);
-            let next = _mm512_add_epi32(quarter, one);
-            let odd = _mm512_test_epi32_mask(quarter, one);
-            let turned = |a, b, quarters| {
-                let value = _mm512_castps_si512(_mm512_mask_blend_ps(odd, a, b));
-                let signs = _mm512_slli_epi32::<30>(quarters);
+            let odd = _mm512_test_epi32_mask(quarter, _mm512_set1_epi32(1));
+            let signs = _mm512_slli_epi32::<30>(quarter);
+            let signed = |value| {
+                let value = _mm512_castps_si512(value);
                 let value = _mm512_ternarylogic_epi32::<XOR_AND>(value, signs, sign);
                 Self(_mm512_castsi512_ps(value))
             };
             (
-                turned(sine.0, cosine.0, quarter),
-                turned(cosine.0, sine.0, next),
+                signed(_mm512_mask_mov_ps((high - lost).0, odd, cosine.0)),
+                signed(_mm512_mask_sub_ps(cosine.0, odd, lost.0, high.0)),
             )
         }
     }
@@ -534,3 +535,20 @@ impl fused::Pack for F32x16 {
         self.to_array()
     }
 }
+
+macro_rules! larger { ($f:ident $t:ident $set:ident $max:ident $andnot:ident) => {
+#[inline(always)]
+fn $f(a: $t, b: $t) -> $t { unsafe {
+            let sign = $set(-0.0);
+            $t($max(
+                $andnot(sign, a.0),
+                $andnot(sign, b.0),
+            )) } } } }
+larger!(larger_f64x2 F64x2 _mm_set1_pd _mm_max_pd _mm_andnot_pd);
+larger!(larger_f32x4 F32x4 _mm_set1_ps _mm_max_ps _mm_andnot_ps);
+larger!(larger_f64x4 F64x4 _mm256_set1_pd _mm256_max_pd _mm256_andnot_pd);
+larger!(larger_f32x8 F32x8 _mm256_set1_ps _mm256_max_ps _mm256_andnot_ps);
+#[inline(always)]
+fn larger_f64x8(a: F64x8, b: F64x8) -> F64x8 { F64x8(unsafe { _mm512_range_pd::<LARGER_SIZE>(a.0, b.0) }) }
+#[inline(always)]
+fn larger_f32x16(a: F32x16, b: F32x16) -> F32x16 { F32x16(unsafe { _mm512_range_ps::<LARGER_SIZE>(a.0, b.0) }) }

@@ -22,7 +22,7 @@ pub trait Pack: Register<Lane: Float> {
     /// The results of a turn by a number of quarters, which stands in the lowest
     /// bits of `quarter`, from those without it: odd numbers exchange sine and
     /// cosine, and their second bits say the signs.
-    fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self);
+    fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self);
 
     /// The larger size, lane by lane; any of the two, or either, where one is no
     /// number.
@@ -186,16 +186,15 @@ fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) ->
     let tail = polynomial(square, P::Lane::SINE);
     let cube = for_each!(one; i => high[i] * square[i]);
     // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
-    let lost = for_each!(one; i => (-cube[i]).mul_add(tail[i], low[i]));
-    let sine = for_each!(one; i => high[i] - lost[i]);
+    let sine_lost = for_each!(one; i => (-cube[i]).mul_add(tail[i], low[i]));
     let tail = polynomial(square, P::Lane::COSINE);
     let tail = for_each!(one; i => square[i].mul_add(tail[i], half));
     // cos(high − low) = cos(high) + low high
     let lost = for_each!(one; i => high[i].mul_add(tail[i], low[i]));
     let cosine = for_each!(one; i => high[i].mul_add(lost[i], one));
-    let (mut sines, mut cosines) = (sine, cosine);
+    let (mut sines, mut cosines) = (cosine, cosine);
     for i in 0..G {
-        (sines[i], cosines[i]) = P::exchange(quarters[i], sine[i], cosine[i]);
+        (sines[i], cosines[i]) = P::exchange(quarters[i], high[i], sine_lost[i], cosine[i]);
     }
     (sines, cosines)
 }
@@ -226,35 +225,58 @@ fn polynomial<P: Pack, const G: usize>(x: [P; G], coefficients: &[P::Lane]) -> [
 /// Sines and cosines of angles in registers.
 #[inline(always)]
 pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
-    let zero = P::from_f64(0.0);
-    let (mut sines, mut cosines) = ([zero; N], [zero; N]);
+    let ([sines], [cosines]) = blocks(&[*angles]);
+    (sines, cosines)
+}
+
+/// The same of `M` times `N` registers.
+#[inline(always)]
+pub(in crate::scalar) fn blocks<P: Pack, const N: usize, const M: usize>(
+    angles: &[[P; N]; M],
+) -> ([[P; N]; M], [[P; N]; M]) {
+    let zero = [[P::from_f64(0.0); N]; M];
+    let (mut sines, mut cosines) = (zero, zero);
+    near(
+        angles.as_flattened(),
+        sines.as_flattened_mut(),
+        cosines.as_flattened_mut(),
+    );
     // What is no number may get lost here: its sine is none in either way.
-    let mut largest = zero;
-    for &angle in angles {
+    let mut largest = P::from_f64(0.0);
+    for &angle in angles.as_flattened() {
         largest = largest.larger(angle);
-    }
-    let mut start = 0;
-    while start + GROUP <= N {
-        group::<P, GROUP>(angles, &mut sines, &mut cosines, start);
-        start += GROUP;
-    }
-    match N % GROUP {
-        0 => {}
-        1 => group::<P, 1>(angles, &mut sines, &mut cosines, start),
-        2 => group::<P, 2>(angles, &mut sines, &mut cosines, start),
-        _ => group::<P, 3>(angles, &mut sines, &mut cosines, start),
     }
     if !largest.all_below(P::Lane::LIMIT) {
         // Copies for this block alone: were angles and results themselves lent
         // out, they would live in memory on the common path too.
-        let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
+        let (mut far_sines, mut far_cosines) = (zero, zero);
         let angles = black_box(*angles);
-        beyond(&angles, &mut far_sines, &mut far_cosines);
-        for i in 0..N {
-            (sines[i], cosines[i]) = (far_sines[i], far_cosines[i]);
+        for j in 0..M {
+            beyond(&angles[j], &mut far_sines[j], &mut far_cosines[j]);
+        }
+        for j in 0..M {
+            for i in 0..N {
+            (sines[j][i], cosines[j][i]) = (far_sines[j][i], far_cosines[j][i]);
+            }
         }
     }
     (sines, cosines)
+}
+
+/// Sines and cosines of angles in the common range.
+#[inline(always)]
+fn near<P: Pack>(angles: &[P], sines: &mut [P], cosines: &mut [P]) {
+    let mut start = 0;
+    while start + GROUP <= angles.len() {
+        group::<P, GROUP>(angles, sines, cosines, start);
+        start += GROUP;
+    }
+    match angles.len() % GROUP {
+        0 => {}
+        1 => group::<P, 1>(angles, sines, cosines, start),
+        2 => group::<P, 2>(angles, sines, cosines, start),
+        _ => group::<P, 3>(angles, sines, cosines, start),
+    }
 }
 
 /// The `G` angles from `start` on.
