@@ -323,18 +323,6 @@ impl double::Pack for F64x4 {
 }
 
 impl fused::Pack for F64x4 {
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        // SAFETY: see the top.
-        unsafe {
-            let sign = _mm256_set1_pd(-0.0);
-            Self(_mm256_max_pd(
-                _mm256_andnot_pd(sign, self.0),
-                _mm256_andnot_pd(sign, other.0),
-            ))
-        }
-    }
-
     type Array = [f64; 4];
 
     #[inline(always)]
@@ -360,8 +348,7 @@ impl fused::Pack for F64x4 {
     fn all_below(self, limit: f64) -> bool {
         // SAFETY: see the top.
         unsafe {
-            let size = _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0);
-            let below = _mm256_cmp_pd::<_CMP_LT_OQ>(size, _mm256_set1_pd(limit));
+            let below = _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, _mm256_set1_pd(limit));
             _mm256_movemask_pd(below) == 0b1111
         }
     }
@@ -378,18 +365,6 @@ impl fused::Pack for F64x4 {
 }
 
 impl fused::Pack for F32x8 {
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        // SAFETY: see the top.
-        unsafe {
-            let sign = _mm256_set1_ps(-0.0);
-            Self(_mm256_max_ps(
-                _mm256_andnot_ps(sign, self.0),
-                _mm256_andnot_ps(sign, other.0),
-            ))
-        }
-    }
-
     type Array = [f32; 8];
 
     #[inline(always)]
@@ -415,8 +390,7 @@ impl fused::Pack for F32x8 {
     fn all_below(self, limit: f32) -> bool {
         // SAFETY: see the top.
         unsafe {
-            let size = _mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0);
-            let below = _mm256_cmp_ps::<_CMP_LT_OQ>(size, _mm256_set1_ps(limit));
+            let below = _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, _mm256_set1_ps(limit));
             _mm256_movemask_ps(below) == 0xff
         }
     }
@@ -439,12 +413,6 @@ const LARGER_SIZE: i32 = 0b1011;
 const XOR_AND: i32 = 0x78;
 
 impl fused::Pack for F64x8 {
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        // SAFETY: see the top.
-        Self(unsafe { _mm512_range_pd::<LARGER_SIZE>(self.0, other.0) })
-    }
-
     type Array = [f64; 8];
 
     #[inline(always)]
@@ -471,8 +439,7 @@ impl fused::Pack for F64x8 {
     fn all_below(self, limit: f64) -> bool {
         // SAFETY: see the top.
         unsafe {
-            let size = _mm512_abs_pd(self.0);
-            _mm512_cmp_pd_mask::<_CMP_LT_OQ>(size, _mm512_set1_pd(limit)) == 0xff
+            _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, _mm512_set1_pd(limit)) == 0xff
         }
     }
 
@@ -488,12 +455,6 @@ impl fused::Pack for F64x8 {
 }
 
 impl fused::Pack for F32x16 {
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        // SAFETY: see the top.
-        Self(unsafe { _mm512_range_ps::<LARGER_SIZE>(self.0, other.0) })
-    }
-
     type Array = [f32; 16];
 
     #[inline(always)]
@@ -520,8 +481,7 @@ impl fused::Pack for F32x16 {
     fn all_below(self, limit: f32) -> bool {
         // SAFETY: see the top.
         unsafe {
-            let size = _mm512_abs_ps(self.0);
-            _mm512_cmp_ps_mask::<_CMP_LT_OQ>(size, _mm512_set1_ps(limit)) == 0xffff
+            _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, _mm512_set1_ps(limit)) == 0xffff
         }
     }
 

@@ -24,11 +24,7 @@ pub trait Pack: Register<Lane: Float> {
     /// cosine, and their second bits say the signs.
     fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self);
 
-    /// The larger size, lane by lane; any of the two, or either, where one is no
-    /// number.
-    fn larger(self, other: Self) -> Self;
-
-    /// Whether the sizes of all numbers are below `limit`.
+    /// Whether all numbers are below `limit`.
     fn all_below(self, limit: Self::Lane) -> bool;
 
     /// From numbers in their order.
@@ -244,7 +240,7 @@ pub(in crate::scalar) fn blocks<P: Pack, const N: usize, const M: usize>(
     // What is no number may get lost here: its sine is none in either way.
     let mut largest = P::from_f64(0.0);
     for &angle in angles.as_flattened() {
-        largest = largest.larger(angle);
+        largest = largest.larger_size(angle);
     }
     if !largest.all_below(P::Lane::LIMIT) {
         // Copies for this block alone: were angles and results themselves lent
@@ -308,7 +304,7 @@ fn beyond<P: Pack, const N: usize>(angles: &[P; N], sines: &mut [P; N], cosines:
 /// One angle anywhere.
 #[inline(always)]
 fn one<T: Float>(angle: T) -> (T, T) {
-    let ([sine], [cosine]) = if T::One::splat(angle).all_below(T::LIMIT) {
+    let ([sine], [cosine]) = if T::One::from_f64(0.0).larger_size(T::One::splat(angle)).all_below(T::LIMIT) {
         common([T::One::splat(angle)])
     } else {
         let (quarter, [high, low]) = T::far(angle);
@@ -349,7 +345,7 @@ where
             *number = angle.0;
         }
         let pack = T::Several::from_numbers(numbers);
-        largest = largest.larger(pack);
+        largest = largest.larger_size(pack);
         let ([sine], [cosine]) = common([pack]);
         let (sine, cosine) = (sine.to_numbers(), cosine.to_numbers());
         let results = sines[first..].iter_mut().zip(&mut cosines[first..]);
