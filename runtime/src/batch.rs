@@ -46,7 +46,6 @@
 
 use alloc::vec::Vec;
 use core::fmt;
-use core::ops::Range;
 
 use crate::scalar::dispatch::{self, RegisterKernel};
 use crate::scalar::register::{Block, Register};
@@ -122,24 +121,17 @@ impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
         let outputs = alpha.len();
         let lengths = alpha.iter_mut().map(|s| s.as_mut().len());
         check(P::LINKS, count, "alpha", outputs, lengths)?;
-        let mut done = 0;
-        while done < count {
-            let blocks = Blocks {
-                pendulum: self.pendulum,
-                time,
-                states: done..count,
-                theta,
-                omega,
-                alpha: &mut *alpha,
-            };
-            done = dispatch::run_in_registers(self.instructions, blocks);
-            // States that are too few for a register, or have angles outside the
-            // common range of sines.
-            let end = count.min(done + ALONE);
-            for state in done..end {
-                self.one_by_one(time, state, theta, omega, alpha);
-            }
-            done = end;
+        let blocks = Blocks {
+            pendulum: self.pendulum,
+            time,
+            count,
+            theta,
+            omega,
+            alpha,
+        };
+        let done = dispatch::run_in_registers(self.instructions, blocks);
+        for state in done..count {
+            self.one_by_one(time, state, theta, omega, alpha);
         }
         Ok(())
     }
@@ -200,19 +192,16 @@ fn check(
     Ok(())
 }
 
-/// States that are computed one by one where one of them cannot be in registers:
-/// as many as the widest one holds.
-const ALONE: usize = 16;
-
-/// Links of a pendulum for which the next block is begun before the last is done:
-/// the values of both must find room in the registers.
+/// Links up to which two registers are computed in step. Neither has then enough
+/// operations that do not wait for each other; with more links, the values of two
+/// do not find room.
 const FEW: usize = 3;
 
-/// States a register at a time; lengths checked.
+/// All states, if they are enough for one register; lengths checked.
 struct Blocks<'a, P, T, In, On, Out> {
     pendulum: &'a P,
     time: T,
-    states: Range<usize>,
+    count: usize,
     theta: &'a [In],
     omega: &'a [On],
     alpha: &'a mut [Out],
@@ -226,18 +215,18 @@ where
     On: AsRef<[T]>,
     Out: AsMut<[T]>,
 {
-    /// The first state that it has not done.
+    /// How many states it has done.
     type Output = usize;
 
     #[inline(always)]
     fn run<R: Register<Lane = T>>(mut self) -> usize {
-        let Range { start: mut next, end } = self.states;
-        let Some(last) = end.checked_sub(R::LANES) else {
-            return next;
+        let Some(last) = self.count.checked_sub(R::LANES) else {
+            return 0;
         };
+        let mut next = 0;
         if P::LINKS <= FEW {
             let pendulum = self.pendulum.rescale(Block::<R, 2>::splat);
-            while next + 2 * R::LANES <= end {
+            while next + 2 * R::LANES <= self.count {
                 if !self.block(&pendulum, next) {
                     return next;
                 }
@@ -245,7 +234,7 @@ where
             }
         }
         let pendulum = self.pendulum.rescale(Block::<R, 1>::splat);
-        while next < end {
+        while next < self.count {
             // The last block overlaps the one before, where it would not be full:
             // some states are computed twice.
             let start = next.min(last);
@@ -266,8 +255,8 @@ where
     On: AsRef<[T]>,
     Out: AsMut<[T]>,
 {
-    /// The states from `start` on; false, and nothing done, if an angle is not
-    /// near.
+    /// The states from `start` on, as many as a block holds; false if there are
+    /// not so many.
     #[inline(always)]
     fn block<R: Register<Lane = T>, const N: usize>(
         &mut self,
@@ -282,10 +271,13 @@ where
         ) else {
             return false;
         };
-        for link in 0..P::LINKS {
+        // Known, and asked here so that the compiler knows it too and reads the
+        // numbers below without a question for each.
+        for (theta, omega) in theta.iter().zip(omega) {
             for i in 0..N {
-                if load::<R>(theta[link].as_ref(), start + i * R::LANES).is_none() ||
-                   load::<R>(omega[link].as_ref(), start + i * R::LANES).is_none() {
+                let start = start + i * R::LANES;
+                let angles = load::<R>(theta.as_ref(), start);
+                if angles.is_none() || load::<R>(omega.as_ref(), start).is_none() {
                     return false;
                 }
             }
@@ -300,8 +292,8 @@ where
                 };
                 for i in 0..N {
                     let start = start + i * R::LANES;
-                    if let Some(numbers) = slice.as_mut().get_mut(start..start + R::LANES) {
-                        value.0[i].store(numbers);
+                    if let Some(states) = slice.as_mut().get_mut(start..start + R::LANES) {
+                        value.0[i].store(states);
                     }
                 }
             },
@@ -310,13 +302,13 @@ where
     }
 }
 
-/// One register, with the states from `start` on.
+/// The register that starts with state `start`.
 #[inline(always)]
-fn load<R: Register>(slice: &[R::Lane], start: usize) -> Option<R> {
-    slice.get(start..start + R::LANES).and_then(R::load)
+fn load<R: Register>(states: &[R::Lane], start: usize) -> Option<R> {
+    states.get(start..start + R::LANES).and_then(R::load)
 }
 
-/// The registers of one link.
+/// The block of one link that starts with state `start`.
 #[inline(always)]
 fn load_block<R: Register, const N: usize>(
     slices: &[impl AsRef<[R::Lane]>],

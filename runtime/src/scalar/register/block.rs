@@ -6,11 +6,8 @@ use super::super::Scalar;
 use super::Register;
 use crate::model::Part;
 
-/// `N` registers that go through one computation together: while an operation on
-/// one waits for the last, the others keep the processor busy.
-///
-/// Their angles are known to be [`near`](Register::near), which leaves no branch
-/// in a computation.
+/// `N` registers that go through one computation in step: while an operation on
+/// one awaits the last, the others keep the processor busy.
 #[derive(Clone, Copy, Debug)]
 pub struct Block<R, const N: usize>(pub [R; N]);
 

@@ -46,10 +46,12 @@ pub trait Register: Scalar {
     /// This register's numbers in the lanes of `mask`, those of `other` elsewhere.
     fn choose(self, other: Self, mask: Self::Mask) -> Self;
 
-    /// The larger size, lane by lane; any of the two where one is no number.
+    /// The larger size, lane by lane; any of the two, or either, where one is no
+    /// number.
     fn larger_size(self, other: Self) -> Self;
 
-    /// [`Scalar::sin_cos_each`] of several registers for each angle.
+    /// Sines and cosines of `M` blocks: the same values as
+    /// [`Scalar::sin_cos_each`].
     #[inline(always)]
     fn sin_cos_blocks<const N: usize, const M: usize>(
         angles: &[[Self; N]; M],

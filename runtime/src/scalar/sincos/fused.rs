@@ -19,9 +19,10 @@ pub trait Pack: Register<Lane: Float> {
     /// As many numbers as it has lanes.
     type Array: Copy + AsRef<[Self::Lane]> + AsMut<[Self::Lane]>;
 
-    /// The results of a turn by a number of quarters, which stands in the lowest
-    /// bits of `quarter`, from those without it: odd numbers exchange sine and
-    /// cosine, and their second bits say the signs.
+    /// Sine and cosine after a turn by a number of quarters, which stands in the
+    /// lowest bits of `quarter`, from those without it: the sine is `high − lost`.
+    ///
+    /// From s and c, odd numbers make c and −s; the second bit changes both signs.
     fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self);
 
     /// Whether all numbers are below `limit`.
@@ -173,7 +174,8 @@ fn common<P: Pack, const G: usize>(angles: [P; G]) -> ([P; G], [P; G]) {
     turn(quarters, high, low)
 }
 
-/// Sines and cosines of quarter turns plus `high − low`.
+/// Sines and cosines of quarter turns plus `high − low`. What is awaited longest
+/// needs `high` alone; `low` comes in late.
 #[inline(always)]
 fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) -> ([P; G], [P; G]) {
     let one = P::from_f64(1.0);
@@ -182,15 +184,15 @@ fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) ->
     let tail = polynomial(square, P::Lane::SINE);
     let cube = for_each!(one; i => high[i] * square[i]);
     // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
-    let sine_lost = for_each!(one; i => (-cube[i]).mul_add(tail[i], low[i]));
+    let lost = for_each!(one; i => (-cube[i]).mul_add(tail[i], low[i]));
     let tail = polynomial(square, P::Lane::COSINE);
     let tail = for_each!(one; i => square[i].mul_add(tail[i], half));
-    // cos(high − low) = cos(high) + low high
-    let lost = for_each!(one; i => high[i].mul_add(tail[i], low[i]));
-    let cosine = for_each!(one; i => high[i].mul_add(lost[i], one));
+    // cos(high − low) = cos(high) + high low = 1 + high (high tail + low)
+    let slope = for_each!(one; i => high[i].mul_add(tail[i], low[i]));
+    let cosine = for_each!(one; i => high[i].mul_add(slope[i], one));
     let (mut sines, mut cosines) = (cosine, cosine);
     for i in 0..G {
-        (sines[i], cosines[i]) = P::exchange(quarters[i], high[i], sine_lost[i], cosine[i]);
+        (sines[i], cosines[i]) = P::exchange(quarters[i], high[i], lost[i], cosine[i]);
     }
     (sines, cosines)
 }
@@ -225,7 +227,8 @@ pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; 
     (sines, cosines)
 }
 
-/// The same of `M` times `N` registers.
+/// The same of `M` blocks of `N` registers, with one look at whether all are in
+/// the common range.
 #[inline(always)]
 pub(in crate::scalar) fn blocks<P: Pack, const N: usize, const M: usize>(
     angles: &[[P; N]; M],
@@ -252,7 +255,7 @@ pub(in crate::scalar) fn blocks<P: Pack, const N: usize, const M: usize>(
         }
         for j in 0..M {
             for i in 0..N {
-            (sines[j][i], cosines[j][i]) = (far_sines[j][i], far_cosines[j][i]);
+                (sines[j][i], cosines[j][i]) = (far_sines[j][i], far_cosines[j][i]);
             }
         }
     }
@@ -304,7 +307,10 @@ fn beyond<P: Pack, const N: usize>(angles: &[P; N], sines: &mut [P; N], cosines:
 /// One angle anywhere.
 #[inline(always)]
 fn one<T: Float>(angle: T) -> (T, T) {
-    let ([sine], [cosine]) = if T::One::from_f64(0.0).larger_size(T::One::splat(angle)).all_below(T::LIMIT) {
+    let ([sine], [cosine]) = if T::One::from_f64(0.0)
+        .larger_size(T::One::splat(angle))
+        .all_below(T::LIMIT)
+    {
         common([T::One::splat(angle)])
     } else {
         let (quarter, [high, low]) = T::far(angle);
