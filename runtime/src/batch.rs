@@ -48,8 +48,8 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use crate::scalar::dispatch::{self, RegisterKernel};
-use crate::scalar::register::Register;
-use crate::scalar::{InstructionSet, Lane};
+use crate::scalar::register::{Block, Register};
+use crate::scalar::{InstructionSet, Lane, Scalar};
 use crate::system::Rescale;
 use crate::system::rescale;
 
@@ -121,17 +121,15 @@ impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
         let outputs = alpha.len();
         let lengths = alpha.iter_mut().map(|s| s.as_mut().len());
         check(P::LINKS, count, "alpha", outputs, lengths)?;
-        let done = dispatch::run_in_registers(
-            self.instructions,
-            Blocks {
-                pendulum: self.pendulum,
-                time,
-                count,
-                theta,
-                omega,
-                alpha,
-            },
-        );
+        let blocks = Blocks {
+            pendulum: self.pendulum,
+            time,
+            count,
+            theta,
+            omega,
+            alpha,
+        };
+        let done = dispatch::run_in_registers(self.instructions, blocks);
         for state in done..count {
             self.one_by_one(time, state, theta, omega, alpha);
         }
@@ -194,6 +192,11 @@ fn check(
     Ok(())
 }
 
+/// Links up to which two registers are computed in step. Neither has then enough
+/// operations that do not wait for each other; with more links, the values of two
+/// do not find room.
+const FEW: usize = 3;
+
 /// All states, if they are enough for one register; lengths checked.
 struct Blocks<'a, P, T, In, On, Out> {
     pendulum: &'a P,
@@ -216,50 +219,112 @@ where
     type Output = usize;
 
     #[inline(always)]
-    fn run<R: Register<Lane = T>>(self) -> usize {
+    fn run<R: Register<Lane = T>>(mut self) -> usize {
+        let Some(last) = self.count.checked_sub(R::LANES) else {
+            return 0;
+        };
+        let mut next = 0;
+        if P::LINKS <= FEW {
+            let pendulum = self.pendulum.rescale(Block::<R, 2>::splat);
+            while next + 2 * R::LANES <= self.count {
+                if !self.block(&pendulum, next) {
+                    return next;
+                }
+                next += 2 * R::LANES;
+            }
+        }
+        let pendulum = self.pendulum.rescale(Block::<R, 1>::splat);
+        while next < self.count {
+            // The last block overlaps the one before, where it would not be full:
+            // some states are computed twice.
+            let start = next.min(last);
+            if !self.block(&pendulum, start) {
+                return next;
+            }
+            next = start + R::LANES;
+        }
+        next
+    }
+}
+
+impl<P, T, In, On, Out> Blocks<'_, P, T, In, On, Out>
+where
+    P: Rescale<T>,
+    T: Lane,
+    In: AsRef<[T]>,
+    On: AsRef<[T]>,
+    Out: AsMut<[T]>,
+{
+    /// The states from `start` on, as many as a block holds; false if there are
+    /// not so many.
+    #[inline(always)]
+    fn block<R: Register<Lane = T>, const N: usize>(
+        &mut self,
+        pendulum: &P::Of<Block<R, N>>,
+        start: usize,
+    ) -> bool {
         // Links as many as the compiler knows them to be.
         let (Some(theta), Some(omega), Some(alpha)) = (
             self.theta.get(..P::LINKS),
             self.omega.get(..P::LINKS),
             self.alpha.get_mut(..P::LINKS),
         ) else {
-            return 0;
+            return false;
         };
-        let Some(last) = self.count.checked_sub(R::LANES) else {
-            return 0;
-        };
-        let pendulum = self.pendulum.rescale(R::splat);
-        let time = R::splat(self.time);
-        let mut next = 0;
-        while next < self.count {
-            // The last block overlaps the one before, where it would not be full:
-            // some states are computed twice.
-            let end = next.min(last) + R::LANES;
-            pendulum.evaluate(
-                time,
-                |link| load(theta, link, end),
-                |link| load(omega, link, end),
-                |link, value: R| {
-                    if let Some(slice) = alpha.get_mut(link) {
-                        value.store_last(slice.as_mut().get_mut(..end).unwrap_or_default());
-                    }
-                },
-            );
-            next = end;
+        // Known, and asked here so that the compiler knows it too and reads the
+        // numbers below without a question for each.
+        for (theta, omega) in theta.iter().zip(omega) {
+            for i in 0..N {
+                let start = start + i * R::LANES;
+                let angles = load::<R>(theta.as_ref(), start);
+                if angles.is_none() || load::<R>(omega.as_ref(), start).is_none() {
+                    return false;
+                }
+            }
         }
-        self.count
+        pendulum.evaluate(
+            Block::splat(self.time),
+            |link| load_block(theta, link, start),
+            |link| load_block(omega, link, start),
+            |link, value: Block<R, N>| {
+                let Some(slice) = alpha.get_mut(link) else {
+                    return;
+                };
+                for i in 0..N {
+                    let start = start + i * R::LANES;
+                    if let Some(states) = slice.as_mut().get_mut(start..start + R::LANES) {
+                        value.0[i].store(states);
+                    }
+                }
+            },
+        );
+        true
     }
 }
 
-/// One register of one link, that ends before state `end`.
+/// The register that starts with state `start`.
 #[inline(always)]
-fn load<R: Register>(slices: &[impl AsRef<[R::Lane]>], link: usize, end: usize) -> R {
-    let block = slices.get(link).and_then(|slice| slice.as_ref().get(..end));
-    match R::load_last(block.unwrap_or_default()) {
-        Some(register) => register,
-        // Lengths have been checked.
-        None => R::from_f64(f64::NAN),
+fn load<R: Register>(states: &[R::Lane], start: usize) -> Option<R> {
+    states.get(start..start + R::LANES).and_then(R::load)
+}
+
+/// The block of one link that starts with state `start`.
+#[inline(always)]
+fn load_block<R: Register, const N: usize>(
+    slices: &[impl AsRef<[R::Lane]>],
+    link: usize,
+    start: usize,
+) -> Block<R, N> {
+    // Lengths have been checked.
+    let mut block = Block::from_f64(f64::NAN);
+    if let Some(slice) = slices.get(link) {
+        for i in 0..N {
+            if let Some(register) = load(slice.as_ref(), start + i * R::LANES) {
+                block.0[i] = register;
+            }
+        }
     }
+    block
 }
 
 /// Arguments of a batch that do not fit together.

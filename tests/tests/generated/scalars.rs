@@ -25,9 +25,10 @@ fn states(links: usize, count: usize) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     (columns(40.0), columns(9.0))
 }
 
-/// Batches of every count up to two blocks and a half, for every instruction
-/// set, against one state after the other: through `accelerations_into` where
-/// the registers fuse, by the plain function where they do not.
+/// Batches of every count up to two registers and a half, and of some up to two
+/// pairs of registers and a half, for every instruction set, against one state
+/// after the other: through `accelerations_into` where the registers fuse, by the
+/// plain function where they do not.
 fn batch_agrees<T: Lane, P: Rescale<T>, const N: usize>(
     model: &P,
     plain: impl Fn(&[T; N], &[T; N]) -> [T; N],
@@ -35,13 +36,16 @@ fn batch_agrees<T: Lane, P: Rescale<T>, const N: usize>(
     bits: fn(T) -> u64,
 ) {
     let number = |column: Vec<f64>| -> Vec<T> { column.into_iter().map(convert).collect() };
-    for count in 0..40 {
+    for count in (0..40).chain(63..82) {
         let (theta, omega) = states(N, count);
         let mut theta: Vec<Vec<T>> = theta.into_iter().map(number).collect();
         let omega: Vec<Vec<T>> = omega.into_iter().map(number).collect();
         if let Some(angle) = theta[0].get_mut(2) {
             // Beyond the common range of sine and cosine.
             *angle = convert(1e9);
+        }
+        if let Some(angle) = theta[1].get_mut(37) {
+            *angle = convert(-1e9);
         }
         for set in InstructionSet::ALL {
             let mut alpha = vec![vec![convert(0.0); count]; N];

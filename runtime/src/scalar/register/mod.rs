@@ -10,10 +10,12 @@
 // `pub`, and can be reached by no one.
 #![allow(unreachable_pub)]
 
+mod block;
 mod one;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub(crate) use block::Block;
 pub use one::Fused;
 #[cfg(target_arch = "x86_64")]
 pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
@@ -44,8 +46,23 @@ pub trait Register: Scalar {
     /// This register's numbers in the lanes of `mask`, those of `other` elsewhere.
     fn choose(self, other: Self, mask: Self::Mask) -> Self;
 
-    /// The larger size, lane by lane; any of the two where one is no number.
+    /// The larger size, lane by lane; any of the two, or either, where one is no
+    /// number.
     fn larger_size(self, other: Self) -> Self;
+
+    /// Sines and cosines of `M` blocks: the same values as
+    /// [`Scalar::sin_cos_each`].
+    #[inline(always)]
+    fn sin_cos_blocks<const N: usize, const M: usize>(
+        angles: &[[Self; N]; M],
+    ) -> ([[Self; N]; M], [[Self; N]; M]) {
+        let zero = [[Self::from_f64(0.0); N]; M];
+        let (mut sines, mut cosines) = (zero, zero);
+        for j in 0..M {
+            (sines[j], cosines[j]) = Self::sin_cos_each(&angles[j]);
+        }
+        (sines, cosines)
+    }
 
     /// The same number in every lane.
     fn splat(value: Self::Lane) -> Self;

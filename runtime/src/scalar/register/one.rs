@@ -91,7 +91,7 @@ macro_rules! fused {
 
             #[inline(always)]
             fn larger_size(self, other: Self) -> Self {
-                fused::Pack::larger(self, other)
+                Self(self.0.abs().max(other.0.abs()))
             }
 
             #[inline(always)]
@@ -125,15 +125,11 @@ macro_rules! fused {
         }
 
         impl fused::Pack for Fused<$float> {
-            #[inline(always)]
-            fn larger(self, other: Self) -> Self {
-                Self(self.0.abs().max(other.0.abs()))
-            }
-
             type Array = [$float; 1];
 
             #[inline(always)]
-            fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
+            fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
+                let sine = high - lost;
                 let (quarter, sine, cosine) =
                     (quarter.0.to_bits(), sine.0.to_bits(), cosine.0.to_bits());
                 let sign = (-0.0 as $float).to_bits();
@@ -145,7 +141,7 @@ macro_rules! fused {
 
             #[inline(always)]
             fn all_below(self, limit: $float) -> bool {
-                self.0.abs() < limit
+                self.0 < limit
             }
 
             #[inline(always)]

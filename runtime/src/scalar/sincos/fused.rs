@@ -19,16 +19,13 @@ pub trait Pack: Register<Lane: Float> {
     /// As many numbers as it has lanes.
     type Array: Copy + AsRef<[Self::Lane]> + AsMut<[Self::Lane]>;
 
-    /// The results of a turn by a number of quarters, which stands in the lowest
-    /// bits of `quarter`, from those without it: odd numbers exchange sine and
-    /// cosine, and their second bits say the signs.
-    fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self);
+    /// Sine and cosine after a turn by a number of quarters, which stands in the
+    /// lowest bits of `quarter`, from those without it: the sine is `high − lost`.
+    ///
+    /// From s and c, odd numbers make c and −s; the second bit changes both signs.
+    fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self);
 
-    /// The larger size, lane by lane; any of the two, or either, where one is no
-    /// number.
-    fn larger(self, other: Self) -> Self;
-
-    /// Whether the sizes of all numbers are below `limit`.
+    /// Whether all numbers are below `limit`.
     fn all_below(self, limit: Self::Lane) -> bool;
 
     /// From numbers in their order.
@@ -177,25 +174,25 @@ fn common<P: Pack, const G: usize>(angles: [P; G]) -> ([P; G], [P; G]) {
     turn(quarters, high, low)
 }
 
-/// Sines and cosines of quarter turns plus `high − low`.
+/// Sines and cosines of quarter turns plus `high − low`. What is awaited longest
+/// needs `high` alone; `low` comes in late.
 #[inline(always)]
 fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) -> ([P; G], [P; G]) {
     let one = P::from_f64(1.0);
     let half = P::from_f64(-0.5);
-    // (high − low)², but for low².
-    let twice = for_each!(one; i => high[i] * (low[i] + low[i]));
-    let square = for_each!(one; i => high[i].mul_add(high[i], -twice[i]));
+    let square = for_each!(one; i => high[i] * high[i]);
     let tail = polynomial(square, P::Lane::SINE);
     let cube = for_each!(one; i => high[i] * square[i]);
     // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
     let lost = for_each!(one; i => (-cube[i]).mul_add(tail[i], low[i]));
-    let sine = for_each!(one; i => high[i] - lost[i]);
     let tail = polynomial(square, P::Lane::COSINE);
     let tail = for_each!(one; i => square[i].mul_add(tail[i], half));
-    let cosine = for_each!(one; i => square[i].mul_add(tail[i], one));
-    let (mut sines, mut cosines) = (sine, cosine);
+    // cos(high − low) = cos(high) + high low = 1 + high (high tail + low)
+    let slope = for_each!(one; i => high[i].mul_add(tail[i], low[i]));
+    let cosine = for_each!(one; i => high[i].mul_add(slope[i], one));
+    let (mut sines, mut cosines) = (cosine, cosine);
     for i in 0..G {
-        (sines[i], cosines[i]) = P::exchange(quarters[i], sine[i], cosine[i]);
+        (sines[i], cosines[i]) = P::exchange(quarters[i], high[i], lost[i], cosine[i]);
     }
     (sines, cosines)
 }
@@ -226,35 +223,59 @@ fn polynomial<P: Pack, const G: usize>(x: [P; G], coefficients: &[P::Lane]) -> [
 /// Sines and cosines of angles in registers.
 #[inline(always)]
 pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
-    let zero = P::from_f64(0.0);
-    let (mut sines, mut cosines) = ([zero; N], [zero; N]);
+    let ([sines], [cosines]) = blocks(&[*angles]);
+    (sines, cosines)
+}
+
+/// The same of `M` blocks of `N` registers, with one look at whether all are in
+/// the common range.
+#[inline(always)]
+pub(in crate::scalar) fn blocks<P: Pack, const N: usize, const M: usize>(
+    angles: &[[P; N]; M],
+) -> ([[P; N]; M], [[P; N]; M]) {
+    let zero = [[P::from_f64(0.0); N]; M];
+    let (mut sines, mut cosines) = (zero, zero);
+    near(
+        angles.as_flattened(),
+        sines.as_flattened_mut(),
+        cosines.as_flattened_mut(),
+    );
     // What is no number may get lost here: its sine is none in either way.
-    let mut largest = zero;
-    for &angle in angles {
-        largest = largest.larger(angle);
-    }
-    let mut start = 0;
-    while start + GROUP <= N {
-        group::<P, GROUP>(angles, &mut sines, &mut cosines, start);
-        start += GROUP;
-    }
-    match N % GROUP {
-        0 => {}
-        1 => group::<P, 1>(angles, &mut sines, &mut cosines, start),
-        2 => group::<P, 2>(angles, &mut sines, &mut cosines, start),
-        _ => group::<P, 3>(angles, &mut sines, &mut cosines, start),
+    let mut largest = P::from_f64(0.0);
+    for &angle in angles.as_flattened() {
+        largest = largest.larger_size(angle);
     }
     if !largest.all_below(P::Lane::LIMIT) {
         // Copies for this block alone: were angles and results themselves lent
         // out, they would live in memory on the common path too.
-        let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
+        let (mut far_sines, mut far_cosines) = (zero, zero);
         let angles = black_box(*angles);
-        beyond(&angles, &mut far_sines, &mut far_cosines);
-        for i in 0..N {
-            (sines[i], cosines[i]) = (far_sines[i], far_cosines[i]);
+        for j in 0..M {
+            beyond(&angles[j], &mut far_sines[j], &mut far_cosines[j]);
+        }
+        for j in 0..M {
+            for i in 0..N {
+                (sines[j][i], cosines[j][i]) = (far_sines[j][i], far_cosines[j][i]);
+            }
         }
     }
     (sines, cosines)
+}
+
+/// Sines and cosines of angles in the common range.
+#[inline(always)]
+fn near<P: Pack>(angles: &[P], sines: &mut [P], cosines: &mut [P]) {
+    let mut start = 0;
+    while start + GROUP <= angles.len() {
+        group::<P, GROUP>(angles, sines, cosines, start);
+        start += GROUP;
+    }
+    match angles.len() % GROUP {
+        0 => {}
+        1 => group::<P, 1>(angles, sines, cosines, start),
+        2 => group::<P, 2>(angles, sines, cosines, start),
+        _ => group::<P, 3>(angles, sines, cosines, start),
+    }
 }
 
 /// The `G` angles from `start` on.
@@ -286,7 +307,10 @@ fn beyond<P: Pack, const N: usize>(angles: &[P; N], sines: &mut [P; N], cosines:
 /// One angle anywhere.
 #[inline(always)]
 fn one<T: Float>(angle: T) -> (T, T) {
-    let ([sine], [cosine]) = if T::One::splat(angle).all_below(T::LIMIT) {
+    let ([sine], [cosine]) = if T::One::from_f64(0.0)
+        .larger_size(T::One::splat(angle))
+        .all_below(T::LIMIT)
+    {
         common([T::One::splat(angle)])
     } else {
         let (quarter, [high, low]) = T::far(angle);
@@ -327,7 +351,7 @@ where
             *number = angle.0;
         }
         let pack = T::Several::from_numbers(numbers);
-        largest = largest.larger(pack);
+        largest = largest.larger_size(pack);
         let ([sine], [cosine]) = common([pack]);
         let (sine, cosine) = (sine.to_numbers(), cosine.to_numbers());
         let results = sines[first..].iter_mut().zip(&mut cosines[first..]);

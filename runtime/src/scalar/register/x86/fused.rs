@@ -1,0 +1,209 @@
+//! Registers of AVX2 and AVX-512: products fuse with sums, and sines are the
+//! fused ones.
+
+use core::arch::x86_64::*;
+
+use super::super::super::sincos::{double, fused};
+use super::super::super::{Scalar, dispatch};
+use super::super::Register;
+use super::{F32x8, F32x16, F64x4, F64x8};
+use crate::model::{Part, PartOf};
+
+// SAFETY, for all calls of instructions: see the file above.
+
+macro_rules! fused {
+    ($name:ident: $lane:ident, $fused:ident, $outlined:ident) => {
+        impl Scalar for $name {
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                Self::splat(<$lane as Scalar>::from_f64(value))
+            }
+
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                // SAFETY: see the file above.
+                Self(unsafe { $fused(self.0, factor.0, addend.0) })
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                let ([sine], [cosine]) = Self::sin_cos_each(&[self]);
+                (sine, cosine)
+            }
+
+            #[inline(always)]
+            fn sin_cos_each<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
+                fused::each(angles)
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                self.root()
+            }
+
+            #[inline(always)]
+            fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(
+                model: &M,
+                arguments: A,
+            ) -> M::Output {
+                dispatch::$outlined(PartOf { model, arguments })
+            }
+        }
+    };
+}
+
+fused!(F64x4: f64, _mm256_fmadd_pd, outlined_avx2);
+fused!(F32x8: f32, _mm256_fmadd_ps, outlined_avx2);
+fused!(F64x8: f64, _mm512_fmadd_pd, outlined_avx512);
+fused!(F32x16: f32, _mm512_fmadd_ps, outlined_avx512);
+
+/// For plain numbers, which do not fuse.
+impl double::Pack for F64x4 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Register::splat(value)
+    }
+
+    #[inline(always)]
+    fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
+        // SAFETY: see the file above.
+        unsafe {
+            let sign = _mm256_set1_pd(-0.0);
+            let quarter = _mm256_castpd_si256(quarter.0);
+            let next = _mm256_add_epi64(quarter, _mm256_set1_epi64x(1));
+            // Blends look at the highest bits.
+            let odd = _mm256_castsi256_pd(_mm256_slli_epi64::<63>(quarter));
+            let sine_signs = _mm256_castsi256_pd(_mm256_slli_epi64::<62>(quarter));
+            let cosine_signs = _mm256_castsi256_pd(_mm256_slli_epi64::<62>(next));
+            let turned_sine = _mm256_blendv_pd(sine.0, cosine.0, odd);
+            let turned_cosine = _mm256_blendv_pd(cosine.0, sine.0, odd);
+            (
+                Self(_mm256_xor_pd(turned_sine, _mm256_and_pd(sign, sine_signs))),
+                Self(_mm256_xor_pd(
+                    turned_cosine,
+                    _mm256_and_pd(sign, cosine_signs),
+                )),
+            )
+        }
+    }
+}
+
+/// Those of AVX2 as [`fused::Pack`].
+macro_rules! avx2 {
+    (
+        $name:ident = $lanes:literal of $lane:ident, $splat:ident,
+        $integers:ident, $numbers:ident, $shift:ident by $parity:literal and $sign:literal,
+        $and:ident, $xor:ident, $blend:ident, $compare:ident, $mask:ident
+    ) => {
+        impl fused::Pack for $name {
+            type Array = [$lane; $lanes];
+
+            #[inline(always)]
+            fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
+                // SAFETY: see the file above.
+                unsafe {
+                    let quarter = $integers(quarter.0);
+                    // Blends look at the highest bits.
+                    let odd = $numbers($shift::<$parity>(quarter));
+                    let signs = $and($splat(-0.0), $numbers($shift::<$sign>(quarter)));
+                    let sine = $blend((high - lost).0, cosine.0, odd);
+                    let cosine = $blend(cosine.0, (lost - high).0, odd);
+                    (Self($xor(sine, signs)), Self($xor(cosine, signs)))
+                }
+            }
+
+            #[inline(always)]
+            fn all_below(self, limit: $lane) -> bool {
+                // SAFETY: see the file above.
+                unsafe {
+                    let below = $compare::<_CMP_LT_OQ>(self.0, $splat(limit));
+                    $mask(below) == (1 << $lanes) - 1
+                }
+            }
+
+            #[inline(always)]
+            fn from_numbers(numbers: Self::Array) -> Self {
+                Self::from_array(numbers)
+            }
+
+            #[inline(always)]
+            fn to_numbers(self) -> Self::Array {
+                self.to_array()
+            }
+        }
+    };
+}
+
+avx2! {
+    F64x4 = 4 of f64, _mm256_set1_pd,
+    _mm256_castpd_si256, _mm256_castsi256_pd, _mm256_slli_epi64 by 63 and 62,
+    _mm256_and_pd, _mm256_xor_pd, _mm256_blendv_pd, _mm256_cmp_pd, _mm256_movemask_pd
+}
+
+avx2! {
+    F32x8 = 8 of f32, _mm256_set1_ps,
+    _mm256_castps_si256, _mm256_castsi256_ps, _mm256_slli_epi32 by 31 and 30,
+    _mm256_and_ps, _mm256_xor_ps, _mm256_blendv_ps, _mm256_cmp_ps, _mm256_movemask_ps
+}
+
+/// a ⊕ (b ∧ c), bit by bit, as the table of a ternary instruction.
+const XOR_AND: i32 = 0x78;
+
+/// Those of AVX-512.
+macro_rules! avx512 {
+    (
+        $name:ident = $lanes:literal of $lane:ident, $splat:ident, $integer:ident,
+        $integers:ident, $numbers:ident, $shift:ident by $sign:literal, $test:ident,
+        $ternary:ident, $choose:ident, $subtract:ident, $compare:ident
+    ) => {
+        impl fused::Pack for $name {
+            type Array = [$lane; $lanes];
+
+            #[inline(always)]
+            fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
+                // SAFETY: see the file above.
+                unsafe {
+                    let sign = $integers($splat(-0.0));
+                    let quarter = $integers(quarter.0);
+                    // Writing a mask takes the time of a product: one serves both.
+                    let odd = $test(quarter, $integer(1));
+                    let signs = $shift::<$sign>(quarter);
+                    let sine = $integers($choose((high - lost).0, odd, cosine.0));
+                    let cosine = $integers($subtract(cosine.0, odd, lost.0, high.0));
+                    (
+                        Self($numbers($ternary::<XOR_AND>(sine, signs, sign))),
+                        Self($numbers($ternary::<XOR_AND>(cosine, signs, sign))),
+                    )
+                }
+            }
+
+            #[inline(always)]
+            fn all_below(self, limit: $lane) -> bool {
+                // SAFETY: see the file above.
+                unsafe { $compare::<_CMP_LT_OQ>(self.0, $splat(limit)) == !0 }
+            }
+
+            #[inline(always)]
+            fn from_numbers(numbers: Self::Array) -> Self {
+                Self::from_array(numbers)
+            }
+
+            #[inline(always)]
+            fn to_numbers(self) -> Self::Array {
+                self.to_array()
+            }
+        }
+    };
+}
+
+avx512! {
+    F64x8 = 8 of f64, _mm512_set1_pd, _mm512_set1_epi64,
+    _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_slli_epi64 by 62, _mm512_test_epi64_mask,
+    _mm512_ternarylogic_epi64, _mm512_mask_mov_pd, _mm512_mask_sub_pd, _mm512_cmp_pd_mask
+}
+
+avx512! {
+    F32x16 = 16 of f32, _mm512_set1_ps, _mm512_set1_epi32,
+    _mm512_castps_si512, _mm512_castsi512_ps, _mm512_slli_epi32 by 30, _mm512_test_epi32_mask,
+    _mm512_ternarylogic_epi32, _mm512_mask_mov_ps, _mm512_mask_sub_ps, _mm512_cmp_ps_mask
+}

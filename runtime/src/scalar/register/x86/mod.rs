@@ -1,0 +1,218 @@
+//! Registers of x86-64: SSE2, AVX2 with FMA, AVX-512.
+//!
+//! Here are the types and what they share; how they fuse and find sines is in
+//! [`plain`] for those of SSE2, in [`fused`] for the others.
+
+#![allow(unsafe_code)]
+
+mod fused;
+mod plain;
+
+use core::arch::x86_64::*;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::super::sincos;
+use super::Register;
+use crate::generations::With;
+
+// SAFETY, for all calls of instructions here and in the two files: those of SSE2 belong to every
+// x86-64 machine. Values of the wider types arise in computations started by
+// `dispatch` alone, which has asked the machine for the instructions; nothing
+// public takes or gives them. None of these instructions touches memory. The
+// types hold so many numbers of that size, in order and without padding, which
+// makes the transmutations right.
+
+/// How registers compute the sines of blocks; without a word, as by default.
+macro_rules! blocks {
+    () => {};
+    (fused) => {
+        #[inline(always)]
+        fn sin_cos_blocks<const N: usize, const M: usize>(
+            angles: &[[Self; N]; M],
+        ) -> ([[Self; N]; M], [[Self; N]; M]) {
+            sincos::fused::blocks(angles)
+        }
+    };
+}
+
+/// The larger of two sizes: the greater after signs are gone, or by the one
+/// instruction that AVX-512 has for it.
+macro_rules! larger {
+    (_mm512_range_pd, $andnot:ident, $one:ident, $other:ident) => {
+        // SAFETY: see the top.
+        Self(unsafe { _mm512_range_pd::<LARGER_SIZE>($one.0, $other.0) })
+    };
+    (_mm512_range_ps, $andnot:ident, $one:ident, $other:ident) => {
+        // SAFETY: see the top.
+        Self(unsafe { _mm512_range_ps::<LARGER_SIZE>($one.0, $other.0) })
+    };
+    ($max:ident, $andnot:ident, $one:ident, $other:ident) => {{
+        let sign = Self::splat(-0.0).0;
+        // SAFETY: see the top.
+        Self(unsafe { $max($andnot(sign, $one.0), $andnot(sign, $other.0)) })
+    }};
+}
+
+/// What `range` is to choose: the operand of larger size, without its sign.
+const LARGER_SIZE: i32 = 0b1011;
+
+macro_rules! register {
+    (
+        $(#[$docs:meta])*
+        $name:ident: $vector:ident = $lanes:literal of $lane:ident,
+        $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident,
+        $and:ident, $andnot:ident, $or:ident, larger: $larger:ident $(, sines: $sines:ident)?
+    ) => {
+        $(#[$docs])*
+        #[derive(Clone, Copy, Debug)]
+        #[repr(transparent)]
+        pub struct $name(pub(in crate::scalar) $vector);
+
+        register!($name, Add, add, $add);
+        register!($name, Sub, sub, $sub);
+        register!($name, Mul, mul, $mul);
+        register!($name, Div, div, $div);
+
+        impl Neg for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn neg(self) -> Self {
+                // The compiler knows this as a change of sign.
+                Self::splat(-0.0) - self
+            }
+        }
+
+        impl $name {
+            #[inline(always)]
+            pub(in crate::scalar) fn from_array(numbers: [$lane; $lanes]) -> Self {
+                // SAFETY: see the top.
+                Self(unsafe { core::mem::transmute::<[$lane; $lanes], $vector>(numbers) })
+            }
+
+            #[inline(always)]
+            pub(in crate::scalar) fn to_array(self) -> [$lane; $lanes] {
+                // SAFETY: see the top.
+                unsafe { core::mem::transmute::<$vector, [$lane; $lanes]>(self.0) }
+            }
+
+            #[inline(always)]
+            fn root(self) -> Self {
+                // SAFETY: see the top.
+                Self(unsafe { $sqrt(self.0) })
+            }
+        }
+
+        impl Register for $name {
+            type Lane = $lane;
+            type Vectors = With<Self>;
+            /// All bits set, or none.
+            type Mask = Self;
+
+            const LANES: usize = $lanes;
+
+            blocks!($($sines)?);
+
+            #[inline(always)]
+            fn mask(meant: impl Fn(usize) -> bool) -> Self {
+                Self::from_array(core::array::from_fn(|lane| {
+                    $lane::from_bits(if meant(lane) { !0 } else { 0 })
+                }))
+            }
+
+            #[inline(always)]
+            fn choose(self, other: Self, mask: Self) -> Self {
+                // SAFETY: see the top.
+                Self(unsafe { $or($and(mask.0, self.0), $andnot(mask.0, other.0)) })
+            }
+
+            #[inline(always)]
+            fn larger_size(self, other: Self) -> Self {
+                larger!($larger, $andnot, self, other)
+            }
+
+            #[inline(always)]
+            fn splat(value: $lane) -> Self {
+                // SAFETY: see the top.
+                Self(unsafe { $splat(value) })
+            }
+
+            #[inline(always)]
+            fn load(numbers: &[$lane]) -> Option<Self> {
+                numbers.first_chunk().copied().map(Self::from_array)
+            }
+
+            #[inline(always)]
+            fn store(self, numbers: &mut [$lane]) {
+                if let Some(front) = numbers.first_chunk_mut() {
+                    *front = self.to_array();
+                }
+            }
+
+            #[inline(always)]
+            fn load_last(numbers: &[$lane]) -> Option<Self> {
+                numbers.last_chunk().copied().map(Self::from_array)
+            }
+
+            #[inline(always)]
+            fn store_last(self, numbers: &mut [$lane]) {
+                if let Some(back) = numbers.last_chunk_mut() {
+                    *back = self.to_array();
+                }
+            }
+        }
+    };
+    ($name:ident, $trait:ident, $function:ident, $instruction:ident) => {
+        impl $trait for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                // SAFETY: see the top.
+                Self(unsafe { $instruction(self.0, other.0) })
+            }
+        }
+    };
+}
+
+register! {
+    /// A register of SSE2.
+    F64x2: __m128d = 2 of f64,
+    _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd,
+    _mm_and_pd, _mm_andnot_pd, _mm_or_pd, larger: _mm_max_pd
+}
+
+register! {
+    /// A register of SSE2.
+    F32x4: __m128 = 4 of f32,
+    _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps,
+    _mm_and_ps, _mm_andnot_ps, _mm_or_ps, larger: _mm_max_ps
+}
+
+register! {
+    /// A register of AVX2.
+    F64x4: __m256d = 4 of f64,
+    _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
+    _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd, larger: _mm256_max_pd, sines: fused
+}
+
+register! {
+    /// A register of AVX2.
+    F32x8: __m256 = 8 of f32,
+    _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps,
+    _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps, larger: _mm256_max_ps, sines: fused
+}
+
+register! {
+    /// A register of AVX-512.
+    F64x8: __m512d = 8 of f64,
+    _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_sqrt_pd,
+    _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd, larger: _mm512_range_pd, sines: fused
+}
+
+register! {
+    /// A register of AVX-512.
+    F32x16: __m512 = 16 of f32,
+    _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps,
+    _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps, larger: _mm512_range_ps, sines: fused
+}
