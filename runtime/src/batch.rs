@@ -230,6 +230,7 @@ where
         };
         let pendulum = self.pendulum.rescale(R::splat);
         let time = R::splat(self.time);
+        let nothing = R::splat(T::from_f64(f64::NAN)).to_chunk();
         let mut next = 0;
         while next < self.count {
             // The last block overlaps the one before, where it would not be full:
@@ -237,8 +238,8 @@ where
             let end = next.min(last) + R::LANES;
             pendulum.evaluate(
                 time,
-                |link| load(theta, link, end),
-                |link| load(omega, link, end),
+                |link| load(theta, link, end, &nothing),
+                |link| load(omega, link, end, &nothing),
                 |link, value: R| {
                     if let Some(slice) = alpha.get_mut(link) {
                         value.store_last(slice.as_mut().get_mut(..end).unwrap_or_default());
@@ -251,15 +252,18 @@ where
     }
 }
 
-/// One register of one link, that ends before state `end`.
+/// One register of one link, that ends before state `end`; `nothing` where the
+/// slice is too short, which has been excluded. Chosen between are places and not
+/// numbers, so that these are read where they are needed.
 #[inline(always)]
-fn load<R: Register>(slices: &[impl AsRef<[R::Lane]>], link: usize, end: usize) -> R {
+fn load<R: Register>(
+    slices: &[impl AsRef<[R::Lane]>],
+    link: usize,
+    end: usize,
+    nothing: &R::Chunk,
+) -> R {
     let block = slices.get(link).and_then(|slice| slice.as_ref().get(..end));
-    match R::load_last(block.unwrap_or_default()) {
-        Some(register) => register,
-        // Lengths have been checked.
-        None => R::from_f64(f64::NAN),
-    }
+    R::from_chunk(block.and_then(R::last_chunk).unwrap_or(nothing))
 }
 
 /// Arguments of a batch that do not fit together.

@@ -6,6 +6,7 @@ use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::super::sincos::{double, fused, sin_cos_f32};
+use super::super::turns::Turned;
 use super::super::{Scalar, dispatch};
 use super::Register;
 use crate::generations::With;
@@ -70,6 +71,7 @@ macro_rules! register {
             type Vectors = With<Self>;
             /// All bits set, or none.
             type Mask = Self;
+            type Chunk = [$lane; $lanes];
 
             const LANES: usize = $lanes;
 
@@ -112,8 +114,18 @@ macro_rules! register {
             }
 
             #[inline(always)]
-            fn load_last(numbers: &[$lane]) -> Option<Self> {
-                numbers.last_chunk().copied().map(Self::from_array)
+            fn last_chunk(numbers: &[$lane]) -> Option<&[$lane; $lanes]> {
+                numbers.last_chunk()
+            }
+
+            #[inline(always)]
+            fn from_chunk(numbers: &[$lane; $lanes]) -> Self {
+                Self::from_array(*numbers)
+            }
+
+            #[inline(always)]
+            fn to_chunk(self) -> [$lane; $lanes] {
+                self.to_array()
             }
 
             #[inline(always)]
@@ -203,6 +215,16 @@ macro_rules! fused {
             #[inline(always)]
             fn sin_cos_each<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
                 fused::each(angles)
+            }
+
+            #[inline(always)]
+            fn sin_cos_ahead<const N: usize>(angles: &[Self; N]) -> Option<Turned<Self, N>> {
+                fused::ahead(angles)
+            }
+
+            #[inline(always)]
+            fn sin_cos_near<const N: usize>(angles: &[Self; N]) -> Turned<Self, N> {
+                fused::near(angles)
             }
 
             #[inline(always)]

@@ -11,6 +11,7 @@
 use core::hint::black_box;
 
 use super::super::register::{Fused, Register};
+use super::super::turns::Turned;
 use super::super::{Lane, Scalar};
 use super::reduction;
 
@@ -228,11 +229,6 @@ fn polynomial<P: Pack, const G: usize>(x: [P; G], coefficients: &[P::Lane]) -> [
 pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
     let zero = P::from_f64(0.0);
     let (mut sines, mut cosines) = ([zero; N], [zero; N]);
-    // What is no number may get lost here: its sine is none in either way.
-    let mut largest = zero;
-    for &angle in angles {
-        largest = largest.larger(angle);
-    }
     let mut start = 0;
     while start + GROUP <= N {
         group::<P, GROUP>(angles, &mut sines, &mut cosines, start);
@@ -244,17 +240,38 @@ pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; 
         2 => group::<P, 2>(angles, &mut sines, &mut cosines, start),
         _ => group::<P, 3>(angles, &mut sines, &mut cosines, start),
     }
-    if !largest.all_below(P::Lane::LIMIT) {
-        // Copies for this block alone: were angles and results themselves lent
-        // out, they would live in memory on the common path too.
-        let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
-        let angles = black_box(*angles);
-        beyond(&angles, &mut far_sines, &mut far_cosines);
+    if let Some((far_sines, far_cosines)) = ahead(angles) {
         for i in 0..N {
             (sines[i], cosines[i]) = (far_sines[i], far_cosines[i]);
         }
     }
     (sines, cosines)
+}
+
+/// Those of all angles, if one of them is outside the common range.
+#[inline(always)]
+pub(in crate::scalar) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Option<Turned<P, N>> {
+    // What is no number may get lost here: its sine is none in either way.
+    let zero = P::from_f64(0.0);
+    let mut largest = zero;
+    for &angle in angles {
+        largest = largest.larger(angle);
+    }
+    if largest.all_below(P::Lane::LIMIT) {
+        return None;
+    }
+    // Copies for this block alone: were angles and results themselves lent
+    // out, they would live in memory on the common path too.
+    let (mut sines, mut cosines) = ([zero; N], [zero; N]);
+    let angles = black_box(*angles);
+    beyond(&angles, &mut sines, &mut cosines);
+    Some((sines, cosines))
+}
+
+/// Those of angles in the common range, computed together.
+#[inline(always)]
+pub(in crate::scalar) fn near<P: Pack, const N: usize>(angles: &[P; N]) -> Turned<P, N> {
+    common(*angles)
 }
 
 /// The `G` angles from `start` on.
