@@ -2,7 +2,8 @@
 //!
 //! They read angles and velocities, ask for sines and cosines and hand over the
 //! results each where its turn comes: subtree after subtree, as their program
-//! forms them. What is read early would be stored until it is used.
+//! forms them. What is read early, and what is formed of it alone, would be stored
+//! until it is used.
 
 use super::Emission;
 use super::function::{Binding, Written, ident};
@@ -11,7 +12,7 @@ use super::parts::{self, Line, Part, SHARED};
 use crate::program::{Argument, Entry, Op, Purpose, ValueId};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Values that wait for a later use, from which on this is worth it: twice the
 /// vector registers of current processors. One state of a shorter function loses
@@ -30,6 +31,9 @@ struct Late<'e, 'p> {
     locals: &'e Locals,
     /// Angles that are asked for together.
     groups: Vec<Vec<ValueId>>,
+    /// Lines that read inputs alone, by what they define: they wait until that
+    /// is needed.
+    early: BTreeMap<ValueId, Line>,
     /// Inputs, sines and cosines that have been read.
     known: BTreeSet<ValueId>,
     /// Places of the outputs that have been handed over.
@@ -173,6 +177,7 @@ impl Emission<'_> {
             needed,
             locals,
             groups: Vec::new(),
+            early: BTreeMap::new(),
             known: BTreeSet::new(),
             results: BTreeSet::new(),
             written: Vec::new(),
@@ -183,7 +188,12 @@ impl Emission<'_> {
         }
         late.groups = angles.chunks(TOGETHER).map(<[_]>::to_vec).collect();
         for line in lines {
-            late.line(line);
+            if late.is_early(line) {
+                let defined = line.defines.iter().map(|&id| (id, line.clone()));
+                late.early.extend(defined);
+            } else {
+                late.line(line);
+            }
         }
         late.rest();
         late.written
@@ -209,6 +219,13 @@ impl Late<'_, '_> {
             },
             _ => None,
         }
+    }
+
+    /// Whether a line reads inputs alone, at once or through others that do.
+    fn is_early(&self, line: &Line) -> bool {
+        let input = |id: &ValueId| matches!(self.emission.op(*id), Op::Input(..));
+        let known = |id: &ValueId| input(id) || self.early.contains_key(id);
+        !line.defines.is_empty() && self.read(&line.reads).iter().all(known)
     }
 
     /// One line, after what it reads and before the results that it completes.
@@ -244,14 +261,17 @@ impl Late<'_, '_> {
         });
     }
 
-    /// Reads the inputs and asks for the sines and cosines that are read there
-    /// and that nothing before has read.
+    /// Reads the inputs, forms what waits and asks for the sines and cosines that
+    /// are read there and that nothing before has read.
     fn reads(&mut self, ids: &[ValueId]) {
         for id in self.read(ids) {
             if self.known.contains(&id) {
                 continue;
             }
-            if let Some(angle) = self.angle(id) {
+            if let Some(line) = self.early.get(&id).cloned() {
+                self.known.extend(&line.defines);
+                self.line(&line);
+            } else if let Some(angle) = self.angle(id) {
                 self.turn(angle);
             } else if let Some(tokens) = self.emission.input(id, self.locals) {
                 self.known.insert(id);
