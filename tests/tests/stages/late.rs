@@ -61,6 +61,10 @@ fn longer_accelerations_ask_in_parts() {
     let code = pretty(stages.tokens);
     let lines = evaluate(&code);
     assert!(lines.len() < 100, "{}", lines.len());
-    assert!(lines.iter().any(|line| line.contains("accelerations_part_2")));
+    assert!(
+        lines
+            .iter()
+            .any(|line| line.contains("accelerations_part_2"))
+    );
     assert_eq!(code.matches("turns.of(").count(), 8);
 }
