@@ -233,15 +233,32 @@ where
                 next += 2 * R::LANES;
             }
         }
-        let pendulum = self.pendulum.rescale(Block::<R, 1>::splat);
+        // Links as many as the compiler knows them to be.
+        let (Some(theta), Some(omega), Some(alpha)) = (
+            self.theta.get(..P::LINKS),
+            self.omega.get(..P::LINKS),
+            self.alpha.get_mut(..P::LINKS),
+        ) else {
+            return next;
+        };
+        let pendulum = self.pendulum.rescale(R::splat);
+        let time = R::splat(self.time);
+        let nothing = R::splat(T::from_f64(f64::NAN)).to_chunk();
         while next < self.count {
             // The last block overlaps the one before, where it would not be full:
             // some states are computed twice.
-            let start = next.min(last);
-            if !self.block(&pendulum, start) {
-                return next;
-            }
-            next = start + R::LANES;
+            let end = next.min(last) + R::LANES;
+            pendulum.evaluate(
+                time,
+                |link| load_late(theta, link, end, &nothing),
+                |link| load_late(omega, link, end, &nothing),
+                |link, value: R| {
+                    if let Some(slice) = alpha.get_mut(link) {
+                        value.store_last(slice.as_mut().get_mut(..end).unwrap_or_default());
+                    }
+                },
+            );
+            next = end;
         }
         next
     }
@@ -325,6 +342,20 @@ fn load_block<R: Register, const N: usize>(
         }
     }
     block
+}
+
+/// One register of one link, that ends before state `end`; `nothing` where the
+/// slice is too short, which has been excluded. Chosen between are places and not
+/// numbers, so that these are read where they are needed.
+#[inline(always)]
+fn load_late<R: Register>(
+    slices: &[impl AsRef<[R::Lane]>],
+    link: usize,
+    end: usize,
+    nothing: &R::Chunk,
+) -> R {
+    let block = slices.get(link).and_then(|slice| slice.as_ref().get(..end));
+    R::from_chunk(block.and_then(R::last_chunk).unwrap_or(nothing))
 }
 
 /// Arguments of a batch that do not fit together.

@@ -26,7 +26,7 @@ pub(super) enum Binding {
 pub(super) struct Written {
     pub(super) lines: Vec<Line>,
     pub(super) locals: Locals,
-    gathered: Gathered,
+    pub(super) gathered: Gathered,
     /// Whether it is to be written in parts.
     pub(super) long: bool,
 }
@@ -106,6 +106,10 @@ impl Emission<'_> {
     /// The body of a function, and the parts behind it if it is long.
     fn body(&self, entry: &Entry, needed: &[ValueId]) -> (TokenStream, TokenStream) {
         let written = self.written(entry, needed);
+        if self.is_late(entry, &written) {
+            let parts = self.late_parts(entry, needed, &written);
+            return (self.through_evaluate(entry), parts);
+        }
         if written.long {
             return self.in_parts(entry, &written.lines, &written.locals);
         }

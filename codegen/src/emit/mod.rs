@@ -8,6 +8,7 @@ mod formulas;
 mod function;
 mod gather;
 mod generations;
+mod late;
 mod model;
 mod names;
 mod observables;

@@ -11,6 +11,9 @@ const LONGEST_NAME: usize = 48;
 /// the compiler recurses.
 const DEEPEST: usize = 16;
 
+/// What the accelerations of long trees call other things than values.
+const RESERVED: [&str; 2] = ["turns", "alpha"];
+
 /// Which values of a function get a `let`, and what they are called.
 pub(super) struct Locals {
     pub(super) names: BTreeMap<ValueId, String>,
@@ -54,6 +57,7 @@ impl Emission<'_> {
                 .arguments
                 .iter()
                 .map(|argument| argument.name().to_owned())
+                .chain(RESERVED.map(str::to_owned))
                 .collect(),
             numbers: BTreeMap::new(),
         };

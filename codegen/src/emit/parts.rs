@@ -28,9 +28,10 @@ const MOST_INLINED: usize = 3000;
 const WIDTH: usize = 60;
 
 /// The array of the values that parts share.
-const SHARED: &str = "shared_values";
+pub(super) const SHARED: &str = "shared_values";
 
 /// One `let` line.
+#[derive(Clone)]
 pub(super) struct Line {
     /// The values that it names.
     pub(super) defines: Vec<ValueId>,
@@ -53,17 +54,22 @@ pub(super) fn long(lines: &[Line]) -> bool {
     height(lines) > MOST_LINES
 }
 
+/// Whether a function of these lines is compiled as a whole, in parts or not.
+pub(super) fn is_whole(lines: &[Line]) -> bool {
+    height(lines) <= MOST_INLINED
+}
+
 fn height(lines: &[Line]) -> usize {
     lines.iter().map(Line::height).sum()
 }
 
 /// Some lines of a function, with what goes in and out.
-struct Part {
-    number: usize,
+pub(super) struct Part {
+    pub(super) number: usize,
     /// Arguments of the function that are handed on.
     arguments: Vec<Argument>,
     /// Elements that are read of them.
-    inputs: Vec<ValueId>,
+    pub(super) inputs: Vec<ValueId>,
     receives: Vec<ValueId>,
     returns: Vec<ValueId>,
     lines: Vec<TokenStream>,
@@ -71,11 +77,11 @@ struct Part {
 
 /// A long function in parts.
 pub(super) struct Parts {
-    parts: Vec<Part>,
+    pub(super) parts: Vec<Part>,
     /// Places of values in the array.
     places: BTreeMap<ValueId, usize>,
     /// Length of the array.
-    size: usize,
+    pub(super) size: usize,
 }
 
 impl Parts {
@@ -132,7 +138,7 @@ impl Emission<'_> {
         lines: &[Line],
         locals: &Locals,
     ) -> (TokenStream, TokenStream) {
-        let parts = self.parts(entry, lines, locals);
+        let parts = self.parts(&entry.outputs, lines, locals);
         let used =
             |argument: &&Argument| parts.parts.iter().any(|p| p.arguments.contains(argument));
         let read = |argument: &&Argument| {
@@ -174,8 +180,7 @@ impl Emission<'_> {
         if entry.purpose == Purpose::Accelerations {
             return (body, TokenStream::new());
         }
-        let inlined = height(lines) <= MOST_INLINED;
-        let inline = inlined.then(|| quote!(#[inline(always)]));
+        let inline = is_whole(lines).then(|| quote!(#[inline(always)]));
         let functions = parts.parts.iter().map(|part| {
             let name = part.name(entry);
             let docs = format!(
@@ -205,16 +210,12 @@ impl Emission<'_> {
             return TokenStream::new();
         };
         let needed = self.program.needed(&entry.outputs);
-        let Written {
-            lines,
-            locals,
-            long: true,
-            ..
-        } = self.written(entry, &needed)
-        else {
+        let written = self.written(entry, &needed);
+        if !written.long || self.is_late(entry, &written) {
             return TokenStream::new();
-        };
-        let parts = self.parts(entry, &lines, &locals);
+        }
+        let Written { lines, locals, .. } = written;
+        let parts = self.parts(&entry.outputs, &lines, &locals);
         let (name, runtime) = (&self.item.ident, self.runtime());
         let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
         let implementations = parts.parts.iter().map(|part| {
@@ -243,6 +244,17 @@ impl Emission<'_> {
         let elements = part.arguments.iter();
         let elements = elements.filter(|argument| self.reads(**argument, &part.inputs));
         let elements = elements.map(|&argument| self.take_apart(argument, &part.inputs, locals));
+        self.part_lines(part, parts, locals, elements.collect())
+    }
+
+    /// The lines of a part behind those that read its inputs.
+    pub(super) fn part_lines(
+        &self,
+        part: &Part,
+        parts: &Parts,
+        locals: &Locals,
+        elements: Vec<TokenStream>,
+    ) -> TokenStream {
         let named = |id: &ValueId| (ident(&locals.names[id]), parts.place(*id));
         let taken = part.receives.iter().map(named);
         let taken = taken.map(|(name, place)| quote!(let #name = #place;));
@@ -258,7 +270,12 @@ impl Emission<'_> {
     }
 
     /// The named values that a value is written in.
-    fn named_operands(&self, id: ValueId, locals: &Locals, found: &mut BTreeSet<ValueId>) {
+    pub(super) fn named_operands(
+        &self,
+        id: ValueId,
+        locals: &Locals,
+        found: &mut BTreeSet<ValueId>,
+    ) {
         if locals.names.contains_key(&id) {
             found.insert(id);
             return;
@@ -279,10 +296,10 @@ impl Emission<'_> {
 
     /// Cuts the lines of a function into parts. Numbers are written again in
     /// every part that uses them.
-    fn parts(&self, entry: &Entry, lines: &[Line], locals: &Locals) -> Parts {
+    pub(super) fn parts(&self, outputs: &[ValueId], lines: &[Line], locals: &Locals) -> Parts {
         let (numbers, lines): (Vec<&Line>, Vec<&Line>) =
             lines.iter().partition(|line| self.is_number(line));
-        let outputs: BTreeSet<ValueId> = entry.outputs.iter().copied().collect();
+        let outputs: BTreeSet<ValueId> = outputs.iter().copied().collect();
         let mut wanted = outputs.clone();
         let mut parts = Vec::new();
         for (number, lines) in self.pieces(&lines, locals).into_iter().enumerate().rev() {
@@ -378,7 +395,7 @@ impl Emission<'_> {
 }
 
 impl Part {
-    fn name(&self, entry: &Entry) -> Ident {
+    pub(super) fn name(&self, entry: &Entry) -> Ident {
         format_ident!("{}_part_{}", entry.name, self.number)
     }
 }

@@ -89,6 +89,20 @@ impl Emission<'_> {
             false => quote!(self.accelerations(&theta, &omega)),
         };
         let time = self.time_name();
+        let body = self.late().unwrap_or_else(|| {
+            quote! {
+                let (theta, omega) = (
+                    ::core::array::from_fn(theta),
+                    ::core::array::from_fn(omega),
+                );
+                let values = #call;
+                for (link, value) in ::core::iter::Iterator::enumerate(
+                    ::core::iter::IntoIterator::into_iter(values),
+                ) {
+                    alpha(link, value);
+                }
+            }
+        });
         let fields: Vec<Ident> = self
             .stored_constants()
             .into_iter()
@@ -127,16 +141,7 @@ impl Emission<'_> {
                     omega: impl ::core::ops::Fn(usize) -> T,
                     mut alpha: impl ::core::ops::FnMut(usize, T),
                 ) {
-                    let (theta, omega) = (
-                        ::core::array::from_fn(theta),
-                        ::core::array::from_fn(omega),
-                    );
-                    let values = #call;
-                    for (link, value) in ::core::iter::Iterator::enumerate(
-                        ::core::iter::IntoIterator::into_iter(values),
-                    ) {
-                        alpha(link, value);
-                    }
+                    #body
                 }
             }
         }

@@ -45,11 +45,14 @@ mod lanes;
 mod reference;
 pub(crate) mod register;
 mod sincos;
+mod turns;
 mod wide;
 
 pub use dispatch::InstructionSet;
 pub use dual::Dual;
 pub use lanes::{Lane, Lanes};
+#[doc(hidden)]
+pub use turns::{Turned, Turns};
 pub use wide::Double;
 
 use core::fmt::{Debug, Display};
@@ -121,6 +124,31 @@ pub trait Scalar:
             (sines[i], cosines[i]) = angles[i].sin_cos();
         }
         (sines, cosines)
+    }
+
+    /// Sines and cosines of angles that code asks for a few at a time, where it
+    /// needs them.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn turns<const N: usize>(angles: [Self; N]) -> Turns<Self, N> {
+        Turns::new(Self::sin_cos_ahead(&angles))
+    }
+
+    /// The sines and cosines of all angles, if they are computed at once. `None`
+    /// if they are computed when asked for, and may be by
+    /// [`sin_cos_near`](Self::sin_cos_near).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn sin_cos_ahead<const N: usize>(angles: &[Self; N]) -> Option<Turned<Self, N>> {
+        Some(Self::sin_cos_each(angles))
+    }
+
+    /// [`sin_cos_each`](Self::sin_cos_each) of angles among those of which
+    /// [`sin_cos_ahead`](Self::sin_cos_ahead) gave `None`.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn sin_cos_near<const N: usize>(angles: &[Self; N]) -> Turned<Self, N> {
+        Self::sin_cos_each(angles)
     }
 
     /// Square root.

@@ -112,8 +112,9 @@ fn fit<T: Scalar, P: Pendulum<T>>(theta: &[T], omega: &[T], alpha: &mut [T]) -> 
     fit
 }
 
-/// Accelerations in the arithmetic of `T`.
-#[inline(always)]
+/// Accelerations in the arithmetic of `T`. Long ones are compiled once, not in
+/// every place that falls back to them.
+#[inline]
 pub(crate) fn straight<T: Scalar, P: Rescale<T>>(
     pendulum: &P,
     time: T,

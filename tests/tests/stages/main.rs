@@ -3,6 +3,7 @@
 
 mod determinism;
 mod ladder;
+mod late;
 mod lengths;
 mod pages;
 mod snapshots;

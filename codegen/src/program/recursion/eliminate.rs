@@ -27,7 +27,7 @@ pub(super) struct Eliminated {
     pub(super) groups: Vec<(Pair, Vec<usize>)>,
     /// b/J.
     pub(super) gain: Pair,
-    /// κ/J.
+    /// −κ/J.
     pub(super) offset: ValueId,
     /// ω².
     pub(super) centripetal: ValueId,
@@ -137,8 +137,11 @@ impl Sweep<'_> {
                 false => group.relief.times(builder, group.y),
             };
             builder.name_pair(part, &format!("relieved@_{}", numbered(name, number)));
-            let along = builder.dot(group.y, part);
-            free = builder.sub(free, along);
+            // One product after the other: each is fused with its difference.
+            for (component, relieved) in group.y.into_iter().zip(part) {
+                let along = builder.mul(component, relieved);
+                free = builder.sub(free, along);
+            }
             let across = builder.cross(group.y, part);
             cross = builder.add(cross, across);
             answer = builder.add_pairs(answer, part);
@@ -183,13 +186,13 @@ impl Sweep<'_> {
             builder.add(force[1], thrown[0]),
         ];
         builder.name_pair(force, &format!("load@_{name}"));
-        // One pivot in the link's direction: κ = v·γ' − Q.
+        // One pivot in the link's direction: −κ = Q − v·γ'.
         let simple = builder.is(moment[1], 0)
             && matches!(&turning.groups[..], [group] if group.place == [one, zero]);
         let torque = match simple {
             true => {
-                let torque = builder.dot(v, force);
-                builder.sub(torque, self.torques[link])
+                let load = builder.dot(v, force);
+                builder.sub(self.torques[link], load)
             }
             false => self.torque(builder, link, &turning),
         };
@@ -200,8 +203,8 @@ impl Sweep<'_> {
         builder.name_pair(gain, &format!("gain@_{name}"));
         let offset = builder.mul(torque, inverse);
         builder.name(offset, &format!("offset_{name}"));
-        let lost = builder.scale_pair(torque, gain);
-        let force = builder.sub_pairs(force, lost);
+        let passed_on = builder.scale_pair(torque, gain);
+        let force = builder.add_pairs(force, passed_on);
         builder.name_pair(force, &format!("force@_{name}"));
         let relief = self.relief(builder, link, &turning, gain);
         relief.name(builder, &name);
@@ -224,9 +227,8 @@ impl Sweep<'_> {
         let turning = self.turning(builder, link);
         let torque = self.torque(builder, link, &turning);
         let driving = builder.dot(turning.arm, fall);
-        let rest = builder.sub(driving, torque);
-        let tangential = builder.div(rest, turning.inertia);
-        let offset = builder.neg(tangential);
+        let rest = builder.add(driving, torque);
+        let offset = builder.div(rest, turning.inertia);
         Eliminated {
             groups: places(turning.groups),
             gain: builder.zero_pair(),
@@ -235,16 +237,16 @@ impl Sweep<'_> {
         }
     }
 
-    /// κ = Σ y·γ − ω² Σ y × N y − Q.
+    /// −κ = Q − Σ y·γ + ω² Σ y × N y.
     fn torque(&self, builder: &mut Builder, link: usize, turning: &Turning) -> ValueId {
-        let mut torque = builder.integer(0);
+        let mut load = builder.integer(0);
         for group in &turning.groups {
             let part = builder.dot(group.y, group.force);
-            torque = builder.add(torque, part);
+            load = builder.add(load, part);
         }
         let across = builder.mul(turning.centripetal, turning.cross);
-        let torque = builder.sub(torque, across);
-        builder.sub(torque, self.torques[link])
+        let load = builder.sub(load, across);
+        builder.sub(self.torques[link], load)
     }
 
     /// Σ N + b bᵀ/J.

@@ -95,8 +95,12 @@ impl Sweep<'_> {
         let mut accelerations = Vec::with_capacity(eliminated.len());
         for (link, solved) in eliminated.iter().enumerate() {
             let name = &self.names[link];
-            let answer = builder.dot(solved.gain, falls[link]);
-            let tangential = builder.sub(answer, solved.offset);
+            // The offset first: what it is formed of need not be kept for this.
+            let mut tangential = solved.offset;
+            for (gain, fall) in solved.gain.into_iter().zip(falls[link]) {
+                let answer = builder.mul(gain, fall);
+                tangential = builder.add(tangential, answer);
+            }
             let inverse_length = self.unit(link).inverse_length;
             if !builder.is(inverse_length, 1) {
                 builder.name(tangential, &format!("tangential_{name}"));

@@ -73,8 +73,17 @@ pub trait Register: Scalar {
     /// Writes the numbers to the front of a slice. A slice too short gets none.
     fn store(self, numbers: &mut [Self::Lane]);
 
+    /// Its numbers where they lie in memory.
+    type Chunk;
+
     /// The last numbers of a slice, if it has enough.
-    fn load_last(numbers: &[Self::Lane]) -> Option<Self>;
+    fn last_chunk(numbers: &[Self::Lane]) -> Option<&Self::Chunk>;
+
+    /// Reads numbers.
+    fn from_chunk(numbers: &Self::Chunk) -> Self;
+
+    /// The numbers in their order.
+    fn to_chunk(self) -> Self::Chunk;
 
     /// Writes the numbers to the end of a slice. A slice too short gets none.
     fn store_last(self, numbers: &mut [Self::Lane]);
@@ -85,6 +94,7 @@ impl<T: Lane, const N: usize> Register for Lanes<T, N> {
     type Lane = T;
     type Vectors = With<Self>;
     type Mask = [bool; N];
+    type Chunk = [T; N];
 
     const LANES: usize = N;
 
@@ -131,8 +141,18 @@ impl<T: Lane, const N: usize> Register for Lanes<T, N> {
     }
 
     #[inline(always)]
-    fn load_last(numbers: &[T]) -> Option<Self> {
-        numbers.last_chunk().copied().map(Self)
+    fn last_chunk(numbers: &[T]) -> Option<&[T; N]> {
+        numbers.last_chunk()
+    }
+
+    #[inline(always)]
+    fn from_chunk(numbers: &[T; N]) -> Self {
+        Self(*numbers)
+    }
+
+    #[inline(always)]
+    fn to_chunk(self) -> [T; N] {
+        self.0
     }
 
     #[inline(always)]

@@ -76,6 +76,7 @@ macro_rules! fused {
             type Lane = $float;
             type Vectors = Single;
             type Mask = bool;
+            type Chunk = $float;
 
             const LANES: usize = 1;
 
@@ -112,8 +113,18 @@ macro_rules! fused {
             }
 
             #[inline(always)]
-            fn load_last(numbers: &[$float]) -> Option<Self> {
-                numbers.last().copied().map(Self)
+            fn last_chunk(numbers: &[$float]) -> Option<&$float> {
+                numbers.last()
+            }
+
+            #[inline(always)]
+            fn from_chunk(number: &$float) -> Self {
+                Self(*number)
+            }
+
+            #[inline(always)]
+            fn to_chunk(self) -> $float {
+                self.0
             }
 
             #[inline(always)]

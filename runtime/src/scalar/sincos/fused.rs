@@ -11,6 +11,7 @@
 use core::hint::black_box;
 
 use super::super::register::{Fused, Register};
+use super::super::turns::Turned;
 use super::super::{Lane, Scalar};
 use super::reduction;
 
@@ -235,17 +236,12 @@ pub(in crate::scalar) fn blocks<P: Pack, const N: usize, const M: usize>(
 ) -> ([[P; N]; M], [[P; N]; M]) {
     let zero = [[P::from_f64(0.0); N]; M];
     let (mut sines, mut cosines) = (zero, zero);
-    near(
+    groups(
         angles.as_flattened(),
         sines.as_flattened_mut(),
         cosines.as_flattened_mut(),
     );
-    // What is no number may get lost here: its sine is none in either way.
-    let mut largest = P::from_f64(0.0);
-    for &angle in angles.as_flattened() {
-        largest = largest.larger_size(angle);
-    }
-    if !largest.all_below(P::Lane::LIMIT) {
+    if !all_near(angles.as_flattened()) {
         // Copies for this block alone: were angles and results themselves lent
         // out, they would live in memory on the common path too.
         let (mut far_sines, mut far_cosines) = (zero, zero);
@@ -262,9 +258,40 @@ pub(in crate::scalar) fn blocks<P: Pack, const N: usize, const M: usize>(
     (sines, cosines)
 }
 
+/// Whether all angles are in the common range.
+#[inline(always)]
+fn all_near<P: Pack>(angles: &[P]) -> bool {
+    // What is no number may get lost here: its sine is none in either way.
+    let mut largest = P::from_f64(0.0);
+    for &angle in angles {
+        largest = largest.larger_size(angle);
+    }
+    largest.all_below(P::Lane::LIMIT)
+}
+
+/// Those of all angles, if one of them is outside the common range.
+#[inline(always)]
+pub(in crate::scalar) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Option<Turned<P, N>> {
+    if all_near(angles) {
+        return None;
+    }
+    // Copies, as in `blocks`.
+    let zero = P::from_f64(0.0);
+    let (mut sines, mut cosines) = ([zero; N], [zero; N]);
+    let angles = black_box(*angles);
+    beyond(&angles, &mut sines, &mut cosines);
+    Some((sines, cosines))
+}
+
+/// Those of angles in the common range, computed together.
+#[inline(always)]
+pub(in crate::scalar) fn near<P: Pack, const N: usize>(angles: &[P; N]) -> Turned<P, N> {
+    common(*angles)
+}
+
 /// Sines and cosines of angles in the common range.
 #[inline(always)]
-fn near<P: Pack>(angles: &[P], sines: &mut [P], cosines: &mut [P]) {
+fn groups<P: Pack>(angles: &[P], sines: &mut [P], cosines: &mut [P]) {
     let mut start = 0;
     while start + GROUP <= angles.len() {
         group::<P, GROUP>(angles, sines, cosines, start);

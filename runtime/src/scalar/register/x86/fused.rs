@@ -4,6 +4,7 @@
 use core::arch::x86_64::*;
 
 use super::super::super::sincos::{double, fused};
+use super::super::super::turns::Turned;
 use super::super::super::{Scalar, dispatch};
 use super::super::Register;
 use super::{F32x8, F32x16, F64x4, F64x8};
@@ -34,6 +35,16 @@ macro_rules! fused {
             #[inline(always)]
             fn sin_cos_each<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
                 fused::each(angles)
+            }
+
+            #[inline(always)]
+            fn sin_cos_ahead<const N: usize>(angles: &[Self; N]) -> Option<Turned<Self, N>> {
+                fused::ahead(angles)
+            }
+
+            #[inline(always)]
+            fn sin_cos_near<const N: usize>(angles: &[Self; N]) -> Turned<Self, N> {
+                fused::near(angles)
             }
 
             #[inline(always)]

@@ -108,6 +108,7 @@ macro_rules! register {
             type Vectors = With<Self>;
             /// All bits set, or none.
             type Mask = Self;
+            type Chunk = [$lane; $lanes];
 
             const LANES: usize = $lanes;
 
@@ -150,8 +151,18 @@ macro_rules! register {
             }
 
             #[inline(always)]
-            fn load_last(numbers: &[$lane]) -> Option<Self> {
-                numbers.last_chunk().copied().map(Self::from_array)
+            fn last_chunk(numbers: &[$lane]) -> Option<&[$lane; $lanes]> {
+                numbers.last_chunk()
+            }
+
+            #[inline(always)]
+            fn from_chunk(numbers: &[$lane; $lanes]) -> Self {
+                Self::from_array(*numbers)
+            }
+
+            #[inline(always)]
+            fn to_chunk(self) -> [$lane; $lanes] {
+                self.to_array()
             }
 
             #[inline(always)]

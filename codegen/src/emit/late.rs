@@ -1,0 +1,318 @@
+//! Accelerations of trees with more values than a processor has registers.
+//!
+//! They read angles and velocities, ask for sines and cosines and hand over the
+//! results each where its turn comes: subtree after subtree, as their program
+//! forms them. What is read early, and what is formed of it alone, would be stored
+//! until it is used.
+
+use super::Emission;
+use super::function::{Binding, Written, ident};
+use super::names::Locals;
+use super::parts::{self, Line, Part, SHARED};
+use crate::program::{Argument, Entry, Op, Purpose, ValueId};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Values that wait for a later use, from which on this is worth it: twice the
+/// vector registers of current processors. One state of a shorter function loses
+/// more than a batch of it gains.
+const WAITING: usize = 64;
+
+/// Angles whose sines and cosines are computed together: while the result of one
+/// operation is awaited, the others keep the processor busy.
+const TOGETHER: usize = 4;
+
+/// The lines of `evaluate`, in the making.
+struct Late<'e, 'p> {
+    emission: &'e Emission<'p>,
+    entry: &'e Entry,
+    needed: &'e [ValueId],
+    locals: &'e Locals,
+    /// Angles that are asked for together.
+    groups: Vec<Vec<ValueId>>,
+    /// Lines that read inputs alone, by what they define: they wait until that
+    /// is needed.
+    early: BTreeMap<ValueId, Line>,
+    /// Inputs, sines and cosines that have been read.
+    known: BTreeSet<ValueId>,
+    /// Places of the outputs that have been handed over.
+    results: BTreeSet<usize>,
+    written: Vec<Line>,
+}
+
+impl Emission<'_> {
+    /// Whether this function's body stands in `evaluate`, in the order in which
+    /// the values are needed: accelerations whose values do not fit into
+    /// registers, if the compiler sees them as a whole.
+    pub(super) fn is_late(&self, entry: &Entry, written: &Written) -> bool {
+        entry.purpose == Purpose::Accelerations
+            && written.gathered.whole == Some(Argument::Theta)
+            && parts::is_whole(&written.lines)
+            && self.program.live(entry) > WAITING
+    }
+
+    /// The body of `evaluate`, if it has one of its own.
+    pub(super) fn late(&self) -> Option<TokenStream> {
+        let mut entries = self.program.entries.iter();
+        let entry = entries.find(|entry| entry.purpose == Purpose::Accelerations)?;
+        let needed = self.program.needed(&entry.outputs);
+        let written = self.written(entry, &needed);
+        if !self.is_late(entry, &written) {
+            return None;
+        }
+        let lines = self.late_lines(entry, &needed, &written);
+        let links = (0..self.scene.links.len()).map(Literal::usize_unsuffixed);
+        let turns = quote!(let turns = T::turns([#(theta(#links)),*]););
+        if !written.long {
+            let lines = lines.iter().map(|line| &line.tokens);
+            return Some(quote!(#turns #(#lines)*));
+        }
+        let parts = self.parts(&[], &lines, &written.locals);
+        let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
+        let time = self.late_time(entry);
+        let calls = parts.parts.iter().map(|part| {
+            let name = part.name(entry);
+            quote!(self.#name(#time &turns, &theta, &omega, &mut alpha, &mut #shared);)
+        });
+        Some(quote! {
+            #turns
+            let mut #shared = [T::from_f64(0.0); #size];
+            #(#calls)*
+        })
+    }
+
+    /// The body of the function itself then.
+    pub(super) fn through_evaluate(&self, entry: &Entry) -> TokenStream {
+        let (runtime, links) = (self.runtime(), self.links());
+        let time = match entry.arguments.contains(&Argument::Time) {
+            true => quote!(time),
+            false => quote!(T::from_f64(0.0)),
+        };
+        quote! {
+            let mut alpha = [T::from_f64(0.0); #links];
+            #runtime::Rescale::evaluate(
+                self,
+                #time,
+                |link| theta[link],
+                |link| omega[link],
+                |link, value| alpha[link] = value,
+            );
+            alpha
+        }
+    }
+
+    /// What a long `evaluate` calls.
+    pub(super) fn late_parts(
+        &self,
+        entry: &Entry,
+        needed: &[ValueId],
+        written: &Written,
+    ) -> TokenStream {
+        if !written.long {
+            return TokenStream::new();
+        }
+        let (runtime, links, locals) = (self.runtime(), self.links(), &written.locals);
+        let parts = self.parts(&[], &self.late_lines(entry, needed, written), locals);
+        let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
+        let time = entry.arguments.contains(&Argument::Time);
+        let time = time.then(|| quote!(time: T,));
+        let functions = parts.parts.iter().map(|part| {
+            let name = part.name(entry);
+            let docs = format!(
+                " Part {} of [`{1}`](Self::{1}), on the values that its parts share.",
+                part.number, entry.name
+            );
+            let body = self.part_lines(part, &parts, locals, self.read_again(part, locals));
+            quote! {
+                #[doc = #docs]
+                #[inline(always)]
+                #[allow(unused_variables)]
+                fn #name(
+                    &self,
+                    #time
+                    turns: &#runtime::scalar::Turns<T, #links>,
+                    theta: &impl ::core::ops::Fn(usize) -> T,
+                    omega: &impl ::core::ops::Fn(usize) -> T,
+                    alpha: &mut impl ::core::ops::FnMut(usize, T),
+                    #shared: &mut [T; #size],
+                ) {
+                    #body
+                }
+            }
+        });
+        functions.collect()
+    }
+
+    fn late_time(&self, entry: &Entry) -> Option<TokenStream> {
+        let timed = entry.arguments.contains(&Argument::Time);
+        timed.then(|| quote!(time,))
+    }
+
+    /// Inputs that an earlier part has read too.
+    fn read_again(&self, part: &Part, locals: &Locals) -> Vec<TokenStream> {
+        let inputs = part.inputs.iter();
+        inputs.filter_map(|&id| self.input(id, locals)).collect()
+    }
+
+    /// `let omega_a = omega(0);`
+    fn input(&self, id: ValueId, locals: &Locals) -> Option<TokenStream> {
+        match *self.op(id) {
+            Op::Input(argument, index) if argument != Argument::Time => {
+                let (name, argument) = (ident(&locals.names[&id]), ident(argument.name()));
+                let link = Literal::usize_unsuffixed(index);
+                Some(quote!(let #name = #argument(#link);))
+            }
+            _ => None,
+        }
+    }
+
+    fn late_lines(&self, entry: &Entry, needed: &[ValueId], written: &Written) -> Vec<Line> {
+        let locals = &written.locals;
+        // The first line asks for all sines and cosines.
+        let lines = written.lines.get(1..).unwrap_or_default();
+        let mut late = Late {
+            emission: self,
+            entry,
+            needed,
+            locals,
+            groups: Vec::new(),
+            early: BTreeMap::new(),
+            known: BTreeSet::new(),
+            results: BTreeSet::new(),
+            written: Vec::new(),
+        };
+        let mut angles: Vec<ValueId> = Vec::new();
+        for id in lines.iter().flat_map(|line| late.read(&line.reads)) {
+            angles.extend(late.angle(id).filter(|angle| !angles.contains(angle)));
+        }
+        late.groups = angles.chunks(TOGETHER).map(<[_]>::to_vec).collect();
+        for line in lines {
+            if late.is_early(line) {
+                let defined = line.defines.iter().map(|&id| (id, line.clone()));
+                late.early.extend(defined);
+            } else {
+                late.line(line);
+            }
+        }
+        late.rest();
+        late.written
+    }
+}
+
+impl Late<'_, '_> {
+    /// The named values that are read where `ids` are.
+    fn read(&self, ids: &[ValueId]) -> BTreeSet<ValueId> {
+        let mut read = BTreeSet::new();
+        for &id in ids {
+            self.emission.named_operands(id, self.locals, &mut read);
+        }
+        read
+    }
+
+    /// The angle of a sine or cosine.
+    fn angle(&self, id: ValueId) -> Option<ValueId> {
+        match *self.emission.op(id) {
+            Op::Sin(angle) | Op::Cos(angle) => match *self.emission.op(angle) {
+                Op::Input(Argument::Theta, _) => Some(angle),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// Whether a line reads inputs alone, at once or through others that do.
+    fn is_early(&self, line: &Line) -> bool {
+        let input = |id: &ValueId| matches!(self.emission.op(*id), Op::Input(..));
+        let known = |id: &ValueId| input(id) || self.early.contains_key(id);
+        !line.defines.is_empty() && self.read(&line.reads).iter().all(known)
+    }
+
+    /// One line, after what it reads and before the results that it completes.
+    fn line(&mut self, line: &Line) {
+        self.reads(&line.reads);
+        self.written.push(line.clone());
+        for (place, output) in self.entry.outputs.iter().enumerate() {
+            if line.defines.contains(output) {
+                self.result(place, *output);
+            }
+        }
+    }
+
+    /// The results that no line defines.
+    fn rest(&mut self) {
+        for (place, &output) in self.entry.outputs.iter().enumerate() {
+            if !self.results.contains(&place) {
+                self.reads(&[output]);
+                self.result(place, output);
+            }
+        }
+    }
+
+    fn result(&mut self, place: usize, output: ValueId) {
+        let value = self.emission.bound(output, self.locals, Binding::Sum);
+        let link = Literal::usize_unsuffixed(place);
+        self.results.insert(place);
+        self.written.push(Line {
+            defines: Vec::new(),
+            reads: vec![output],
+            whole: None,
+            tokens: quote!(alpha(#link, #value);),
+        });
+    }
+
+    /// Reads the inputs, forms what waits and asks for the sines and cosines that
+    /// are read there and that nothing before has read.
+    fn reads(&mut self, ids: &[ValueId]) {
+        for id in self.read(ids) {
+            if self.known.contains(&id) {
+                continue;
+            }
+            if let Some(line) = self.early.get(&id).cloned() {
+                self.known.extend(&line.defines);
+                self.line(&line);
+            } else if let Some(angle) = self.angle(id) {
+                self.turn(angle);
+            } else if let Some(tokens) = self.emission.input(id, self.locals) {
+                self.known.insert(id);
+                self.written.push(Line {
+                    defines: vec![id],
+                    reads: Vec::new(),
+                    whole: None,
+                    tokens,
+                });
+            }
+        }
+    }
+
+    /// `let ([sin_a, sin_b], [cos_a, cos_b]) = turns.of([0, 1], [theta(0), theta(1)]);`
+    fn turn(&mut self, angle: ValueId) {
+        let group = self.groups.iter().find(|group| group.contains(&angle));
+        let group = group.map_or_else(Vec::new, Vec::clone);
+        let names = |op: fn(ValueId) -> Op| -> Vec<TokenStream> {
+            let ops = group.iter().map(|&angle| op(angle));
+            ops.map(|op| self.emission.local(&op, self.needed, self.locals))
+                .collect()
+        };
+        let (sines, cosines) = (names(Op::Sin), names(Op::Cos));
+        let links = group.iter().map(|&angle| match *self.emission.op(angle) {
+            Op::Input(_, index) => Literal::usize_unsuffixed(index),
+            _ => unreachable!("angles of groups are inputs"),
+        });
+        let links: Vec<Literal> = links.collect();
+        let defined = self.needed.iter().copied();
+        let defined: Vec<ValueId> = defined
+            .filter(|&id| self.angle(id).is_some_and(|angle| group.contains(&angle)))
+            .collect();
+        self.known.extend(&defined);
+        self.written.push(Line {
+            defines: defined,
+            reads: Vec::new(),
+            whole: None,
+            tokens: quote! {
+                let ([#(#sines),*], [#(#cosines),*]) =
+                    turns.of([#(#links),*], [#(theta(#links)),*]);
+            },
+        });
+    }
+}
