@@ -32,7 +32,7 @@ impl Program {
 pub(super) fn operations(definitions: &[Definition], outputs: &[ValueId]) -> Operations {
     let mut count = Operations::default();
     let mut angles = BTreeSet::new();
-    for id in super::needed(definitions, outputs) {
+    for id in super::dead::needed(definitions, outputs) {
         match definitions[id.0 as usize].op {
             Op::Input(..) | Op::Constant(_) | Op::Number(_) => {}
             Op::Sin(angle) | Op::Cos(angle) => {

@@ -18,18 +18,31 @@ pub enum Pass {
     Folding,
     /// Signs move outwards and into sums and differences.
     Signs,
+    /// Sines and cosines of differences are formed from those of single angles.
+    AngleAddition,
+    /// A common factor of several terms is multiplied once.
+    CommonFactors,
     /// Of two solves the cheaper one.
     Choice,
 }
 
 impl Pass {
-    const ALL: [Self; 4] = [Self::Sharing, Self::Folding, Self::Signs, Self::Choice];
+    const ALL: [Self; 6] = [
+        Self::Sharing,
+        Self::Folding,
+        Self::Signs,
+        Self::AngleAddition,
+        Self::CommonFactors,
+        Self::Choice,
+    ];
 
     fn name(self) -> &'static str {
         match self {
             Self::Sharing => "sharing",
             Self::Folding => "exact folding",
             Self::Signs => "signs",
+            Self::AngleAddition => "angle addition",
+            Self::CommonFactors => "common factors",
             Self::Choice => "choice of solve",
         }
     }
