@@ -17,10 +17,11 @@ pub(super) struct Builder {
 }
 
 impl Builder {
-    /// An empty program with the constants of another one.
-    pub(super) fn of_setup(program: &Program) -> Self {
+    /// A program without values yet, with the constants of another one.
+    pub(super) fn on_constants_of(program: &Program) -> Self {
         Self {
             setup: program.setup.clone(),
+            off: program.without,
             ..Self::default()
         }
     }
@@ -31,6 +32,7 @@ impl Builder {
             entries,
             setup: self.setup,
             choice,
+            without: self.off,
         }
     }
 

@@ -21,6 +21,21 @@ pub struct Operations {
     pub negations: usize,
 }
 
+impl Operations {
+    /// All together; a sine with its cosine is one.
+    pub fn total(&self) -> usize {
+        let Self {
+            sin_cos,
+            additions,
+            multiplications,
+            divisions,
+            roots,
+            negations,
+        } = self;
+        sin_cos + additions + multiplications + divisions + roots + negations
+    }
+}
+
 impl Program {
     /// The operations that `outputs` take.
     pub fn operations(&self, outputs: &[ValueId]) -> Operations {

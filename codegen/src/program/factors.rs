@@ -26,7 +26,7 @@
 
 use super::builder::Builder;
 use super::uses::Uses;
-use super::{Definition, Op, Pass, Program, Purpose, ValueId};
+use super::{Definition, Op, Program, Purpose, ValueId};
 use std::collections::BTreeMap;
 
 /// A product with its sign, in values of the program in the making.
@@ -43,7 +43,7 @@ pub(super) fn common_factors(program: Program) -> Program {
     let mut pass = Factoring {
         program: &program,
         uses: &uses,
-        builder: Builder::of_setup(&program),
+        builder: Builder::on_constants_of(&program),
         values: Vec::with_capacity(program.definitions.len()),
         saved: 0,
     };
@@ -99,11 +99,11 @@ impl Factoring<'_> {
             return None;
         }
         let mut terms = Vec::new();
-        self.terms(id, false, &mut terms);
+        let in_differences = self.terms(id, false, &mut terms);
         let fused = self
             .uses
             .serves(id, |purpose| purpose == Purpose::Accelerations);
-        let saved = self.extract(&mut terms, fused);
+        let saved = in_differences + self.extract(&mut terms, fused);
         if saved == 0 {
             return None;
         }
@@ -125,34 +125,78 @@ impl Factoring<'_> {
                 .all(|&user| self.is_sum(user) && self.uses.alone(id, user))
     }
 
-    fn terms(&mut self, id: ValueId, negative: bool, terms: &mut Vec<Term>) {
-        let (a, b, minus) = match self.program.definition(id).op {
-            Op::Add(a, b) => (a, b, false),
-            Op::Sub(a, b) => (a, b, true),
-            _ => unreachable!("terms are asked of sums"),
-        };
-        for (operand, negative) in [(a, negative), (b, negative != minus)] {
-            if self.is_sum(operand) && self.opens(operand, id) {
-                self.terms(operand, negative, terms);
-            } else {
-                let mut factors = Vec::new();
-                self.factors(operand, id, &mut factors);
-                terms.push(Term { negative, factors });
-            }
-        }
-    }
-
+    /// Whether a value becomes a part of the one that uses it.
     fn opens(&self, id: ValueId, user: ValueId) -> bool {
         self.program.definition(id).name.is_none() && self.uses.alone(id, user)
     }
 
-    fn factors(&self, id: ValueId, user: ValueId, factors: &mut Vec<ValueId>) {
+    /// The operands of a sum, and whether the second is subtracted.
+    fn operands(&self, sum: ValueId) -> (ValueId, ValueId, bool) {
+        match self.program.definition(sum).op {
+            Op::Add(a, b) => (a, b, false),
+            Op::Sub(a, b) => (a, b, true),
+            _ => unreachable!("operands are asked of sums"),
+        }
+    }
+
+    /// The terms of a sum; says what is saved in the differences among them.
+    fn terms(&mut self, sum: ValueId, negative: bool, terms: &mut Vec<Term>) -> usize {
+        let (a, b, minus) = self.operands(sum);
+        let mut saved = 0;
+        for (operand, negative) in [(a, negative), (b, negative != minus)] {
+            if !self.is_sum(operand) || !self.opens(operand, sum) {
+                let factors = self.factors(operand, sum);
+                terms.push(Term { negative, factors });
+            } else if self.is_difference_of_products(operand) {
+                let (term, gain) = self.difference(operand, negative);
+                terms.push(term);
+                saved += gain;
+            } else {
+                saved += self.terms(operand, negative, terms);
+            }
+        }
+        saved
+    }
+
+    fn is_difference_of_products(&self, id: ValueId) -> bool {
+        let product = |id: ValueId| matches!(self.program.definition(id).op, Op::Mul(..));
+        matches!(self.program.definition(id).op, Op::Sub(a, b) if product(a) && product(b))
+    }
+
+    /// A difference of products, with the factors that both have taken out.
+    fn difference(&mut self, id: ValueId, negative: bool) -> (Term, usize) {
+        let (a, b, _) = self.operands(id);
+        let (mut first, mut second) = (self.factors(a, id), self.factors(b, id));
+        let mut factors = Vec::new();
+        // Something of both products stays.
+        let mut place = 0;
+        while place < first.len() && first.len() > 1 && second.len() > 1 {
+            match second.iter().position(|&factor| factor == first[place]) {
+                Some(found) => {
+                    factors.push(first.remove(place));
+                    second.remove(found);
+                }
+                None => place += 1,
+            }
+        }
+        if factors.is_empty() {
+            let factors = vec![self.values[id.0 as usize]];
+            return (Term { negative, factors }, 0);
+        }
+        let saved = factors.len();
+        let [first, second] = [first, second].map(|factors| self.product(&factors));
+        factors.push(self.builder.sub(first, second));
+        (Term { negative, factors }, saved)
+    }
+
+    fn factors(&self, id: ValueId, user: ValueId) -> Vec<ValueId> {
         match self.program.definition(id).op {
             Op::Mul(a, b) if self.opens(id, user) => {
-                self.factors(a, id, factors);
-                self.factors(b, id, factors);
+                let mut factors = self.factors(a, id);
+                factors.extend(self.factors(b, id));
+                factors
             }
-            _ => factors.push(self.values[id.0 as usize]),
+            _ => vec![self.values[id.0 as usize]],
         }
     }
 

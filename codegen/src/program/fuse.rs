@@ -10,7 +10,7 @@
 //! are equal: that sin θ_i cos θ_j − cos θ_i sin θ_j vanishes for equal angles
 //! keeps motions in phase for ever.
 
-use super::{Entry, Op, Program, Purpose, ValueId};
+use super::{Entry, Op, Pass, Program, Purpose, ValueId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A sum with a product in it.
@@ -31,7 +31,7 @@ impl Program {
     /// functions run in plain numbers. Linear in the program's length, times a
     /// logarithm.
     pub fn fused(&self, entry: &Entry) -> BTreeMap<ValueId, Fused> {
-        if entry.purpose != Purpose::Accelerations {
+        if entry.purpose != Purpose::Accelerations || self.without == Some(Pass::Fusing) {
             return BTreeMap::new();
         }
         let needed = self.needed(&entry.outputs);

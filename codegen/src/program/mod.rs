@@ -42,6 +42,7 @@ pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use fuse::Fused;
+use passes::PASSES;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
 pub use taylor::Expansion;
@@ -58,16 +59,21 @@ pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
     lower_without(None, scene, mechanics)
 }
 
-/// The same without one of the passes, to see what it is worth.
-fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
+/// The same without one of the passes, to see what that one is worth.
+pub fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
     let mut lowering = lower::Lowering::new(mechanics);
     lowering.builder.off = off;
     let (entries, choice) = entries::entries(scene, &mut lowering);
     let program = lowering.builder.finish(entries, choice);
-    if off == Some(Pass::CommonFactors) {
-        return program;
-    }
-    factors::common_factors(program)
+    PASSES
+        .iter()
+        .filter(|(pass, _)| off != Some(*pass))
+        .fold(program, |program, (_, pass)| {
+            debug_assert_eq!(program.verify(), Ok(()), "before a pass");
+            let program = pass(program);
+            debug_assert_eq!(program.verify(), Ok(()), "after a pass");
+            program
+        })
 }
 
 /// Index of a value in [`Program::definitions`].
@@ -304,6 +310,8 @@ pub struct Program {
     pub setup: Setup,
     /// How the accelerations are solved for.
     pub choice: Choice,
+    /// The pass that was left out, for comparison.
+    pub without: Option<Pass>,
 }
 
 impl Program {
