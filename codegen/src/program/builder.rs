@@ -219,3 +219,25 @@ impl Builder {
         }
     }
 }
+
+#[cfg(test)]
+impl Builder {
+    /// A program with one entry point, for tests of passes.
+    pub(super) fn program(self, purpose: super::Purpose, outputs: Vec<ValueId>) -> Program {
+        let choice = Choice {
+            solve: crate::scene::Solve::Factorization,
+            factorization: Default::default(),
+            recursion: Default::default(),
+        };
+        let entry = Entry {
+            name: "outputs".to_owned(),
+            purpose,
+            arguments: vec![super::Argument::Theta],
+            outputs,
+            shape: super::Shape::Vector,
+        };
+        let program = self.finish(vec![entry], choice);
+        assert_eq!(program.verify(), Ok(()));
+        program
+    }
+}

@@ -35,7 +35,6 @@ mod taylor;
 mod terms;
 mod text;
 mod turns;
-mod uses;
 mod verify;
 
 pub use choice::{Choice, cost};

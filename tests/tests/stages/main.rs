@@ -5,4 +5,5 @@ mod determinism;
 mod ladder;
 mod lengths;
 mod pages;
+mod passes;
 mod snapshots;
