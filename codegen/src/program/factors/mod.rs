@@ -33,26 +33,44 @@ use super::{Definition, Entry, Op, Program, Purpose, ValueId};
 use extract::{Term, extract, product, sum};
 use std::collections::BTreeMap;
 
-/// The program with common factors taken out; the same program, to the number of each
-/// value, where there are none.
+/// The program with common factors taken out of the entry points that take fewer
+/// operations then; the same program, to the number of each value, where none does.
 pub(super) fn common_factors(program: Program) -> Program {
+    let mut chosen = vec![true; program.entries.len()];
+    let factored = factored(&program, &chosen);
+    let entries = program.entries.iter().zip(&factored.entries);
+    for ((before, after), chosen) in entries.zip(&mut chosen) {
+        *chosen = cost(&factored, after) < cost(&program, before);
+    }
+    if !chosen.contains(&true) {
+        program
+    } else {
+        self::factored(&program, &chosen)
+    }
+}
+
+/// Operations of an entry point, where a product that is fused with a sum is none.
+fn cost(program: &Program, entry: &Entry) -> usize {
+    program.operations(&entry.outputs).total() - program.fused(entry).len()
+}
+
+/// The program with common factors taken out of the chosen entry points.
+fn factored(program: &Program, chosen: &[bool]) -> Program {
     let mut pass = Factoring {
-        program: &program,
-        builder: Builder::on_constants_of(&program),
+        program,
+        builder: Builder::on_constants_of(program),
         values: Vec::with_capacity(program.definitions.len()),
-        saved: 0,
     };
-    let entries = program.entries.iter();
-    let mut functions: Vec<Function> = entries
-        .map(|entry| Function::new(&program, entry))
+    let mut functions: Vec<Function> = program
+        .entries
+        .iter()
+        .zip(chosen)
+        .map(|(entry, &chosen)| Function::new(program, entry, chosen))
         .collect();
     // In the order of the program, whichever entry points need a value: what is not
     // changed keeps its place among the rest.
     for index in 0..program.definitions.len() {
         pass.form(ValueId(index as u32), &mut functions);
-    }
-    if pass.saved == 0 {
-        return program;
     }
     let Factoring {
         builder, values, ..
@@ -63,7 +81,8 @@ pub(super) fn common_factors(program: Program) -> Program {
             *output = function.value(*output, &values);
         }
     }
-    builder.finish(entries, program.choice).without_dead_code()
+    let program = builder.finish(entries, program.choice);
+    program.without_dead_code()
 }
 
 /// What the pass knows of an entry point.
@@ -72,6 +91,8 @@ struct Function {
     ahead: Vec<ValueId>,
     /// The value that uses a value, where there is one alone and that once.
     user: BTreeMap<ValueId, ValueId>,
+    /// Whether factors are taken out.
+    chosen: bool,
     /// Whether its products are fused with its sums.
     fused: bool,
     /// Values that are others here than in the entry points before it.
@@ -79,7 +100,7 @@ struct Function {
 }
 
 impl Function {
-    fn new(program: &Program, entry: &Entry) -> Self {
+    fn new(program: &Program, entry: &Entry, chosen: bool) -> Self {
         let mut ahead = program.needed(&entry.outputs);
         let mut users: BTreeMap<ValueId, Vec<ValueId>> = BTreeMap::new();
         for &id in &ahead {
@@ -95,6 +116,7 @@ impl Function {
         Self {
             ahead,
             user: alone.map(|(id, users)| (id, users[0])).collect(),
+            chosen,
             fused: entry.purpose == Purpose::Accelerations,
             own: BTreeMap::new(),
         }
@@ -113,7 +135,6 @@ struct Factoring<'p> {
     /// What has become of the values of the program, in the first entry point that needs
     /// them.
     values: Vec<ValueId>,
-    saved: usize,
 }
 
 impl Factoring<'_> {
@@ -165,7 +186,7 @@ impl Factoring<'_> {
     /// The value of a sum with factors taken out, if that saves anything.
     fn factored(&mut self, id: ValueId, function: &Function) -> Option<ValueId> {
         let inside = |user: &ValueId| self.is_sum(*user) && self.opens(id, *user, function);
-        if !self.is_sum(id) || function.user.get(&id).is_some_and(inside) {
+        if !function.chosen || !self.is_sum(id) || function.user.get(&id).is_some_and(inside) {
             return None;
         }
         let mut terms = Vec::new();
@@ -174,7 +195,6 @@ impl Factoring<'_> {
         if saved == 0 {
             return None;
         }
-        self.saved += saved;
         Some(sum(&mut self.builder, &terms))
     }
 
