@@ -155,6 +155,10 @@ impl Builder {
         *self.op(id) == Op::Number(Rational::from(value))
     }
 
+    pub(super) fn is_constant(&self, id: ValueId) -> bool {
+        matches!(self.op(id), Op::Constant(_) | Op::Number(_))
+    }
+
     /// The value as a constant of the setup, if no input is involved.
     pub(super) fn as_constant(&mut self, id: ValueId) -> Option<ConstantId> {
         match self.op(id).clone() {

@@ -34,7 +34,7 @@ impl Lowering<'_> {
                 Expr::Number(number) => self.builder.number(number.clone()),
                 Expr::Symbol(symbol) => self.symbol(door, *symbol),
             };
-            let is_constant = self.is_constant(value);
+            let is_constant = self.builder.is_constant(value);
             for _ in 0..exponent.unsigned_abs() {
                 match (is_constant, exponent > 0) {
                     (true, true) => constant = self.builder.mul(constant, value),
@@ -110,12 +110,5 @@ impl Lowering<'_> {
         let velocity = self.symbol(door, velocity);
         let square = self.builder.mul(velocity, velocity);
         Some((negative, self.builder.mul(scaled, square)))
-    }
-
-    fn is_constant(&self, value: ValueId) -> bool {
-        matches!(
-            self.builder.op(value),
-            super::Op::Constant(_) | super::Op::Number(_)
-        )
     }
 }

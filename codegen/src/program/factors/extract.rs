@@ -10,6 +10,15 @@ use std::collections::BTreeMap;
 pub(super) struct Term {
     pub(super) negative: bool,
     pub(super) factors: Vec<ValueId>,
+    /// The value that it has already, if nothing is taken out of it.
+    pub(super) value: Option<ValueId>,
+}
+
+impl Term {
+    fn value(&self, builder: &mut Builder) -> ValueId {
+        self.value
+            .unwrap_or_else(|| product(builder, &self.factors))
+    }
 }
 
 /// Takes factors out, greatest saving first; says what is saved.
@@ -24,6 +33,7 @@ pub(super) fn extract(builder: &mut Builder, terms: &mut Vec<Term>, fused: bool)
             match place {
                 Some(place) if term.factors.len() > 1 => {
                     term.factors.remove(place);
+                    term.value = None;
                     group.push(term.clone());
                     false
                 }
@@ -36,9 +46,13 @@ pub(super) fn extract(builder: &mut Builder, terms: &mut Vec<Term>, fused: bool)
         }
         saved += extract(builder, &mut group, fused);
         let cofactor = sum(builder, &group);
-        let factors = vec![factor, cofactor];
         let place = first.unwrap_or(0).min(terms.len());
-        terms.insert(place, Term { negative, factors });
+        let term = Term {
+            negative,
+            factors: vec![factor, cofactor],
+            value: None,
+        };
+        terms.insert(place, term);
     }
     saved
 }
@@ -47,10 +61,10 @@ pub(super) fn extract(builder: &mut Builder, terms: &mut Vec<Term>, fused: bool)
 pub(super) fn sum(builder: &mut Builder, terms: &[Term]) -> ValueId {
     let first = terms.iter().position(|term| !term.negative).unwrap_or(0);
     let negative = terms[first].negative;
-    let mut sum = product(builder, &terms[first].factors);
+    let mut sum = terms[first].value(builder);
     for (index, term) in terms.iter().enumerate() {
         if index != first {
-            let value = product(builder, &term.factors);
+            let value = term.value(builder);
             sum = match term.negative == negative {
                 true => builder.add(sum, value),
                 false => builder.sub(sum, value),
@@ -60,12 +74,16 @@ pub(super) fn sum(builder: &mut Builder, terms: &[Term]) -> ValueId {
     if negative { builder.neg(sum) } else { sum }
 }
 
+/// A product's value: constants last, so that what they multiply is shared.
 pub(super) fn product(builder: &mut Builder, factors: &[ValueId]) -> ValueId {
-    let mut product = factors[0];
-    for &factor in &factors[1..] {
-        product = builder.mul(product, factor);
-    }
-    product
+    let (constants, values): (Vec<ValueId>, Vec<ValueId>) = factors
+        .iter()
+        .partition(|&&factor| builder.is_constant(factor));
+    let mut factors = values.into_iter().chain(constants);
+    let Some(first) = factors.next() else {
+        return builder.integer(1);
+    };
+    factors.fold(first, |product, factor| builder.mul(product, factor))
 }
 
 /// The factor that saves most, and what it saves.

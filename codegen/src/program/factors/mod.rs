@@ -7,7 +7,9 @@
 //! most operations is taken out of the terms that have it, and so on with what
 //! stands in its place and with what is left, until nothing is saved. Among equals
 //! the one that comes first in the sum is taken. Cofactors are shared like all other
-//! values, so that b + c is formed once for two sums.
+//! values, so that b + c is formed once for two sums. Every entry point is looked at by
+//! itself, so that its code does not depend on which others there are, and keeps its
+//! sums unless it takes fewer operations in all.
 //!
 //! # When it is valid
 //! Taken out, a factor multiplies each of its terms as before, only later: no term is
@@ -16,13 +18,15 @@
 //! terms, stays; where a factor is taken out of two terms that nearly cancel, a b − a c,
 //! one product is rounded instead of two. But other terms may be added to each other
 //! first. A difference of two products is therefore one term, and is opened only for a
-//! factor that both have: it is zero where they are equal, before and after.
+//! factor that both have: it is zero where they are equal factor by factor, before and
+//! after.
 //!
 //! Where products are fused with sums (accelerations), a product of two
 //! values costs nothing in a sum; the saving is counted accordingly.
 //!
 //! # Cost
-//! Each step counts the factors of a sum, F of K terms, so that a sum takes O(K F log F).
+//! Each step counts the factors of a sum, F of K terms, so that a sum takes O(K F log F);
+//! the rest is a walk over every entry point, times a logarithm.
 
 mod extract;
 #[cfg(test)]
@@ -229,7 +233,11 @@ impl Factoring<'_> {
         for (operand, negative) in [(a, negative), (b, negative != minus)] {
             if !self.is_sum(operand) || !self.opens(operand, sum, function) {
                 let factors = self.factors(operand, sum, function);
-                terms.push(Term { negative, factors });
+                terms.push(Term {
+                    negative,
+                    factors,
+                    value: Some(function.value(operand, &self.values)),
+                });
             } else if self.is_difference_of_products(operand) {
                 let (term, gain) = self.difference(operand, negative, function);
                 terms.push(term);
@@ -264,13 +272,23 @@ impl Factoring<'_> {
             }
         }
         if factors.is_empty() {
-            let factors = vec![function.value(id, &self.values)];
-            return (Term { negative, factors }, 0);
+            let value = function.value(id, &self.values);
+            let term = Term {
+                negative,
+                factors: vec![value],
+                value: Some(value),
+            };
+            return (term, 0);
         }
         let saved = factors.len();
         let [first, second] = [first, second].map(|factors| product(&mut self.builder, &factors));
         factors.push(self.builder.sub(first, second));
-        (Term { negative, factors }, saved)
+        let term = Term {
+            negative,
+            factors,
+            value: None,
+        };
+        (term, saved)
     }
 
     fn factors(&self, id: ValueId, user: ValueId, function: &Function) -> Vec<ValueId> {
