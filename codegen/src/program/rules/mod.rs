@@ -20,7 +20,7 @@ use super::{Op, Pass, ValueId};
 type Rule = fn(&mut Builder, &Op) -> Option<ValueId>;
 
 /// The rules in the order in which they are tried, and the passes that they are.
-/// The first keeps programs finite and is always on.
+/// The first is always on: what symmetry makes zero is to vanish from every program.
 pub(super) const RULES: [(Option<Pass>, Rule); 3] = [
     (None, neutral::neutral),
     (Some(Pass::Signs), signs::signs),
