@@ -4,7 +4,7 @@ set -eu
 cd "$(dirname "$0")/.."
 cargo build --quiet -p branched-pendulum-codegen
 expand=${CARGO_TARGET_DIR:-target}/debug/expand
-for scene in paper nested; do
+for scene in paper triplet nested; do
     printf '%s\n\n' "$scene"
     "$expand" --stage passes "tests/fixtures/scenes/$scene.rs"
     printf '\n'

@@ -22,7 +22,7 @@ pub mod scene;
 use description::Description;
 use mechanics::{AlgebraError, Mechanics};
 use proc_macro2::{Span, TokenStream};
-use program::Program;
+use program::{Pass, Program};
 use quote::quote;
 use report::{Diagnostic, Message, Report};
 use scene::Scene;
@@ -48,6 +48,18 @@ pub struct Stages {
 /// The collected errors of the description, with the tokens that stand in for
 /// the item: its errors, and stubs so that an editor shows no others.
 pub fn stages(attribute: TokenStream, item: TokenStream) -> Result<Stages, (Report, TokenStream)> {
+    stages_without(None, attribute, item)
+}
+
+/// The same without one of the passes over programs, to see what that one is worth.
+///
+/// # Errors
+/// Those of [`stages`].
+pub fn stages_without(
+    off: Option<Pass>,
+    attribute: TokenStream,
+    item: TokenStream,
+) -> Result<Stages, (Report, TokenStream)> {
     let mut report = Report::new();
     let Some(description) = description::parse(attribute, item.clone(), &mut report) else {
         let errors = report.to_compile_errors();
@@ -64,7 +76,7 @@ pub fn stages(attribute: TokenStream, item: TokenStream) -> Result<Stages, (Repo
             return Err(refuse(&description, report));
         }
     };
-    let program = program::lower(&derived, &mechanics);
+    let program = program::lower_without(off, &derived, &mechanics);
     drop(derived);
     if let Some(name) = program.unrepresentable_constant() {
         let name = name.to_owned();

@@ -1,5 +1,6 @@
 //! The `expand` tool, run as its users run it.
 
+use branched_pendulum_codegen::program::Pass;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
@@ -86,6 +87,33 @@ fn errors_name_line_and_column() {
 }
 
 #[test]
+fn passes_are_left_out_by_name() {
+    let scene = fixture("scenes/chain.rs");
+    let expand_without = |pass: &str| {
+        expand(&[
+            "--without".as_ref(),
+            pass.as_ref(),
+            "--stage".as_ref(),
+            "program".as_ref(),
+            scene.as_ref(),
+        ])
+    };
+    let all = expand(&["--stage".as_ref(), "program".as_ref(), scene.as_ref()]);
+    let without = expand_without("common-factors");
+    assert!(without.status.success(), "{}", text(&without.stderr));
+    assert_ne!(text(&without.stdout), text(&all.stdout));
+    let unknown = expand_without("optimism");
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(text(&unknown.stderr).contains("passes are sharing, folding"));
+    // The help lists them all.
+    let help = expand(&["--help".as_ref()]);
+    let help = text(&help.stdout);
+    for pass in Pass::ALL {
+        assert!(help.contains(pass.name()), "{}", pass.name());
+    }
+}
+
+#[test]
 fn stages_and_help() {
     for stage in ["description", "scene", "mechanics", "program"] {
         let output = expand(&[
@@ -99,7 +127,7 @@ fn stages_and_help() {
         );
     }
     let help = expand(&["--help".as_ref()]);
-    for option in ["--out", "--check", "--stage", "--help"] {
+    for option in ["--out", "--check", "--stage", "--without", "--help"] {
         assert!(text(&help.stdout).contains(option));
     }
     let unknown = expand(&["--stage".as_ref(), "assembler".as_ref(), "x.rs".as_ref()]);

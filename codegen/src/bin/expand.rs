@@ -4,7 +4,8 @@
 //! build it against `branched-pendulum` without its feature `macros`, and let
 //! `--check` tell when it is stale.
 
-use branched_pendulum_codegen::{Stages, program, stages};
+use branched_pendulum_codegen::program::Pass;
+use branched_pendulum_codegen::{Stages, program, stages_without};
 use proc_macro2::TokenStream;
 use quote::ToTokens;
 use std::ops::Range;
@@ -23,6 +24,8 @@ Usage: expand [OPTIONS] SOURCE
   --check FILE      compare with FILE; exit with 1 where it is stale
   --stage STAGE     show a stage instead of code: description, scene, mechanics
                     or program; or what the passes over programs are worth: passes
+  --without PASS    leave out a pass over programs, to compare: sharing, folding,
+                    signs, angle-addition, common-factors, choice, fusing or splitting
   -h, --help        this text
 
 Everything but the attributed structs is copied as it stands; imports of the
@@ -44,12 +47,14 @@ struct Arguments {
     out: Option<PathBuf>,
     check: Option<PathBuf>,
     stage: Option<String>,
+    without: Option<Pass>,
 }
 
 const STAGES: [&str; 5] = ["description", "scene", "mechanics", "program", "passes"];
 
 fn arguments() -> Result<Option<Arguments>, String> {
-    let (mut source, mut out, mut check, mut stage) = (None, None, None, None);
+    let (mut source, mut out, mut check) = (None, None, None);
+    let (mut stage, mut without) = (None, None);
     let mut words = std::env::args_os().skip(1);
     while let Some(word) = words.next() {
         let mut value = |option: &str| {
@@ -69,6 +74,14 @@ fn arguments() -> Result<Option<Arguments>, String> {
                 }
                 stage = Some(name);
             }
+            Some("--without") => {
+                let name = value("--without")?.to_string_lossy().into_owned();
+                let Some(pass) = Pass::named(&name) else {
+                    let known = Pass::ALL.map(Pass::name).join(", ");
+                    return Err(format!("error: no pass `{name}`; passes are {known}"));
+                };
+                without = Some(pass);
+            }
             Some(option) if option.starts_with('-') => {
                 return Err(format!("error: unknown option `{option}`; see --help"));
             }
@@ -85,6 +98,7 @@ fn arguments() -> Result<Option<Arguments>, String> {
         out,
         check,
         stage,
+        without,
     }))
 }
 
@@ -110,10 +124,12 @@ fn run() -> Result<ExitCode, String> {
     let mut replacements = finder.edits;
     let mut shown = String::new();
     for found in finder.found {
-        let stages = stages(found.attribute, found.item).map_err(|(report, _)| {
-            let text = report.render(&source);
-            format!("{}:\n{text}", path.display())
-        })?;
+        let stages = stages_without(arguments.without, found.attribute, found.item).map_err(
+            |(report, _)| {
+                let text = report.render(&source);
+                format!("{}:\n{text}", path.display())
+            },
+        )?;
         match arguments.stage.as_deref() {
             Some(stage) => shown.push_str(&show(&stages, stage)),
             None => replacements.push((found.range, format_tokens(&stages)?)),

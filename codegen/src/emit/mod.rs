@@ -4,6 +4,7 @@
 mod budget;
 mod docs;
 mod drive;
+mod expressions;
 mod formulas;
 mod function;
 mod gather;

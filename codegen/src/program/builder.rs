@@ -1,28 +1,38 @@
-//! Builds a program value by value. Equal operations become one value, and
-//! operations that change nothing are not recorded.
+//! Builds a program value by value; [`RULES`] say what becomes of an operation.
 
+use super::rules::RULES;
+use super::rules::sharing::Known;
 use super::{Choice, ConstantId, ConstantOp, Definition, Entry, Op, Pass, Program, Setup, ValueId};
 use crate::exact::Rational;
 use crate::scene::Scene;
-use std::collections::BTreeMap;
 
 /// A program in the making.
 #[derive(Clone, Default)]
 pub(super) struct Builder {
     pub(super) definitions: Vec<Definition>,
-    known: BTreeMap<Op, ValueId>,
+    known: Known,
     pub(super) setup: Setup,
     /// What is left out, for comparison.
     pub(super) off: Option<Pass>,
 }
 
 impl Builder {
+    /// A program without values yet, with the constants of another one.
+    pub(super) fn on_constants_of(program: &Program) -> Self {
+        Self {
+            setup: program.setup.clone(),
+            off: program.without,
+            ..Self::default()
+        }
+    }
+
     pub(super) fn finish(self, entries: Vec<Entry>, choice: Choice) -> Program {
         Program {
             definitions: self.definitions,
             entries,
             setup: self.setup,
             choice,
+            without: self.off,
         }
     }
 
@@ -32,14 +42,28 @@ impl Builder {
 
     /// The values that `outputs` depend on, themselves included, in order.
     pub(super) fn needed(&self, outputs: &[ValueId]) -> Vec<ValueId> {
-        super::needed(&self.definitions, outputs)
+        super::dead::needed(&self.definitions, outputs)
     }
 
-    fn record(&mut self, op: Op) -> ValueId {
-        let leaf = !op.operands().any(|_| true) || matches!(op, Op::Sin(_) | Op::Cos(_));
-        if (leaf || self.off != Some(Pass::Sharing))
-            && let Some(&id) = self.known.get(&op)
-        {
+    /// A value by this operation: what the rules make of it, or the operation.
+    fn form(&mut self, op: Op) -> ValueId {
+        for (pass, rule) in RULES {
+            if (pass.is_none() || self.off != pass)
+                && let Some(value) = rule(self, &op)
+            {
+                return value;
+            }
+        }
+        self.record(op)
+    }
+
+    /// A value by exactly this operation, formed before or now.
+    pub(super) fn record(&mut self, op: Op) -> ValueId {
+        let found = match self.off {
+            Some(Pass::Sharing) => self.known.find_leaf(&op),
+            _ => self.known.find(&op),
+        };
+        if let Some(id) = found {
             return id;
         }
         let id = ValueId(self.definitions.len() as u32);
@@ -131,16 +155,12 @@ impl Builder {
         *self.op(id) == Op::Number(Rational::from(value))
     }
 
-    /// What a change of sign is applied to.
-    fn opposite(&self, id: ValueId) -> Option<ValueId> {
-        match *self.op(id) {
-            Op::Neg(inner) if self.off != Some(Pass::Signs) => Some(inner),
-            _ => None,
-        }
+    pub(super) fn is_constant(&self, id: ValueId) -> bool {
+        matches!(self.op(id), Op::Constant(_) | Op::Number(_))
     }
 
     /// The value as a constant of the setup, if no input is involved.
-    fn as_constant(&mut self, id: ValueId) -> Option<ConstantId> {
+    pub(super) fn as_constant(&mut self, id: ValueId) -> Option<ConstantId> {
         match self.op(id).clone() {
             Op::Constant(constant) => Some(constant),
             Op::Number(number) => Some(self.setup.number(number)),
@@ -148,135 +168,24 @@ impl Builder {
         }
     }
 
-    fn fold(
-        &mut self,
-        a: ValueId,
-        b: ValueId,
-        operation: fn(&mut Setup, ConstantId, ConstantId) -> ConstantId,
-    ) -> Option<ValueId> {
-        if self.off == Some(Pass::Folding) {
-            return None;
-        }
-        let (a, b) = (self.as_constant(a)?, self.as_constant(b)?);
-        let folded = operation(&mut self.setup, a, b);
-        Some(self.constant(folded))
-    }
-
     pub(super) fn neg(&mut self, a: ValueId) -> ValueId {
-        if self.off == Some(Pass::Signs) && self.as_constant(a).is_none() {
-            return self.record(Op::Neg(a));
-        }
-        match *self.op(a) {
-            Op::Neg(inner) => inner,
-            Op::Sub(x, y) => self.sub(y, x),
-            Op::Number(ref number) => {
-                let opposite = -number;
-                self.number(opposite)
-            }
-            _ => match self.as_constant(a) {
-                Some(constant) => {
-                    let folded = self.setup.neg(constant);
-                    self.constant(folded)
-                }
-                None => self.record(Op::Neg(a)),
-            },
-        }
+        self.form(Op::Neg(a))
     }
 
     pub(super) fn add(&mut self, a: ValueId, b: ValueId) -> ValueId {
-        if self.is(a, 0) {
-            return b;
-        }
-        if self.is(b, 0) {
-            return a;
-        }
-        if let Some(inner) = self.opposite(b) {
-            return self.sub(a, inner);
-        }
-        if let Some(inner) = self.opposite(a) {
-            return self.sub(b, inner);
-        }
-        if a == b {
-            let two = self.integer(2);
-            return self.mul(two, a);
-        }
-        self.fold(a, b, Setup::add)
-            .unwrap_or_else(|| self.record(Op::Add(a, b)))
+        self.form(Op::Add(a, b))
     }
 
     pub(super) fn sub(&mut self, a: ValueId, b: ValueId) -> ValueId {
-        if self.is(b, 0) {
-            return a;
-        }
-        if self.is(a, 0) {
-            return self.neg(b);
-        }
-        if a == b {
-            return self.integer(0);
-        }
-        if let Some(inner) = self.opposite(b) {
-            return self.add(a, inner);
-        }
-        if let Some(inner) = self.opposite(a) {
-            let sum = self.add(inner, b);
-            return self.neg(sum);
-        }
-        self.fold(a, b, Setup::sub)
-            .unwrap_or_else(|| self.record(Op::Sub(a, b)))
+        self.form(Op::Sub(a, b))
     }
 
-    /// Product. Signs move outwards and constants inwards, so that
-    /// (μ cos) · (1/M) becomes (μ/M) · cos, with μ/M formed once.
     pub(super) fn mul(&mut self, a: ValueId, b: ValueId) -> ValueId {
-        if self.is(a, 0) || self.is(b, 1) {
-            return a;
-        }
-        if self.is(b, 0) || self.is(a, 1) {
-            return b;
-        }
-        for (x, y) in [(a, b), (b, a)] {
-            if self.is(x, -1) {
-                return self.neg(y);
-            }
-            if let Some(inner) = self.opposite(x) {
-                let product = self.mul(inner, y);
-                return self.neg(product);
-            }
-        }
-        if let Some(folded) = self.fold(a, b, Setup::mul) {
-            return folded;
-        }
-        for (x, y) in [(a, b), (b, a)] {
-            if self.as_constant(x).is_some() {
-                // −(c · rest) is stored as Neg, so constants meet here only.
-                if let Op::Mul(c, rest) = *self.op(y)
-                    && let Some(folded) = self.fold(x, c, Setup::mul)
-                {
-                    return self.mul(folded, rest);
-                }
-                return self.record(Op::Mul(x, y));
-            }
-        }
-        self.record(Op::Mul(a, b))
+        self.form(Op::Mul(a, b))
     }
 
     pub(super) fn div(&mut self, a: ValueId, b: ValueId) -> ValueId {
-        if self.is(a, 0) || self.is(b, 1) {
-            return a;
-        }
-        if let Some(inner) = self.opposite(a) {
-            let quotient = self.div(inner, b);
-            return self.neg(quotient);
-        }
-        if let Some(folded) = self.fold(a, b, Setup::div) {
-            return folded;
-        }
-        if self.off != Some(Pass::Folding) && self.as_constant(b).is_some() {
-            let one = self.integer(1);
-            let inverse = self.div(one, b);
-            return self.mul(a, inverse);
-        }
-        self.record(Op::Div(a, b))
+        self.form(Op::Div(a, b))
     }
 }
 
@@ -312,5 +221,27 @@ impl Builder {
             },
             _ => false,
         }
+    }
+}
+
+#[cfg(test)]
+impl Builder {
+    /// A program with one entry point, for tests of passes.
+    pub(super) fn program(self, purpose: super::Purpose, outputs: Vec<ValueId>) -> Program {
+        let choice = Choice {
+            solve: crate::scene::Solve::Factorization,
+            factorization: Default::default(),
+            recursion: Default::default(),
+        };
+        let entry = Entry {
+            name: "outputs".to_owned(),
+            purpose,
+            arguments: vec![super::Argument::Theta],
+            outputs,
+            shape: super::Shape::Vector,
+        };
+        let program = self.finish(vec![entry], choice);
+        assert_eq!(program.verify(), Ok(()));
+        program
     }
 }

@@ -21,6 +21,21 @@ pub struct Operations {
     pub negations: usize,
 }
 
+impl Operations {
+    /// All together; a sine with its cosine is one.
+    pub fn total(&self) -> usize {
+        let Self {
+            sin_cos,
+            additions,
+            multiplications,
+            divisions,
+            roots,
+            negations,
+        } = self;
+        sin_cos + additions + multiplications + divisions + roots + negations
+    }
+}
+
 impl Program {
     /// The operations that `outputs` take.
     pub fn operations(&self, outputs: &[ValueId]) -> Operations {
@@ -32,7 +47,7 @@ impl Program {
 pub(super) fn operations(definitions: &[Definition], outputs: &[ValueId]) -> Operations {
     let mut count = Operations::default();
     let mut angles = BTreeSet::new();
-    for id in super::needed(definitions, outputs) {
+    for id in super::dead::needed(definitions, outputs) {
         match definitions[id.0 as usize].op {
             Op::Input(..) | Op::Constant(_) | Op::Number(_) => {}
             Op::Sin(angle) | Op::Cos(angle) => {

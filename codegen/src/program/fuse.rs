@@ -10,7 +10,7 @@
 //! are equal: that sin θ_i cos θ_j − cos θ_i sin θ_j vanishes for equal angles
 //! keeps motions in phase for ever.
 
-use super::{Entry, Op, Program, Purpose, ValueId};
+use super::{Entry, Op, Pass, Program, Purpose, ValueId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A sum with a product in it.
@@ -31,7 +31,7 @@ impl Program {
     /// functions run in plain numbers. Linear in the program's length, times a
     /// logarithm.
     pub fn fused(&self, entry: &Entry) -> BTreeMap<ValueId, Fused> {
-        if entry.purpose != Purpose::Accelerations {
+        if entry.purpose != Purpose::Accelerations || self.without == Some(Pass::Fusing) {
             return BTreeMap::new();
         }
         let needed = self.needed(&entry.outputs);
@@ -95,5 +95,48 @@ impl Program {
             .iter()
             .filter_map(|&id| Some((id, fused(id)?)))
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::program::builder::Builder;
+    use crate::program::{Argument, Purpose, ValueId};
+
+    fn inputs(builder: &mut Builder) -> [ValueId; 4] {
+        std::array::from_fn(|index| builder.input(Argument::Theta, index))
+    }
+
+    #[test]
+    fn products_in_sums_alone_are_fused() {
+        let mut builder = Builder::default();
+        let [a, b, c, d] = inputs(&mut builder);
+        let (ab, cd) = (builder.mul(a, b), builder.mul(c, d));
+        let sum = builder.add(ab, cd);
+        let minus = builder.sub(c, ab);
+        let program = builder
+            .clone()
+            .program(Purpose::Accelerations, vec![sum, minus]);
+        let fused = program.fused(&program.entries[0]);
+        // Of two products in a sum the second; the first is formed for both.
+        assert_eq!(fused[&sum].product, cd);
+        assert!(!fused.contains_key(&minus));
+        let program = builder.program(Purpose::Accelerations, vec![minus]);
+        let fused = program.fused(&program.entries[0]);
+        assert!(fused[&minus].product == ab && fused[&minus].minus_product);
+    }
+
+    #[test]
+    fn differences_of_products_and_other_functions_are_not() {
+        let mut builder = Builder::default();
+        let [a, b, c, d] = inputs(&mut builder);
+        let (ab, cd) = (builder.mul(a, b), builder.mul(c, d));
+        let (difference, sum) = (builder.sub(ab, cd), builder.add(ab, cd));
+        let program = builder
+            .clone()
+            .program(Purpose::Accelerations, vec![difference]);
+        assert!(program.fused(&program.entries[0]).is_empty());
+        let program = builder.program(Purpose::KineticEnergy, vec![sum]);
+        assert!(program.fused(&program.entries[0]).is_empty());
     }
 }

@@ -8,12 +8,8 @@ use super::builder::Builder;
 use super::constants::ConstantId;
 use super::solve::Matrix;
 use super::{Argument, ValueId};
-use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
-use crate::mechanics::{
-    CombinationId, Entry as MatrixEntry, Expansion, Frame, Mechanics, ObservableFrame,
-    Trigonometric,
-};
+use crate::mechanics::{Entry as MatrixEntry, Expansion, Frame, Mechanics, ObservableFrame};
 use std::collections::BTreeMap;
 
 /// Lowering in progress.
@@ -130,65 +126,6 @@ impl<'a> Lowering<'a> {
         };
         door.values.insert(symbol, value);
         value
-    }
-
-    fn trigonometric(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
-        let mechanics = self.mechanics;
-        match mechanics.trigonometry[&symbol] {
-            Trigonometric::VersineOf(CombinationId(id)) => {
-                self.combination(door, &mechanics.combinations[id]).versine
-            }
-            Trigonometric::SineOf(CombinationId(id)) => {
-                self.combination(door, &mechanics.combinations[id]).sine
-            }
-            Trigonometric::Cos(a) if self.is_combined(a) => {
-                let versine = self.by_half_angle(door, a).versine;
-                let one = self.builder.integer(1);
-                self.builder.sub(one, versine)
-            }
-            Trigonometric::Sin(a) if self.is_combined(a) => self.by_half_angle(door, a).sine,
-            Trigonometric::Cos(a) => {
-                let angle = self.symbol(door, a);
-                self.builder.cos(angle)
-            }
-            Trigonometric::Sin(a) => {
-                let angle = self.symbol(door, a);
-                self.builder.sin(angle)
-            }
-            // cos(a − b) = cos a cos b + sin a sin b
-            Trigonometric::CosBetween(a, b) => {
-                let [cos_a, sin_a, cos_b, sin_b] = self.sines_and_cosines(door, a, b);
-                let first = self.builder.mul(cos_a, cos_b);
-                let second = self.builder.mul(sin_a, sin_b);
-                self.builder.add(first, second)
-            }
-            // sin(a − b) = sin a cos b − cos a sin b
-            Trigonometric::SinBetween(a, b) => {
-                let [cos_a, sin_a, cos_b, sin_b] = self.sines_and_cosines(door, a, b);
-                let first = self.builder.mul(sin_a, cos_b);
-                let second = self.builder.mul(cos_a, sin_b);
-                self.builder.sub(first, second)
-            }
-        }
-    }
-
-    fn sines_and_cosines(&mut self, door: &mut Door<'_>, a: SymbolId, b: SymbolId) -> [ValueId; 4] {
-        [
-            Trigonometric::Cos(a),
-            Trigonometric::Sin(a),
-            Trigonometric::Cos(b),
-            Trigonometric::Sin(b),
-        ]
-        .map(|wanted| self.trigonometric_symbol(wanted))
-        .map(|symbol| self.symbol(door, symbol))
-    }
-
-    pub(super) fn trigonometric_symbol(&self, wanted: Trigonometric) -> SymbolId {
-        let mut table = self.mechanics.trigonometry.iter();
-        match table.find(|(_, meaning)| **meaning == wanted) {
-            Some((&symbol, _)) => symbol,
-            None => unreachable!("every coordinate has a sine and a cosine"),
-        }
     }
 
     /// q̇ with M q̇ = p.
@@ -328,118 +265,5 @@ impl<'a> Lowering<'a> {
                 }
             }
         }
-    }
-
-    /// A term's sign and size: constants first, then what is multiplied, then
-    /// one quotient.
-    fn term(&mut self, door: &mut Door<'_>, term: &Expr) -> (bool, ValueId) {
-        if let Some(value) = self.centrifugal(door, term) {
-            return value;
-        }
-        let mut negative = false;
-        let mut constant = self.builder.integer(1);
-        let mut above: Option<ValueId> = None;
-        let mut below: Option<ValueId> = None;
-        for factor in term.factors() {
-            let (base, exponent) = match factor {
-                Expr::Power(base, exponent) => (base.as_ref(), *exponent),
-                Expr::Number(number) if number.is_negative() => {
-                    negative = !negative;
-                    let size: Rational = -number;
-                    let size = self.builder.number(size);
-                    constant = self.builder.mul(constant, size);
-                    continue;
-                }
-                other => (other, 1),
-            };
-            let value = match base {
-                Expr::Product(_) | Expr::Power(..) => self.expr(door, base),
-                Expr::Sum(_) => self.expr(door, base),
-                Expr::Number(number) => self.builder.number(number.clone()),
-                Expr::Symbol(symbol) => self.symbol(door, *symbol),
-            };
-            let is_constant = self.is_constant(value);
-            for _ in 0..exponent.unsigned_abs() {
-                match (is_constant, exponent > 0) {
-                    (true, true) => constant = self.builder.mul(constant, value),
-                    (true, false) => constant = self.builder.div(constant, value),
-                    (false, up) => {
-                        let side = if up { &mut above } else { &mut below };
-                        *side = Some(match *side {
-                            Some(product) => self.builder.mul(product, value),
-                            None => value,
-                        });
-                    }
-                }
-            }
-        }
-        let one = self.builder.integer(1);
-        let mut value = match above {
-            Some(product) => self.builder.mul(constant, product),
-            None => constant,
-        };
-        if let Some(divisor) = below {
-            let value_or_one = if above.is_some() || !self.builder.is(constant, 1) {
-                value
-            } else {
-                one
-            };
-            value = self.builder.div(value_or_one, divisor);
-        }
-        (negative, value)
-    }
-
-    /// ±μ sin ω² as (μ sin) · ω²: a pair of links shares the first factor, all
-    /// pairs of a link the second.
-    fn centrifugal(&mut self, door: &mut Door<'_>, term: &Expr) -> Option<(bool, ValueId)> {
-        let mechanics = self.mechanics;
-        let role = |symbol: &SymbolId| mechanics.symbols.get(*symbol).role;
-        let mut negative = false;
-        let (mut constants, mut sine, mut velocity) = (Vec::new(), None, None);
-        for factor in term.factors() {
-            match factor {
-                Expr::Number(number) => {
-                    negative ^= number.is_negative();
-                    let size = if number.is_negative() {
-                        -number
-                    } else {
-                        number.clone()
-                    };
-                    constants.push(self.builder.number(size));
-                }
-                Expr::Symbol(symbol) if role(symbol) == Role::Constant => {
-                    constants.push(self.symbol(door, *symbol));
-                }
-                Expr::Symbol(symbol) if role(symbol) == Role::Trigonometric && sine.is_none() => {
-                    sine = Some(*symbol);
-                }
-                Expr::Power(base, 2) => match base.as_ref() {
-                    Expr::Symbol(symbol)
-                        if role(symbol) == Role::Velocity && velocity.is_none() =>
-                    {
-                        velocity = Some(*symbol);
-                    }
-                    _ => return None,
-                },
-                _ => return None,
-            }
-        }
-        let (sine, velocity) = (sine?, velocity?);
-        let mut scaled = self.symbol(door, sine);
-        for constant in constants {
-            scaled = self.builder.mul(constant, scaled);
-        }
-        let code = &mechanics.symbols.get(sine).code;
-        self.builder.name(scaled, &format!("coupled_{code}"));
-        let velocity = self.symbol(door, velocity);
-        let square = self.builder.mul(velocity, velocity);
-        Some((negative, self.builder.mul(scaled, square)))
-    }
-
-    fn is_constant(&self, value: ValueId) -> bool {
-        matches!(
-            self.builder.op(value),
-            super::Op::Constant(_) | super::Op::Number(_)
-        )
     }
 }

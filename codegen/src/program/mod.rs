@@ -5,13 +5,16 @@
 //! equal operands are one value. Constants of the model are a second, smaller
 //! list of the same kind ([`Setup`]), evaluated once.
 
+mod angles;
 mod builder;
 mod choice;
 mod constants;
 mod copies;
 mod count;
+mod dead;
 mod drive;
 mod entries;
+mod factors;
 mod formed;
 mod fuse;
 mod handed;
@@ -24,10 +27,12 @@ mod pair;
 mod passes;
 mod rebuild;
 mod recursion;
+mod rules;
 mod sectors;
 mod solve;
 mod spelling;
 mod taylor;
+mod terms;
 mod text;
 mod turns;
 mod verify;
@@ -36,6 +41,7 @@ pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use fuse::Fused;
+use passes::PASSES;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
 pub use taylor::Expansion;
@@ -52,12 +58,21 @@ pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
     lower_without(None, scene, mechanics)
 }
 
-/// The same without one of the passes, to see what it is worth.
-fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
+/// The same without one of the passes, to see what that one is worth.
+pub fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
     let mut lowering = lower::Lowering::new(mechanics);
     lowering.builder.off = off;
     let (entries, choice) = entries::entries(scene, &mut lowering);
-    lowering.builder.finish(entries, choice)
+    let program = lowering.builder.finish(entries, choice);
+    PASSES
+        .iter()
+        .filter(|(pass, _)| off != Some(*pass))
+        .fold(program, |program, (_, pass)| {
+            debug_assert_eq!(program.verify(), Ok(()), "before a pass");
+            let program = pass(program);
+            debug_assert_eq!(program.verify(), Ok(()), "after a pass");
+            program
+        })
 }
 
 /// Index of a value in [`Program::definitions`].
@@ -125,6 +140,21 @@ impl Op {
             }
         };
         first.into_iter().chain(second)
+    }
+
+    /// The same operation on other operands.
+    pub(crate) fn with_operands(&self, of: impl Fn(ValueId) -> ValueId) -> Self {
+        match *self {
+            Self::Input(..) | Self::Constant(_) | Self::Number(_) => self.clone(),
+            Self::Sin(a) => Self::Sin(of(a)),
+            Self::Cos(a) => Self::Cos(of(a)),
+            Self::Sqrt(a) => Self::Sqrt(of(a)),
+            Self::Neg(a) => Self::Neg(of(a)),
+            Self::Add(a, b) => Self::Add(of(a), of(b)),
+            Self::Sub(a, b) => Self::Sub(of(a), of(b)),
+            Self::Mul(a, b) => Self::Mul(of(a), of(b)),
+            Self::Div(a, b) => Self::Div(of(a), of(b)),
+        }
     }
 }
 
@@ -279,6 +309,8 @@ pub struct Program {
     pub setup: Setup,
     /// How the accelerations are solved for.
     pub choice: Choice,
+    /// The pass that was left out, for comparison.
+    pub without: Option<Pass>,
 }
 
 impl Program {
@@ -291,29 +323,4 @@ impl Program {
     pub fn entry(&self, name: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.name == name)
     }
-
-    /// The values that `outputs` depend on, themselves included, in order:
-    /// the program pruned to them. Linear in the program's length.
-    pub fn needed(&self, outputs: &[ValueId]) -> Vec<ValueId> {
-        needed(&self.definitions, outputs)
-    }
-}
-
-/// See [`Program::needed`].
-fn needed(definitions: &[Definition], outputs: &[ValueId]) -> Vec<ValueId> {
-    let mut wanted = vec![false; definitions.len()];
-    for output in outputs {
-        wanted[output.0 as usize] = true;
-    }
-    for index in (0..wanted.len()).rev() {
-        if wanted[index] {
-            for operand in definitions[index].op.operands() {
-                wanted[operand.0 as usize] = true;
-            }
-        }
-    }
-    (0..wanted.len() as u32)
-        .map(ValueId)
-        .filter(|id| wanted[id.0 as usize])
-        .collect()
 }

@@ -1,10 +1,20 @@
-//! What is done to a program while it is formed, and what each step is worth.
+//! The passes over programs, each a file with one idea, and what each is worth.
 //!
-//! The steps act value by value in `builder.rs`, on the last operation; `choice.rs`
-//! compares whole solves. Values that nothing uses are left out of every entry
-//! point by `Program::needed`.
+//! | pass | where | acts |
+//! |---|---|---|
+//! | signs, folding, sharing | `rules/` | on an operation when it is formed |
+//! | angle addition | `angles.rs` | on the sine or cosine of a difference when it is formed |
+//! | choice of solve | `choice.rs` | on the accelerations, derived both ways |
+//! | common factors | `factors.rs` | on whole programs |
+//! | fusing | `fuse.rs` | on an entry point, for emission and interpreter alike |
+//! | dead code | `dead.rs` | on an entry point, which is the program pruned to its outputs |
+//! | splitting | `emit/parts.rs` | on functions that are too long for the compiler |
+//!
+//! Every one keeps what [`Program::verify`] checks, and the meaning: exactly, or within
+//! the roundings that its file states.
 
-use super::{Program, lower_without};
+use super::count::{Operations, operations};
+use super::{Program, ValueId, factors, lower_without};
 use crate::mechanics::Mechanics;
 use crate::scene::Scene;
 use std::fmt::Write;
@@ -18,59 +28,100 @@ pub enum Pass {
     Folding,
     /// Signs move outwards and into sums and differences.
     Signs,
+    /// Sines and cosines of differences are formed from those of single angles.
+    AngleAddition,
+    /// A common factor of several terms is multiplied once.
+    CommonFactors,
     /// Of two solves the cheaper one.
     Choice,
+    /// Products are part of the sums that they feed.
+    Fusing,
+    /// Long functions are written in parts.
+    Splitting,
 }
 
-impl Pass {
-    const ALL: [Self; 4] = [Self::Sharing, Self::Folding, Self::Signs, Self::Choice];
+/// A pass over whole programs.
+type Over = fn(Program) -> Program;
 
-    fn name(self) -> &'static str {
+/// The passes over whole programs, in their order.
+pub(super) const PASSES: [(Pass, Over); 1] = [(Pass::CommonFactors, factors::common_factors)];
+
+impl Pass {
+    /// All passes, in the order in which tables show them.
+    pub const ALL: [Self; 8] = [
+        Self::Sharing,
+        Self::Folding,
+        Self::Signs,
+        Self::AngleAddition,
+        Self::CommonFactors,
+        Self::Choice,
+        Self::Fusing,
+        Self::Splitting,
+    ];
+
+    /// Its name in tables and options.
+    pub fn name(self) -> &'static str {
         match self {
             Self::Sharing => "sharing",
-            Self::Folding => "exact folding",
+            Self::Folding => "folding",
             Self::Signs => "signs",
-            Self::Choice => "choice of solve",
+            Self::AngleAddition => "angle-addition",
+            Self::CommonFactors => "common-factors",
+            Self::Choice => "choice",
+            Self::Fusing => "fusing",
+            Self::Splitting => "splitting",
         }
+    }
+
+    /// The pass of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|pass| pass.name() == name)
+    }
+
+    /// Whether it changes what a function computes; if not, only how it is written.
+    fn is_counted(self) -> bool {
+        self != Self::Splitting
     }
 }
 
-/// A table of the operations of the accelerations and of all entry points, and
-/// of the values that wait at most, with all passes and without each.
+/// A table of the operations of the accelerations, of the sums among them that have a
+/// product in them, of the values that wait at most, and of the operations of all
+/// entry points, with all passes and without each. Without dead code left out, every
+/// entry point would be the whole program.
 pub fn worth(scene: &Scene, mechanics: &Mechanics) -> String {
     let mut table = String::from(
-        "| without | accelerations | waiting | all functions |\n|---|---|---:|---:|\n",
+        "| without | accelerations | fused | waiting | all functions |\n|---|---|---:|---:|---:|\n",
     );
-    let all = std::iter::once(None).chain(Pass::ALL.map(Some));
-    for off in all {
+    let all = Pass::ALL.into_iter().filter(|pass| pass.is_counted());
+    for off in std::iter::once(None).chain(all.map(Some)) {
         let program = lower_without(off, scene, mechanics);
-        let total: usize = program
-            .entries
-            .iter()
-            .map(|entry| size(&program, entry))
-            .sum();
         let Some(motion) = program.entry("accelerations") else {
             continue;
         };
+        let entries = program.entries.iter();
+        let total: usize = entries
+            .map(|entry| program.operations(&entry.outputs).total())
+            .sum();
         // Writing to a string cannot fail.
         let _ = writeln!(
             table,
-            "| {} | {} | {} | {total} |",
+            "| {} | {} | {} | {} | {total} |",
             off.map_or("–", Pass::name),
             program.operations(&motion.outputs),
+            program.fused(motion).len(),
             program.live(motion),
         );
+        if off.is_none() {
+            let whole = whole(&program);
+            let total = whole.total() * program.entries.len();
+            let _ = writeln!(table, "| dead code | {whole} | | | {total} |");
+        }
     }
     table
 }
 
-/// Operations of an entry point, a sine and cosine counting as one.
-fn size(program: &Program, entry: &super::Entry) -> usize {
-    let count = program.operations(&entry.outputs);
-    count.sin_cos
-        + count.additions
-        + count.multiplications
-        + count.divisions
-        + count.roots
-        + count.negations
+/// Operations of all definitions, needed or not.
+fn whole(program: &Program) -> Operations {
+    let all: Vec<ValueId> = (0..program.definitions.len() as u32).map(ValueId).collect();
+    operations(&program.definitions, &all)
 }

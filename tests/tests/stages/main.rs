@@ -6,4 +6,5 @@ mod ladder;
 mod late;
 mod lengths;
 mod pages;
+mod passes;
 mod snapshots;

@@ -30,7 +30,7 @@ fn pipeline_shows_every_stage() {
 #[test]
 fn pipeline_shows_what_passes_are_worth() {
     let page = std::fs::read_to_string(fixture("../../docs/pipeline.md")).expect("it exists");
-    for name in ["paper", "nested"] {
+    for name in ["paper", "triplet", "nested"] {
         let stages = scene(name);
         let table = worth(&stages.scene, &stages.mechanics);
         assert!(page.contains(&table), "{name}:\n{table}");

@@ -1,0 +1,119 @@
+//! What each pass over programs is worth in time: the same scenes with and
+//! without it, in one run. `run.sh` writes `variants.rs` and builds this.
+//!
+//! Variants take turns; each time is divided by that of the program with all passes in the
+//! same turn, and the median of these ratios is printed. `again` is a second copy of that
+//! program: how far it is from 1 is what the placement of code makes.
+
+mod variants;
+
+use branched_pendulum::batch::Batch;
+use branched_pendulum::{Pendulum, Rescale};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Numbers in one pass, about: those of all variants fit into the second cache.
+const NUMBERS: usize = 2048;
+
+/// One pass over all states.
+type Pass = Box<dyn FnMut()>;
+
+/// A scene without one of the passes, or with all.
+struct Variant {
+    name: &'static str,
+    /// Accelerations, one state after the other; in a batch; all other functions.
+    passes: [Pass; 3],
+}
+
+fn count<const N: usize>() -> usize {
+    (NUMBERS / N).next_multiple_of(16)
+}
+
+/// Numbers between −`bound` and `bound`, by Marsaglia's xorshift (2003).
+fn random<const N: usize>(seed: u64, bound: f64) -> Vec<[f64; N]> {
+    let mut state = seed;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        bound * ((state >> 11) as f64 * (1.0 / (1_u64 << 52) as f64) - 1.0)
+    };
+    (0..count::<N>()).map(|_| std::array::from_fn(|_| next())).collect()
+}
+
+fn inputs<const N: usize>() -> [Vec<[f64; N]>; 2] {
+    [random(1, std::f64::consts::PI), random(2, 9.0)]
+}
+
+fn one_by_one<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
+    let [theta, omega] = inputs::<N>();
+    let mut alpha = vec![[0.0; N]; theta.len()];
+    Box::new(move || {
+        let states = black_box(&theta).iter().zip(black_box(&omega));
+        for ((theta, omega), alpha) in states.zip(black_box(&mut alpha)) {
+            model.accelerations_into(0.0, theta, omega, alpha);
+        }
+    })
+}
+
+fn batch<const N: usize>(model: impl Rescale<f64> + 'static) -> Pass {
+    let columns = |rows: &[[f64; N]]| -> Vec<Vec<f64>> {
+        (0..N).map(|link| rows.iter().map(|row| row[link]).collect()).collect()
+    };
+    let [theta, omega] = inputs::<N>().map(|rows| columns(&rows));
+    let mut alpha = vec![vec![0.0; count::<N>()]; N];
+    Box::new(move || {
+        let (theta, omega) = (black_box(&theta), black_box(&omega));
+        let done = Batch::new(&model).accelerations(0.0, theta, omega, black_box(&mut alpha));
+        assert!(done.is_ok(), "columns of one length");
+    })
+}
+
+fn others<const N: usize>(functions: impl Fn(&[f64; N], &[f64; N]) + 'static) -> Pass {
+    let [first, second] = inputs::<N>();
+    Box::new(move || {
+        for (first, second) in black_box(&first).iter().zip(black_box(&second)) {
+            functions(first, second);
+        }
+    })
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// For every variant and pass the median of its ratios to the first variant.
+fn ratios(variants: &mut [Variant], turns: usize) -> Vec<[f64; 3]> {
+    let mut ratios = vec![[const { Vec::new() }; 3]; variants.len()];
+    for _ in 0..turns {
+        for kind in 0..3 {
+            let mut first = None;
+            for (variant, ratios) in variants.iter_mut().zip(&mut ratios) {
+                // Its code and data are at hand, whatever ran before it.
+                variant.passes[kind]();
+                let start = Instant::now();
+                variant.passes[kind]();
+                let time = start.elapsed().as_secs_f64();
+                ratios[kind].push(time / *first.get_or_insert(time));
+            }
+        }
+    }
+    ratios.into_iter().map(|kinds| kinds.map(median)).collect()
+}
+
+fn main() {
+    let turns = std::env::args().nth(1).and_then(|turns| turns.parse().ok());
+    let turns = turns.unwrap_or(400);
+    for (scene, mut variants) in variants::scenes() {
+        // Caches and the processor's clock settle.
+        ratios(&mut variants, turns / 10 + 1);
+        println!("{scene}\n");
+        println!("| without | one state | batch | other functions |\n|---|---:|---:|---:|");
+        let found = ratios(&mut variants, turns);
+        for (variant, [one, batch, others]) in variants.iter().zip(found) {
+            println!("| {} | {one:.2} | {batch:.2} | {others:.2} |", variant.name);
+        }
+        println!();
+    }
+}

@@ -1,0 +1,138 @@
+//! Sines and cosines of single angles serve all others: those of a difference are
+//! formed by addition, and a sine always comes with its cosine.
+//!
+//! # When it is valid
+//! cos(a − b) = cos a cos b + sin a sin b is accurate to two roundings of its terms, as
+//! large as one, so to some 10⁻¹⁶ absolutely; sin(a − b) as well, and it is exactly zero for
+//! a = b. Where differences of copies are small and matter, versines of half angles
+//! are formed instead (`turns.rs`).
+//!
+//! # Cost
+//! One sine and cosine a link instead of one for each pair of related links; four products and
+//! two sums a pair.
+
+use super::lower::{Door, Lowering};
+use super::{Pass, ValueId};
+use crate::mechanics::expression::SymbolId;
+use crate::mechanics::{CombinationId, Trigonometric};
+
+impl Lowering<'_> {
+    pub(super) fn trigonometric(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
+        let mechanics = self.mechanics;
+        match mechanics.trigonometry[&symbol] {
+            Trigonometric::VersineOf(CombinationId(id)) => {
+                self.combination(door, &mechanics.combinations[id]).versine
+            }
+            Trigonometric::SineOf(CombinationId(id)) => {
+                self.combination(door, &mechanics.combinations[id]).sine
+            }
+            Trigonometric::Cos(a) if self.is_combined(a) => {
+                let versine = self.by_half_angle(door, a).versine;
+                let one = self.builder.integer(1);
+                self.builder.sub(one, versine)
+            }
+            Trigonometric::Sin(a) if self.is_combined(a) => self.by_half_angle(door, a).sine,
+            Trigonometric::Cos(a) => {
+                let angle = self.symbol(door, a);
+                self.builder.cos(angle)
+            }
+            Trigonometric::Sin(a) => {
+                let angle = self.symbol(door, a);
+                self.builder.sin(angle)
+            }
+            Trigonometric::CosBetween(a, b) if self.builder.off == Some(Pass::AngleAddition) => {
+                let difference = self.difference(door, a, b);
+                self.builder.cos(difference)
+            }
+            Trigonometric::SinBetween(a, b) if self.builder.off == Some(Pass::AngleAddition) => {
+                let difference = self.difference(door, a, b);
+                self.builder.sin(difference)
+            }
+            // cos(a − b) = cos a cos b + sin a sin b
+            Trigonometric::CosBetween(a, b) => {
+                let [cos_a, sin_a, cos_b, sin_b] = self.sines_and_cosines(door, a, b);
+                let first = self.builder.mul(cos_a, cos_b);
+                let second = self.builder.mul(sin_a, sin_b);
+                self.builder.add(first, second)
+            }
+            // sin(a − b) = sin a cos b − cos a sin b
+            Trigonometric::SinBetween(a, b) => {
+                let [cos_a, sin_a, cos_b, sin_b] = self.sines_and_cosines(door, a, b);
+                let first = self.builder.mul(sin_a, cos_b);
+                let second = self.builder.mul(cos_a, sin_b);
+                self.builder.sub(first, second)
+            }
+        }
+    }
+
+    fn difference(&mut self, door: &mut Door<'_>, a: SymbolId, b: SymbolId) -> ValueId {
+        let (a, b) = (self.symbol(door, a), self.symbol(door, b));
+        self.builder.sub(a, b)
+    }
+
+    fn sines_and_cosines(&mut self, door: &mut Door<'_>, a: SymbolId, b: SymbolId) -> [ValueId; 4] {
+        [
+            Trigonometric::Cos(a),
+            Trigonometric::Sin(a),
+            Trigonometric::Cos(b),
+            Trigonometric::Sin(b),
+        ]
+        .map(|wanted| self.trigonometric_symbol(wanted))
+        .map(|symbol| self.symbol(door, symbol))
+    }
+
+    pub(super) fn trigonometric_symbol(&self, wanted: Trigonometric) -> SymbolId {
+        let mut table = self.mechanics.trigonometry.iter();
+        match table.find(|(_, meaning)| **meaning == wanted) {
+            Some((&symbol, _)) => symbol,
+            None => unreachable!("every coordinate has a sine and a cosine"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::program::{Argument, Pass};
+    use crate::stages_without;
+    use quote::quote;
+
+    /// Two links have two sines and cosines, and not three; the accelerations are the same.
+    #[test]
+    fn differences_take_no_sines_of_their_own() {
+        let [added, direct] = [None, Some(Pass::AngleAddition)].map(|off| {
+            let attribute = quote!(
+                gravity = 9.8,
+                solve = factorization,
+                a: rod(mass = 1, length = 1) [b: rod(mass = 2, length = 0.5)]
+            );
+            let stages = stages_without(
+                off,
+                attribute,
+                quote!(
+                    struct Two;
+                ),
+            );
+            stages.expect("the scene is right").program
+        });
+        let sines = |program: &crate::program::Program| {
+            program.operations(&program.entries[0].outputs).sin_cos
+        };
+        assert_eq!((sines(&added), sines(&direct)), (2, 3));
+        for step in 0..20 {
+            let input = |argument: Argument, index: usize| match argument {
+                Argument::Theta => 0.3 * f64::from(step) - index as f64,
+                _ => 1.0 + index as f64 - 0.1 * f64::from(step),
+            };
+            let [added, direct] = [&added, &direct].map(|program| {
+                let outputs = program.evaluate(f64::sin_cos, "accelerations", &[], input);
+                outputs.expect("the entry is there")
+            });
+            for (added, direct) in added.iter().zip(&direct) {
+                assert!(
+                    (added - direct).abs() < 1e-14 * (100.0 + direct.abs()),
+                    "{added} {direct}"
+                );
+            }
+        }
+    }
+}

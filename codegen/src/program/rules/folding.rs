@@ -1,0 +1,89 @@
+//! Operations on constants become constants of the model, in exact arithmetic.
+//!
+//! Constants move to the left of a product and meet there, and a division by one is
+//! a product with its inverse: (μ cos) / M becomes (μ/M) · cos. What no parameter
+//! touches is rounded once, from its exact value; so a folded program rounds at most
+//! as often as the one that was written. x · (1/c) for x / c rounds twice where the quotient
+//! rounds once, 1/c being exact until it is stored.
+
+use crate::program::builder::Builder;
+use crate::program::{ConstantId, Op, Setup, ValueId};
+
+fn fold(
+    builder: &mut Builder,
+    a: ValueId,
+    b: ValueId,
+    operation: fn(&mut Setup, ConstantId, ConstantId) -> ConstantId,
+) -> Option<ValueId> {
+    let (a, b) = (builder.as_constant(a)?, builder.as_constant(b)?);
+    let folded = operation(&mut builder.setup, a, b);
+    Some(builder.constant(folded))
+}
+
+pub(super) fn folding(builder: &mut Builder, op: &Op) -> Option<ValueId> {
+    match *op {
+        Op::Neg(a) => {
+            if let Op::Number(number) = builder.op(a) {
+                let opposite = -number;
+                return Some(builder.number(opposite));
+            }
+            let constant = builder.as_constant(a)?;
+            let folded = builder.setup.neg(constant);
+            Some(builder.constant(folded))
+        }
+        Op::Add(a, b) => fold(builder, a, b, Setup::add),
+        Op::Sub(a, b) => fold(builder, a, b, Setup::sub),
+        Op::Mul(a, b) => fold(builder, a, b, Setup::mul).or_else(|| scaled(builder, a, b)),
+        Op::Div(a, b) => {
+            if let Some(folded) = fold(builder, a, b, Setup::div) {
+                return Some(folded);
+            }
+            builder.as_constant(b)?;
+            let one = builder.integer(1);
+            let inverse = builder.div(one, b);
+            Some(builder.mul(a, inverse))
+        }
+        _ => None,
+    }
+}
+
+/// A constant times a value: the constant stands first, and is multiplied with one that
+/// is there already.
+fn scaled(builder: &mut Builder, a: ValueId, b: ValueId) -> Option<ValueId> {
+    for (x, y) in [(a, b), (b, a)] {
+        if builder.as_constant(x).is_some() {
+            // −(c · rest) is stored as Neg, so constants meet here only.
+            if let Op::Mul(c, rest) = *builder.op(y)
+                && let Some(folded) = fold(builder, x, c, Setup::mul)
+            {
+                return Some(builder.mul(folded, rest));
+            }
+            return Some(builder.record(Op::Mul(x, y)));
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::exact::Rational;
+    use crate::program::builder::Builder;
+    use crate::program::{Argument, Op};
+
+    #[test]
+    fn constants_meet_exactly() {
+        let mut builder = Builder::default();
+        let x = builder.input(Argument::Theta, 0);
+        let [two, three] = [2, 3].map(|number| builder.integer(number));
+        let third_exactly = Rational::from(3).checked_pow(-1).expect("3 is not zero");
+        let third = builder.div(two, three);
+        assert_eq!(
+            *builder.op(third),
+            Op::Number(Rational::from(2) * third_exactly)
+        );
+        // (2/3 x) · 3 / 2: every constant is gone.
+        let scaled = builder.mul(third, x);
+        let back = builder.mul(scaled, three);
+        assert_eq!(builder.div(back, two), x);
+    }
+}

@@ -1,0 +1,53 @@
+//! Operations that change nothing, or of a value with itself.
+//!
+//! x + 0, x · 1 and x / 1 are x; x · 0, 0 / x and x − x are 0; x + x is 2 x. All exact for
+//! finite x. What the symmetry of a scene makes zero vanishes from its code here,
+//! so that it is zero to the bit.
+
+use crate::program::builder::Builder;
+use crate::program::{Op, ValueId};
+
+pub(super) fn neutral(builder: &mut Builder, op: &Op) -> Option<ValueId> {
+    match *op {
+        Op::Add(a, b) if builder.is(a, 0) => Some(b),
+        Op::Add(a, b) | Op::Sub(a, b) if builder.is(b, 0) => Some(a),
+        Op::Sub(a, b) if builder.is(a, 0) => Some(builder.neg(b)),
+        Op::Sub(a, b) if a == b => Some(builder.integer(0)),
+        Op::Add(a, b) if a == b => {
+            let two = builder.integer(2);
+            Some(builder.mul(two, a))
+        }
+        Op::Mul(a, b) | Op::Div(a, b) if builder.is(a, 0) || builder.is(b, 1) => Some(a),
+        Op::Mul(a, b) if builder.is(b, 0) || builder.is(a, 1) => Some(b),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::program::Argument;
+    use crate::program::builder::Builder;
+
+    #[test]
+    fn neutral_operands_leave_no_operation() {
+        let mut builder = Builder::default();
+        let x = builder.input(Argument::Theta, 0);
+        let (zero, one) = (builder.integer(0), builder.integer(1));
+        let length = builder.definitions.len();
+        assert_eq!(builder.add(zero, x), x);
+        assert_eq!(builder.sub(x, zero), x);
+        assert_eq!(builder.mul(x, one), x);
+        assert_eq!(builder.div(x, one), x);
+        assert_eq!(builder.mul(x, zero), zero);
+        assert_eq!(builder.sub(x, x), zero);
+        assert_eq!(builder.definitions.len(), length);
+    }
+
+    #[test]
+    fn twice_a_value_is_a_product() {
+        let mut builder = Builder::default();
+        let x = builder.input(Argument::Theta, 0);
+        let two = builder.integer(2);
+        assert_eq!(builder.add(x, x), builder.mul(two, x));
+    }
+}

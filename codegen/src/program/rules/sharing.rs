@@ -1,0 +1,54 @@
+//! Equal operations on equal operands are one value (hash-consing, with an ordered
+//! map so that no order depends on hashes).
+//!
+//! Exact: a value has the same bits wherever it is formed, and sums and products do not
+//! depend on the order of their two operands.
+
+use crate::program::{Op, ValueId};
+use std::collections::BTreeMap;
+
+/// The operations that are formed already.
+#[derive(Clone, Default)]
+pub(in crate::program) struct Known(BTreeMap<Op, ValueId>);
+
+impl Known {
+    /// The value that is formed by this operation, or by the same with its operands
+    /// exchanged where that makes no difference.
+    pub(in crate::program) fn find(&self, op: &Op) -> Option<ValueId> {
+        let exchanged = match *op {
+            Op::Add(a, b) => Op::Add(b, a),
+            Op::Mul(a, b) => Op::Mul(b, a),
+            _ => return self.0.get(op).copied(),
+        };
+        let found = self.0.get(op).or_else(|| self.0.get(&exchanged));
+        found.copied()
+    }
+
+    /// The same, where programs without sharing have one value too: inputs, constants,
+    /// sines and cosines.
+    pub(in crate::program) fn find_leaf(&self, op: &Op) -> Option<ValueId> {
+        let leaf = !op.operands().any(|_| true) || matches!(op, Op::Sin(_) | Op::Cos(_));
+        if leaf { self.find(op) } else { None }
+    }
+
+    pub(in crate::program) fn insert(&mut self, op: Op, id: ValueId) {
+        self.0.insert(op, id);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::program::Argument;
+    use crate::program::builder::Builder;
+
+    #[test]
+    fn equal_operations_are_one_value() {
+        let mut builder = Builder::default();
+        let [x, y] = [0, 1].map(|index| builder.input(Argument::Theta, index));
+        assert_eq!(builder.add(x, y), builder.add(y, x));
+        assert_eq!(builder.mul(x, y), builder.mul(y, x));
+        assert_eq!(builder.sub(x, y), builder.sub(x, y));
+        assert_ne!(builder.sub(x, y), builder.sub(y, x));
+        assert_ne!(builder.div(x, y), builder.div(y, x));
+    }
+}
