@@ -13,8 +13,8 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use crate::integrate::explicit::lanes::{self, Task};
-use crate::integrate::{DenseStep, Dop853, IntegrationError, Integrator, Solution};
+use crate::integrate::lanes::{self, Outcome, Task};
+use crate::integrate::{DenseStep, IntegrationError, Integrator, LaneMethod, Solution};
 use crate::scalar::{InstructionSet, Lane, Real};
 use crate::system::{Ode, Rescale, State};
 
@@ -231,9 +231,9 @@ impl<'a> Ensemble<'a> {
     /// }
     /// # Ok::<(), IntegrationError<f64>>(())
     /// ```
-    pub fn integrate_in_lanes<T, P>(
+    pub fn integrate_in_lanes<T, P, M>(
         &self,
-        method: &Dop853<T>,
+        method: &M,
         pendulum: &P,
         starts: &[State<T>],
         end: T,
@@ -241,21 +241,33 @@ impl<'a> Ensemble<'a> {
     where
         T: Lane,
         P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
     {
         let task = Task {
             instructions: InstructionSet::widest(),
+            method,
             pendulum,
-            options: method.options(),
             starts,
-            end,
+            times: &[],
+            end: Some(end),
         };
-        self.on_threads(starts.len(), |queue| {
+        let outcomes = self.in_lanes(&task);
+        outcomes.into_iter().map(|outcome| outcome.end).collect()
+    }
+
+    fn in_lanes<T, P, M>(&self, task: &Task<'_, M, P, T>) -> Vec<Outcome<T>>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
+    {
+        self.on_threads(task.starts.len(), |queue| {
             let mut results = Vec::new();
-            let done = |index, end| {
-                results.push((index, end));
+            let done = |index, outcome| {
+                results.push((index, outcome));
                 queue.done();
             };
-            lanes::integrate(&task, || queue.next(), done);
+            lanes::integrate(task, || queue.next(), done);
             results
         })
     }

@@ -183,6 +183,8 @@ register! {
 macro_rules! fused {
     ($name:ident: $lane:ident, $fused:ident, $outlined:ident) => {
         impl Scalar for $name {
+            const SEVERAL: bool = true;
+
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
                 Self::splat(<$lane as Scalar>::from_f64(value))
@@ -227,6 +229,8 @@ fused!(F64x8: f64, _mm512_fmadd_pd, outlined_avx512);
 fused!(F32x16: f32, _mm512_fmadd_ps, outlined_avx512);
 
 impl Scalar for F64x2 {
+    const SEVERAL: bool = true;
+
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self::splat(value)
@@ -253,6 +257,8 @@ impl Scalar for F64x2 {
 }
 
 impl Scalar for F32x4 {
+    const SEVERAL: bool = true;
+
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self::splat(<f32 as Scalar>::from_f64(value))

@@ -1,0 +1,346 @@
+//! The recurrences of [`expand`](super::expand) in numbers that are several
+//! already, one of each state in the lanes of a register.
+//!
+//! Links then follow one after the other, and what counts is how many products a
+//! second the machine forms, not how long one waits for the next. The sums over
+//! products of series, nearly all of the work, run for two orders at a time: what
+//! is loaded serves both. They leave out the terms with coefficients of the two
+//! orders before, which join when these are there; so the sums of a pair of
+//! orders are formed while the machine waits for the results of the one before.
+
+use super::expand::{Known, Start, Tree};
+use super::levers::Coupling;
+use super::matrix::Vector;
+use super::rows::SERIES;
+use crate::scalar::Scalar;
+
+/// Places of the series in a row; the first is not used here.
+const COS: usize = 1;
+const SIN: usize = 2;
+const X: usize = 3;
+const Y: usize = 4;
+
+/// Orders whose sums are formed at once, each by itself: before these are there,
+/// a pair has no terms that could be formed early.
+const SINGLE: usize = 4;
+
+/// The series of one order.
+type Row<T, const M: usize> = [Vector<T, M>; SERIES];
+
+/// An expansion from order 1 on.
+pub(super) struct Orders<'a, T, F, const N: usize, const M: usize> {
+    pub(super) start: &'a Start<'a, T, N>,
+    pub(super) tree: &'a Tree<'a, T, N>,
+    pub(super) coefficients: &'a mut [[[T; N]; 2]],
+    pub(super) rows: &'a mut [Row<T, M>],
+    pub(super) bias: Option<F>,
+}
+
+/// Sums of products in one order of one link.
+#[derive(Clone, Copy)]
+struct Sums<T> {
+    /// Σ ω\[j\] cos\[k+1−j\]
+    omega_cos: T,
+    /// Σ ω\[j\] sin\[k+1−j\]
+    omega_sin: T,
+    /// Σ cos\[k+1−j\] X\[j−1\] − sin\[k+1−j\] Y\[j−1\]
+    torque: T,
+}
+
+// One index into all arrays at once.
+#[allow(clippy::needless_range_loop)]
+impl<T: Scalar, F, const N: usize, const M: usize> Orders<'_, T, F, N, M>
+where
+    F: FnMut(&Known<T, N>) -> [T; N],
+{
+    /// Forms them. No closure takes part but the caller's: what is not inlined is
+    /// compiled without the registers.
+    #[inline(always)]
+    pub(super) fn run(mut self) {
+        let last = self.coefficients.len().saturating_sub(1);
+        if last == 0 {
+            return;
+        }
+        let inverse = self.negative_inverse();
+        for i in 0..N {
+            let (sine, cosine) = (self.start.sines[i], self.start.cosines[i]);
+            let omega = self.start.omega[i];
+            put(&mut self.rows[0], COS, i, cosine);
+            put(&mut self.rows[0], SIN, i, sine);
+            put(&mut self.rows[1], COS, i, -(sine * omega));
+            put(&mut self.rows[1], SIN, i, cosine * omega);
+        }
+        let zero = T::from_f64(0.0);
+        let none = Sums {
+            omega_cos: zero,
+            omega_sin: zero,
+            torque: zero,
+        };
+        for k in 0..last.min(SINGLE) {
+            let mut sums = [none; N];
+            for i in 0..N {
+                for j in 0..=k {
+                    self.add(&mut sums[i], k, j, i);
+                }
+            }
+            self.order(k, &sums, &inverse);
+        }
+        let mut k = SINGLE;
+        while k < last {
+            let (mut now, mut next) = ([none; N], [none; N]);
+            for i in 0..N {
+                (now[i], next[i]) = self.early(k, i);
+            }
+            for i in 0..N {
+                for j in [1, 0, k - 1, k] {
+                    self.add(&mut now[i], k, j, i);
+                }
+            }
+            self.order(k, &now, &inverse);
+            if k + 1 == last {
+                return;
+            }
+            for i in 0..N {
+                for j in [2, 1, 0, k - 1, k, k + 1] {
+                    self.add(&mut next[i], k + 1, j, i);
+                }
+            }
+            self.order(k + 1, &next, &inverse);
+            k += 2;
+        }
+    }
+
+    /// Adds the terms with index j to the sums of order k of link i.
+    #[inline(always)]
+    fn add(&self, sums: &mut Sums<T>, k: usize, j: usize, i: usize) {
+        let omega = self.coefficients[j][1][i];
+        let opposite = &self.rows[k + 1 - j];
+        let (cos, sin) = (at(opposite, COS, i), at(opposite, SIN, i));
+        sums.omega_cos = omega.mul_add(cos, sums.omega_cos);
+        sums.omega_sin = omega.mul_add(sin, sums.omega_sin);
+        if j > 0 {
+            let forces = &self.rows[j - 1];
+            sums.torque = cos.mul_add(at(forces, X, i), sums.torque);
+            sums.torque = (-sin).mul_add(at(forces, Y, i), sums.torque);
+        }
+    }
+
+    /// The sums of orders k and k + 1 of link i, over the terms without
+    /// coefficients of the last two orders before.
+    #[inline(always)]
+    fn early(&self, k: usize, i: usize) -> (Sums<T>, Sums<T>) {
+        let zero = T::from_f64(0.0);
+        let (mut cos, mut sin) = (at(&self.rows[k - 1], COS, i), at(&self.rows[k - 1], SIN, i));
+        let omega = self.coefficients[2][1][i];
+        let (x, y) = (at(&self.rows[1], X, i), at(&self.rows[1], Y, i));
+        // j = 2 in order k.
+        let mut now = [omega * cos, omega * sin, cos * x, sin * y];
+        let mut next = [zero; 4];
+        // j from 3 to k − 2 in both.
+        let omegas = &self.coefficients[3..k - 1];
+        let forces = &self.rows[2..k - 2];
+        let opposites = self.rows[3..k - 1].iter().rev();
+        for ((omega, forces), opposite) in omegas.iter().zip(forces).zip(opposites) {
+            let omega = omega[1][i];
+            let (x, y) = (at(forces, X, i), at(forces, Y, i));
+            next[0] = omega.mul_add(cos, next[0]);
+            next[1] = omega.mul_add(sin, next[1]);
+            next[2] = cos.mul_add(x, next[2]);
+            next[3] = sin.mul_add(y, next[3]);
+            cos = at(opposite, COS, i);
+            sin = at(opposite, SIN, i);
+            now[0] = omega.mul_add(cos, now[0]);
+            now[1] = omega.mul_add(sin, now[1]);
+            now[2] = cos.mul_add(x, now[2]);
+            now[3] = sin.mul_add(y, now[3]);
+        }
+        (Sums::of(now), Sums::of(next))
+    }
+
+    /// Order k + 1 of the angles and velocities, order k + 2 of their sines and
+    /// cosines, order k of the forces.
+    #[inline(always)]
+    fn order(&mut self, k: usize, sums: &[Sums<T>; N], inverse: &[[T; N]; N]) {
+        let number = T::from_f64((k + 1) as f64);
+        let mut bias = self.start.bias;
+        if k > 0 {
+            bias = [T::from_f64(0.0); N];
+            if let Some(others) = &mut self.bias {
+                let row = &self.rows[k];
+                let [theta, omega] = self.coefficients[k];
+                let (mut sines, mut cosines) = (theta, theta);
+                for i in 0..N {
+                    sines[i] = at(row, SIN, i);
+                    cosines[i] = at(row, COS, i);
+                }
+                bias = others(&Known {
+                    order: k,
+                    theta,
+                    omega,
+                    sines,
+                    cosines,
+                });
+            }
+        }
+        // S and C without their terms in α.
+        let (mut s, mut c) = (bias, bias);
+        for i in 0..N {
+            s[i] = number * sums[i].omega_cos;
+            c[i] = -(number * sums[i].omega_sin);
+        }
+        let (x, y) = forces(self.tree.couplings, &s, &c);
+        let mut torque = bias;
+        for i in 0..N {
+            let row = &self.rows[k];
+            torque[i] = torque[i] + sums[i].torque;
+            torque[i] = self.tree.weights[i].mul_add(at(row, SIN, i), torque[i]);
+            torque[i] = self.tree.lateral_weights[i].mul_add(at(row, COS, i), torque[i]);
+            torque[i] = self.start.cosines[i].mul_add(x[i], torque[i]);
+            torque[i] = (-self.start.sines[i]).mul_add(y[i], torque[i]);
+        }
+        let mut alpha = bias;
+        for i in 0..N {
+            alpha[i] = inverse[i][0] * torque[0];
+            for j in 1..N {
+                alpha[i] = inverse[i][j].mul_add(torque[j], alpha[i]);
+            }
+        }
+        let over = Reciprocal::of((k + 1) as f64);
+        for i in 0..N {
+            let velocity = self.coefficients[k][1][i];
+            self.coefficients[k + 1] [0][i] = over.times(velocity);
+            self.coefficients[k + 1][1][i] = over.times(alpha[i]);
+        }
+        if k + 2 >= self.coefficients.len() {
+            return;
+        }
+        for i in 0..N {
+            s[i] = self.start.cosines[i].mul_add(alpha[i], s[i]);
+            c[i] = (-self.start.sines[i]).mul_add(alpha[i], c[i]);
+        }
+        let (x, y) = forces(self.tree.couplings, &s, &c);
+        let over = Reciprocal::of(((k + 1) * (k + 2)) as f64);
+        for i in 0..N {
+            put(&mut self.rows[k], X, i, x[i]);
+            put(&mut self.rows[k], Y, i, y[i]);
+            put(&mut self.rows[k + 2], COS, i, over.times(c[i]));
+            put(&mut self.rows[k + 2], SIN, i, over.times(s[i]));
+        }
+    }
+
+    /// −M⁻¹ at the start: the sweeps of
+    /// [`invert_negative`](super::matrix::invert_negative).
+    #[inline(always)]
+    fn negative_inverse(&self) -> [[T; N]; N] {
+        let (sines, cosines) = (&self.start.sines, &self.start.cosines);
+        let mut matrix = [[T::from_f64(0.0); N]; N];
+        for i in 0..N {
+            matrix[i][i] = self.tree.inertias[i];
+        }
+        for coupling in self.tree.couplings {
+            let [i, j] = coupling.links;
+            let cos_between = cosines[i].mul_add(cosines[j], sines[i] * sines[j]);
+            let mut entry = coupling.cosine * cos_between;
+            if let Some(sine) = coupling.sine {
+                let sin_between = sines[i] * cosines[j] - cosines[i] * sines[j];
+                entry = sine.mul_add(sin_between, entry);
+            }
+            matrix[i][j] = entry;
+            matrix[j][i] = entry;
+        }
+        for k in (0..N).rev() {
+            let inverse = T::from_f64(1.0) / matrix[k][k];
+            for i in 0..N {
+                if i != k {
+                    let factor = -(matrix[i][k] * inverse);
+                    for j in 0..=i {
+                        if j != k {
+                            matrix[i][j] = factor.mul_add(matrix[k][j], matrix[i][j]);
+                            matrix[j][i] = matrix[i][j];
+                        }
+                    }
+                }
+            }
+            for i in 0..N {
+                if i != k {
+                    matrix[i][k] = matrix[i][k] * inverse;
+                    matrix[k][i] = matrix[i][k];
+                }
+            }
+            matrix[k][k] = -inverse;
+        }
+        matrix
+    }
+}
+
+impl<T: Scalar> Sums<T> {
+    #[inline(always)]
+    fn of([omega_cos, omega_sin, along, across]: [T; 4]) -> Self {
+        Self {
+            omega_cos,
+            omega_sin,
+            torque: along - across,
+        }
+    }
+}
+
+/// X = A S + B C, Y = A C − B S.
+#[inline(always)]
+fn forces<T: Scalar, const N: usize>(
+    couplings: &[Coupling<T>],
+    s: &[T; N],
+    c: &[T; N],
+) -> ([T; N], [T; N]) {
+    let zero = T::from_f64(0.0);
+    let (mut x, mut y) = ([zero; N], [zero; N]);
+    for coupling in couplings {
+        let ([i, j], along) = (coupling.links, coupling.cosine);
+        x[i] = along.mul_add(s[j], x[i]);
+        x[j] = along.mul_add(s[i], x[j]);
+        y[i] = along.mul_add(c[j], y[i]);
+        y[j] = along.mul_add(c[i], y[j]);
+        // Antisymmetric.
+        if let Some(across) = coupling.sine {
+            x[i] = across.mul_add(c[j], x[i]);
+            x[j] = (-across).mul_add(c[i], x[j]);
+            y[i] = (-across).mul_add(s[j], y[i]);
+            y[j] = across.mul_add(s[i], y[j]);
+        }
+    }
+    (x, y)
+}
+
+#[inline(always)]
+fn at<T: Scalar, const M: usize>(row: &Row<T, M>, series: usize, link: usize) -> T {
+    row[series][link / 4].0[link % 4]
+}
+
+#[inline(always)]
+fn put<T, const M: usize>(row: &mut Row<T, M>, series: usize, link: usize, value: T) {
+    row[series][link / 4].0[link % 4] = value;
+}
+
+/// 1/n in two parts: a rounded reciprocal would be wrong by the same amount in
+/// every step of a run.
+#[derive(Clone, Copy)]
+struct Reciprocal<T> {
+    high: T,
+    low: T,
+}
+
+impl<T: Scalar> Reciprocal<T> {
+    #[inline(always)]
+    fn of(number: f64) -> Self {
+        let high = T::from_f64(1.0 / number);
+        let rest = (-T::from_f64(number)).mul_add(high, T::from_f64(1.0));
+        Self {
+            high,
+            low: rest * high,
+        }
+    }
+
+    #[inline(always)]
+    fn times(self, value: T) -> T {
+        value.mul_add(self.high, value * self.low)
+    }
+}
