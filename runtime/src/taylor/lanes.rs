@@ -4,9 +4,9 @@
 //! Links then follow one after the other, and what counts is how many products a
 //! second the machine forms, not how long one waits for the next. The sums over
 //! products of series, nearly all of the work, run for two orders at a time: what
-//! is loaded serves both. They leave out the terms with coefficients of the two
-//! orders before, which join when these are there; so the sums of a pair of
-//! orders are formed while the machine waits for the results of the one before.
+//! is loaded serves both. Terms with coefficients of the two orders before join
+//! last, so that the sums of a pair are formed while the machine waits for the
+//! results of the one before.
 
 use super::expand::{Known, Start, Tree};
 use super::levers::Coupling;
@@ -20,8 +20,7 @@ const SIN: usize = 2;
 const X: usize = 3;
 const Y: usize = 4;
 
-/// Orders whose sums are formed at once, each by itself: before these are there,
-/// a pair has no terms that could be formed early.
+/// Orders whose sums are formed each by itself, before orders go in pairs.
 const SINGLE: usize = 4;
 
 /// The series of one order.
@@ -43,8 +42,10 @@ struct Sums<T> {
     omega_cos: T,
     /// Σ ω\[j\] sin\[k+1−j\]
     omega_sin: T,
-    /// Σ cos\[k+1−j\] X\[j−1\] − sin\[k+1−j\] Y\[j−1\]
-    torque: T,
+    /// Σ cos\[k+1−j\] X\[j−1\]
+    along: T,
+    /// Σ sin\[k+1−j\] Y\[j−1\]
+    across: T,
 }
 
 // One index into all arrays at once.
@@ -70,44 +71,42 @@ where
             put(&mut self.rows[1], COS, i, -(sine * omega));
             put(&mut self.rows[1], SIN, i, cosine * omega);
         }
-        let zero = T::from_f64(0.0);
-        let none = Sums {
-            omega_cos: zero,
-            omega_sin: zero,
-            torque: zero,
-        };
-        for k in 0..last.min(SINGLE) {
-            let mut sums = [none; N];
-            for i in 0..N {
-                for j in 0..=k {
-                    self.add(&mut sums[i], k, j, i);
-                }
-            }
-            self.order(k, &sums, &inverse);
-        }
+        self.single::<0>(&inverse);
+        self.single::<1>(&inverse);
+        self.single::<2>(&inverse);
+        self.single::<3>(&inverse);
+        let [mut now, mut next] = [[Sums::none(); N]; 2];
         let mut k = SINGLE;
         while k < last {
-            let (mut now, mut next) = ([none; N], [none; N]);
             for i in 0..N {
-                (now[i], next[i]) = self.early(k, i);
+                [now[i], next[i]] = self.pair(k, i);
             }
-            for i in 0..N {
-                for j in [1, 0, k - 1, k] {
-                    self.add(&mut now[i], k, j, i);
-                }
-            }
-            self.order(k, &now, &inverse);
+            self.order::<false>(k, &now, &inverse);
             if k + 1 == last {
                 return;
             }
             for i in 0..N {
-                for j in [2, 1, 0, k - 1, k, k + 1] {
-                    self.add(&mut next[i], k + 1, j, i);
-                }
+                self.add(&mut next[i], k + 1, 0, i);
+                self.add(&mut next[i], k + 1, k + 1, i);
             }
-            self.order(k + 1, &next, &inverse);
+            self.order::<false>(k + 1, &next, &inverse);
             k += 2;
         }
+    }
+
+    /// All of order K, if it is wanted.
+    #[inline(always)]
+    fn single<const K: usize>(&mut self, inverse: &[[T; N]; N]) {
+        if K + 1 >= self.coefficients.len() {
+            return;
+        }
+        let mut sums = [Sums::none(); N];
+        for i in 0..N {
+            for j in 0..=K {
+                self.add(&mut sums[i], K, j, i);
+            }
+        }
+        self.order::<true>(K, &sums, inverse);
     }
 
     /// Adds the terms with index j to the sums of order k of link i.
@@ -120,47 +119,49 @@ where
         sums.omega_sin = omega.mul_add(sin, sums.omega_sin);
         if j > 0 {
             let forces = &self.rows[j - 1];
-            sums.torque = cos.mul_add(at(forces, X, i), sums.torque);
-            sums.torque = (-sin).mul_add(at(forces, Y, i), sums.torque);
+            sums.along = cos.mul_add(at(forces, X, i), sums.along);
+            sums.across = sin.mul_add(at(forces, Y, i), sums.across);
         }
     }
 
-    /// The sums of orders k and k + 1 of link i, over the terms without
-    /// coefficients of the last two orders before.
+    /// The sums of orders k and k + 1 of link i, as far as their terms are there.
     #[inline(always)]
-    fn early(&self, k: usize, i: usize) -> (Sums<T>, Sums<T>) {
-        let zero = T::from_f64(0.0);
+    fn pair(&self, k: usize, i: usize) -> [Sums<T>; 2] {
+        let (mut now, mut next) = (Sums::none(), Sums::none());
         let (mut cos, mut sin) = (at(&self.rows[k - 1], COS, i), at(&self.rows[k - 1], SIN, i));
-        let omega = self.coefficients[2][1][i];
-        let (x, y) = (at(&self.rows[1], X, i), at(&self.rows[1], Y, i));
-        // j = 2 in order k.
-        let mut now = [omega * cos, omega * sin, cos * x, sin * y];
-        let mut next = [zero; 4];
-        // j from 3 to k − 2 in both.
         let omegas = &self.coefficients[3..k - 1];
         let forces = &self.rows[2..k - 2];
         let opposites = self.rows[3..k - 1].iter().rev();
         for ((omega, forces), opposite) in omegas.iter().zip(forces).zip(opposites) {
             let omega = omega[1][i];
             let (x, y) = (at(forces, X, i), at(forces, Y, i));
-            next[0] = omega.mul_add(cos, next[0]);
-            next[1] = omega.mul_add(sin, next[1]);
-            next[2] = cos.mul_add(x, next[2]);
-            next[3] = sin.mul_add(y, next[3]);
+            next.omega_cos = omega.mul_add(cos, next.omega_cos);
+            next.omega_sin = omega.mul_add(sin, next.omega_sin);
+            next.along = cos.mul_add(x, next.along);
+            next.across = sin.mul_add(y, next.across);
             cos = at(opposite, COS, i);
             sin = at(opposite, SIN, i);
-            now[0] = omega.mul_add(cos, now[0]);
-            now[1] = omega.mul_add(sin, now[1]);
-            now[2] = cos.mul_add(x, now[2]);
-            now[3] = sin.mul_add(y, now[3]);
+            now.omega_cos = omega.mul_add(cos, now.omega_cos);
+            now.omega_sin = omega.mul_add(sin, now.omega_sin);
+            now.along = cos.mul_add(x, now.along);
+            now.across = sin.mul_add(y, now.across);
         }
-        (Sums::of(now), Sums::of(next))
+        self.add(&mut now, k, 2, i);
+        self.add(&mut next, k + 1, 2, i);
+        self.add(&mut now, k, 1, i);
+        self.add(&mut next, k + 1, 1, i);
+        self.add(&mut now, k, 0, i);
+        self.add(&mut now, k, k - 1, i);
+        self.add(&mut next, k + 1, k - 1, i);
+        self.add(&mut now, k, k, i);
+        self.add(&mut next, k + 1, k, i);
+        [now, next]
     }
 
     /// Order k + 1 of the angles and velocities, order k + 2 of their sines and
-    /// cosines, order k of the forces.
+    /// cosines, order k of the forces. Divides exactly but for rounding if `EXACT`.
     #[inline(always)]
-    fn order(&mut self, k: usize, sums: &[Sums<T>; N], inverse: &[[T; N]; N]) {
+    fn order<const EXACT: bool>(&mut self, k: usize, sums: &[Sums<T>; N], inverse: &[[T; N]; N]) {
         let number = T::from_f64((k + 1) as f64);
         let mut bias = self.start.bias;
         if k > 0 {
@@ -192,7 +193,7 @@ where
         let mut torque = bias;
         for i in 0..N {
             let row = &self.rows[k];
-            torque[i] = torque[i] + sums[i].torque;
+            torque[i] = torque[i] + (sums[i].along - sums[i].across);
             torque[i] = self.tree.weights[i].mul_add(at(row, SIN, i), torque[i]);
             torque[i] = self.tree.lateral_weights[i].mul_add(at(row, COS, i), torque[i]);
             torque[i] = self.start.cosines[i].mul_add(x[i], torque[i]);
@@ -205,10 +206,10 @@ where
                 alpha[i] = inverse[i][j].mul_add(torque[j], alpha[i]);
             }
         }
-        let over = Reciprocal::of((k + 1) as f64);
+        let over = Reciprocal::<T, EXACT>::of((k + 1) as f64);
         for i in 0..N {
             let velocity = self.coefficients[k][1][i];
-            self.coefficients[k + 1] [0][i] = over.times(velocity);
+            self.coefficients[k + 1][0][i] = over.times(velocity);
             self.coefficients[k + 1][1][i] = over.times(alpha[i]);
         }
         if k + 2 >= self.coefficients.len() {
@@ -219,7 +220,7 @@ where
             c[i] = (-self.start.sines[i]).mul_add(alpha[i], c[i]);
         }
         let (x, y) = forces(self.tree.couplings, &s, &c);
-        let over = Reciprocal::of(((k + 1) * (k + 2)) as f64);
+        let over = Reciprocal::<T, EXACT>::of(((k + 1) * (k + 2)) as f64);
         for i in 0..N {
             put(&mut self.rows[k], X, i, x[i]);
             put(&mut self.rows[k], Y, i, y[i]);
@@ -275,11 +276,13 @@ where
 
 impl<T: Scalar> Sums<T> {
     #[inline(always)]
-    fn of([omega_cos, omega_sin, along, across]: [T; 4]) -> Self {
+    fn none() -> Self {
+        let zero = T::from_f64(0.0);
         Self {
-            omega_cos,
-            omega_sin,
-            torque: along - across,
+            omega_cos: zero,
+            omega_sin: zero,
+            along: zero,
+            across: zero,
         }
     }
 }
@@ -320,15 +323,15 @@ fn put<T, const M: usize>(row: &mut Row<T, M>, series: usize, link: usize, value
     row[series][link / 4].0[link % 4] = value;
 }
 
-/// 1/n in two parts: a rounded reciprocal would be wrong by the same amount in
-/// every step of a run.
+/// 1/n, in two parts if `EXACT`: a rounded reciprocal is wrong by the same amount
+/// in every step of a run. In higher orders that is too little to count.
 #[derive(Clone, Copy)]
-struct Reciprocal<T> {
+struct Reciprocal<T, const EXACT: bool> {
     high: T,
     low: T,
 }
 
-impl<T: Scalar> Reciprocal<T> {
+impl<T: Scalar, const EXACT: bool> Reciprocal<T, EXACT> {
     #[inline(always)]
     fn of(number: f64) -> Self {
         let high = T::from_f64(1.0 / number);
@@ -341,6 +344,10 @@ impl<T: Scalar> Reciprocal<T> {
 
     #[inline(always)]
     fn times(self, value: T) -> T {
-        value.mul_add(self.high, value * self.low)
+        if EXACT {
+            value.mul_add(self.high, value * self.low)
+        } else {
+            value * self.high
+        }
     }
 }

@@ -9,6 +9,8 @@ mod method;
 pub(crate) mod registers;
 mod runs;
 mod samples;
+#[cfg(test)]
+mod tests;
 
 use alloc::vec::Vec;
 

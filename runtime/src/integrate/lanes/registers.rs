@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 
 use crate::integrate::options::Options;
-use crate::scalar::register::Register;
 use crate::scalar::Real;
+use crate::scalar::register::Register;
 
 /// Numbers in the widest register.
 pub(crate) const WIDEST: usize = 16;

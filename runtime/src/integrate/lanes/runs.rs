@@ -144,7 +144,13 @@ impl<T: Real> Runs<T> {
         let time = self.time[lane];
         let attempt = (time, self.step[lane], self.last[lane]);
         let state = State { time, values };
-        check_step(options, &self.report(lane, StopReason::EndReached), attempt, || state).err()
+        check_step(
+            options,
+            &self.report(lane, StopReason::EndReached),
+            attempt,
+            || state,
+        )
+        .err()
     }
 
     /// The step that is tried.
@@ -164,7 +170,11 @@ impl<T: Real> Runs<T> {
             let size = self.span(lane).step.abs();
             let first = self.accepted[lane] == 0;
             let shortest = self.shortest[lane];
-            let shorter = if first | (size < shortest) { size } else { shortest };
+            let shorter = if first | (size < shortest) {
+                size
+            } else {
+                shortest
+            };
             let longer = self.longest[lane].max(size);
             let accepted = accepted[lane];
             self.shortest[lane] = if accepted { shorter } else { shortest };

@@ -208,11 +208,21 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
             (&before, self.order - 1),
             (&last, self.order),
         );
-        let longest = self.options.max_step.unwrap_or(R::Lane::ONE / R::Lane::ZERO);
-        let first = self.options.initial_step.map_or(longest, |step| step.min(longest));
+        let longest = self
+            .options
+            .max_step
+            .unwrap_or(R::Lane::ONE / R::Lane::ZERO);
+        let first = self
+            .options
+            .initial_step
+            .map_or(longest, |step| step.min(longest));
         let mut failed = false;
         for lane in 0..R::LANES {
-            let longest = if runs.accepted[lane] == 0 { first } else { longest };
+            let longest = if runs.accepted[lane] == 0 {
+                first
+            } else {
+                longest
+            };
             let step = (self.safety * roots[lane]).min(longest);
             let left = (runs.end[lane] - runs.time[lane]).abs();
             runs.evaluations[lane] += self.order as u64;

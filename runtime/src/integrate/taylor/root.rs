@@ -41,9 +41,21 @@ pub(super) fn least_inverse_roots<T: Real, const N: usize>(
         let [before, last] = [before[lane].to_f64(), last[lane].to_f64()];
         let [of_before, of_last] = [log2(before) * over[0], log2(last) * over[1]];
         let infinite = f64::INFINITY;
-        let of_before = if before > f64::MIN_POSITIVE { of_before } else { infinite };
-        let of_last = if last > f64::MIN_POSITIVE { of_last } else { infinite };
-        let least = if of_before < of_last { of_before } else { of_last };
+        let of_before = if before > f64::MIN_POSITIVE {
+            of_before
+        } else {
+            infinite
+        };
+        let of_last = if last > f64::MIN_POSITIVE {
+            of_last
+        } else {
+            infinite
+        };
+        let least = if of_before < of_last {
+            of_before
+        } else {
+            of_last
+        };
         let power = exp2(least);
         let step = if least < infinite { power } else { infinite };
         // Zero where one of them is infinite, NaN where one is NaN.

@@ -2,8 +2,8 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use std::mem::discriminant;
 
-use crate::integrate::lanes::{Task, integrate};
 use crate::ensemble::Ensemble;
+use crate::integrate::lanes::{Task, integrate};
 use crate::integrate::{Dop853, InputError, IntegrationError, Options, Solution, StopReason};
 use crate::scalar::{InstructionSet, Lane, Scalar};
 use crate::system::{AbsoluteAngles, Pendulum, Rescale, State};
