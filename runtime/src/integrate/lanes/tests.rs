@@ -290,9 +290,10 @@ fn the_plain_methods_are_met_to_the_tolerance() {
         the_plain_method_is_met(&Taylor::new(options.clone()), &options);
         for order in [3, 4, 5, 6, 7] {
             let options = Options {
-                absolute: crate::integrate::Tolerance::Uniform(1e-7),
-                relative: crate::integrate::Tolerance::Uniform(1e-7),
-                max_step: Some(1e-3),
+                // For steps that do not depend on the last digits.
+                relative: crate::integrate::Tolerance::Uniform(1e-2),
+                absolute: crate::integrate::Tolerance::Uniform(1e-2),
+                max_step: Some(0.02),
                 ..options.clone()
             };
             let taylor = Taylor::new(options.clone()).with_order(order);
