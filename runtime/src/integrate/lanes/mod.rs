@@ -5,6 +5,9 @@
 //! whose step is rejected keeps its state, and a lane whose trajectory has ended
 //! gets the next start. Lanes without a trajectory stand still.
 
+// One index into all lanes at once.
+#![allow(clippy::needless_range_loop)]
+
 mod method;
 pub(crate) mod registers;
 mod runs;

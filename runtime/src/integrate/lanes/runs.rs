@@ -1,5 +1,7 @@
 //! The trajectories in the lanes: their times, steps, accounts and samples.
 
+// One index into all lanes at once.
+#![allow(clippy::needless_range_loop)]
 #![allow(unreachable_pub)]
 
 use alloc::vec::Vec;

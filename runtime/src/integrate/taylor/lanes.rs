@@ -1,5 +1,8 @@
 //! The Taylor series method in the lanes of vector registers.
 
+// One index into all lanes at once.
+#![allow(clippy::needless_range_loop)]
+
 use alloc::vec;
 use alloc::vec::Vec;
 
