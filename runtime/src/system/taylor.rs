@@ -15,7 +15,7 @@ pub trait TaylorPendulum<T: Scalar>: Rescale<T> {
     /// (s).
     ///
     /// Coefficient k of all angles (rad/sᵏ), then of all angular velocities
-    /// (rad/sᵏ⁺¹), is at k · 2 [`LINKS`](Pendulum::LINKS) of `coefficients`, for
+    /// (rad/sᵏ⁺¹), is at k · 2 [`LINKS`](super::Pendulum::LINKS) of `coefficients`, for
     /// as many orders as it has room for. The recurrences work in `work`,
     /// whatever stands there: [`taylor_workspace`](Self::taylor_workspace). Where
     /// lengths do not fit, the coefficients are NaN.
