@@ -10,11 +10,12 @@
 
 use std::num::NonZeroUsize;
 use std::panic::resume_unwind;
+use std::slice::ChunksExact;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use crate::integrate::explicit::lanes::{self, Task};
-use crate::integrate::{DenseStep, Dop853, IntegrationError, Integrator, Solution};
+use crate::integrate::lanes::{self, Outcome, Task};
+use crate::integrate::{DenseStep, IntegrationError, Integrator, LaneMethod, Solution};
 use crate::scalar::{InstructionSet, Lane, Real};
 use crate::system::{Ode, Rescale, State};
 
@@ -169,6 +170,9 @@ impl<'a> Ensemble<'a> {
     /// at a time on each thread as the widest vector registers of the machine
     /// have lanes: eight in `f64` with AVX-512.
     ///
+    /// By [`Taylor`](crate::integrate::Taylor), for models that say `emit(taylor)`,
+    /// or by [`Dop853`](crate::integrate::Dop853).
+    ///
     /// States are absolute angles (rad), then angular velocities (rad/s), as for
     /// [`AbsoluteAngles`](crate::system::AbsoluteAngles). Each trajectory has its own steps, chosen by the rules
     /// of `method` from its own errors, and its own errors and account, as
@@ -178,8 +182,8 @@ impl<'a> Ensemble<'a> {
     /// are fused here where the machine can; both keep the tolerance. A lane whose
     /// trajectory has ended takes the next start.
     ///
-    /// For one end time, without values in between. Memory: 20 registers for each
-    /// component of a state on each thread; steps allocate nothing.
+    /// Memory on each thread: 30 registers for each component of a state, and for a
+    /// Taylor series of order p some 20 + 4 p; steps allocate nothing.
     ///
     /// # Examples
     ///
@@ -231,9 +235,9 @@ impl<'a> Ensemble<'a> {
     /// }
     /// # Ok::<(), IntegrationError<f64>>(())
     /// ```
-    pub fn integrate_in_lanes<T, P>(
+    pub fn integrate_in_lanes<T, P, M>(
         &self,
-        method: &Dop853<T>,
+        method: &M,
         pendulum: &P,
         starts: &[State<T>],
         end: T,
@@ -241,23 +245,134 @@ impl<'a> Ensemble<'a> {
     where
         T: Lane,
         P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
     {
         let task = Task {
             instructions: InstructionSet::widest(),
+            method,
             pendulum,
-            options: method.options(),
             starts,
-            end,
+            times: &[],
+            end: Some(end),
         };
-        self.on_threads(starts.len(), |queue| {
+        let outcomes = self.in_lanes(&task);
+        outcomes.into_iter().map(|outcome| outcome.end).collect()
+    }
+
+    /// The states of a pendulum at the given times, from every start, in lanes as
+    /// [`integrate_in_lanes`](Self::integrate_in_lanes).
+    ///
+    /// Times run one way from every start; those equal to it give the start itself.
+    /// The steps are those of [`integrate_in_lanes`](Self::integrate_in_lanes) to the
+    /// last time: states between their ends come from the dense output of the
+    /// method, in lanes too. Without times the end is the start.
+    ///
+    /// Memory: beside that of the steps, one state for each time and start.
+    ///
+    /// # Examples
+    ///
+    /// Where a trajectory fails, its samples end, and no other is concerned:
+    ///
+    /// ```
+    /// # use branched_pendulum::ensemble::Ensemble;
+    /// # use branched_pendulum::prelude::*;
+    /// # struct Rod<T>(T);
+    /// # impl<T: Scalar> Pendulum<T> for Rod<T> {
+    /// #     const LINKS: usize = 1;
+    /// #     const LINK_NAMES: &'static [&'static str] = &["rod"];
+    /// #     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+    /// #         T::accelerate(self, time, theta, omega, alpha);
+    /// #     }
+    /// # }
+    /// # impl<T: Scalar> Rescale<T> for Rod<T> {
+    /// #     type Of<S: Scalar> = Rod<S>;
+    /// #     fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
+    /// #         Rod(convert(self.0))
+    /// #     }
+    /// #     #[inline(always)]
+    /// #     fn evaluate(
+    /// #         &self,
+    /// #         _time: T,
+    /// #         theta: impl Fn(usize) -> T,
+    /// #         _omega: impl Fn(usize) -> T,
+    /// #         mut alpha: impl FnMut(usize, T),
+    /// #     ) {
+    /// #         alpha(0, -(self.0 * theta(0).sin_cos().0));
+    /// #     }
+    /// # }
+    /// let rod = Rod(14.7);
+    /// let starts = [0.1, f64::NAN, 0.2].map(|angle| State::at_rest(0.0, &[angle]));
+    /// let times: Vec<f64> = (0..=100).map(|i| 0.1 * f64::from(i)).collect();
+    /// let method = Dop853::new(Options::with_tolerance(1e-10));
+    /// let samples = Ensemble::new().sample_in_lanes(&method, &rod, &starts, &times);
+    /// assert_eq!(samples[0].states().len(), 101);
+    /// assert_eq!(samples[0].states().next(), Some([0.1, 0.0].as_slice()));
+    /// assert_eq!(samples[1].states().len(), 0);
+    /// assert!(samples[1].end.is_err() && samples[2].end.is_ok());
+    /// ```
+    pub fn sample_in_lanes<T, P, M>(
+        &self,
+        method: &M,
+        pendulum: &P,
+        starts: &[State<T>],
+        times: &[T],
+    ) -> Vec<Samples<T>>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
+    {
+        let task = Task {
+            instructions: InstructionSet::widest(),
+            method,
+            pendulum,
+            starts,
+            times,
+            end: times.last().copied(),
+        };
+        let outcomes = self.in_lanes(&task).into_iter();
+        outcomes
+            .map(|Outcome { end, samples }| Samples {
+                dimension: 2 * P::LINKS,
+                values: samples,
+                end,
+            })
+            .collect()
+    }
+
+    fn in_lanes<T, P, M>(&self, task: &Task<'_, M, P, T>) -> Vec<Outcome<T>>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
+    {
+        self.on_threads(task.starts.len(), |queue| {
             let mut results = Vec::new();
-            let done = |index, end| {
-                results.push((index, end));
+            let done = |index, outcome| {
+                results.push((index, outcome));
                 queue.done();
             };
-            lanes::integrate(&task, || queue.next(), done);
+            lanes::integrate(task, || queue.next(), done);
             results
         })
+    }
+}
+
+/// A trajectory at given times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Samples<T> {
+    dimension: usize,
+    values: Vec<T>,
+    /// Where it ended, or why it did before.
+    pub end: Result<Solution<T>, IntegrationError<T>>,
+}
+
+impl<T> Samples<T> {
+    /// The states at the times asked for, in their order: one for each time, or for
+    /// those up to the last good state where the trajectory failed, unless the
+    /// rates were not finite within its last step.
+    pub fn states(&self) -> ChunksExact<'_, T> {
+        self.values.chunks_exact(self.dimension.max(1))
     }
 }
 

@@ -8,8 +8,10 @@
 use core::ops::ControlFlow;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
+use std::num::NonZeroUsize;
 
-use branched_pendulum::integrate::{Projected, StoermerVerlet};
+use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::integrate::{LaneMethod, Projected, StoermerVerlet};
 use branched_pendulum::prelude::*;
 use branched_pendulum::taylor::Quad;
 
@@ -175,6 +177,100 @@ fn taylor_series() {
         ..options()
     };
     assert_eq!(in_steps(&Series, &Taylor::new(options)), 0);
+}
+
+/// y'' = −y.
+struct Oscillator;
+
+impl<T: Scalar> Pendulum<T> for Oscillator {
+    const LINKS: usize = 1;
+    const LINK_NAMES: &'static [&'static str] = &["oscillator"];
+
+    fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+        T::accelerate(self, time, theta, omega, alpha);
+    }
+}
+
+impl<T: Scalar> Rescale<T> for Oscillator {
+    type Of<S: Scalar> = Self;
+
+    fn rescale<S: Scalar>(&self, _convert: impl Fn(T) -> S) -> Self {
+        Self
+    }
+
+    #[inline(always)]
+    fn evaluate(
+        &self,
+        _time: T,
+        theta: impl Fn(usize) -> T,
+        _omega: impl Fn(usize) -> T,
+        mut alpha: impl FnMut(usize, T),
+    ) {
+        alpha(0, -theta(0));
+    }
+}
+
+impl<T: Scalar> TaylorPendulum<T> for Oscillator {
+    fn taylor_workspace(_order: usize) -> usize {
+        0
+    }
+
+    #[inline(always)]
+    fn taylor_coefficients_into(
+        &self,
+        _time: T,
+        theta: &[T],
+        omega: &[T],
+        coefficients: &mut [T],
+        _work: &mut [Quad<T>],
+    ) {
+        let (mut position, mut velocity) = (theta[0], omega[0]);
+        for (k, row) in coefficients.chunks_exact_mut(2).enumerate() {
+            row.copy_from_slice(&[position, velocity]);
+            let next = T::from_f64(1.0 / (k + 1) as f64);
+            (position, velocity) = (velocity * next, -(position * next));
+        }
+    }
+
+    #[inline(always)]
+    fn taylor_coefficients_of<S: Scalar>(
+        pendulum: &Self,
+        time: S,
+        theta: &[S],
+        omega: &[S],
+        coefficients: &mut [S],
+        work: &mut [Quad<S>],
+    ) {
+        pendulum.taylor_coefficients_into(time, theta, omega, coefficients, work);
+    }
+}
+
+/// Allocations of an ensemble in lanes whose trajectories make so many steps, and
+/// have a sample in each.
+fn in_lanes(method: &impl LaneMethod<Oscillator, f64>, steps: u32) -> u64 {
+    let starts = vec![State::at_rest(0.0, &[1.0]); 11];
+    let times: Vec<f64> = (0..steps).map(|i| STEP * (f64::from(i) + 0.5)).collect();
+    let ensemble = Ensemble::new().threads(NonZeroUsize::MIN);
+    let before = allocations();
+    let ends = ensemble.integrate_in_lanes(method, &Oscillator, &starts, STEP * f64::from(steps));
+    let samples = ensemble.sample_in_lanes(method, &Oscillator, &starts, &times);
+    let after = allocations();
+    for (end, samples) in ends.iter().zip(&samples) {
+        assert!(end.as_ref().unwrap().report.accepted >= u64::from(steps) - 1);
+        assert_eq!(samples.states().len(), times.len());
+    }
+    after - before
+}
+
+#[test]
+fn lanes() {
+    let pair = Dop853::new(options());
+    assert_eq!(in_lanes(&pair, 10), in_lanes(&pair, 10_000));
+    let series = Taylor::new(Options {
+        beta: 0.0,
+        ..options()
+    });
+    assert_eq!(in_lanes(&series, 10), in_lanes(&series, 10_000));
 }
 
 #[test]

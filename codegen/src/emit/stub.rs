@@ -314,6 +314,10 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
 
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
                 fn taylor_workspace(_: usize) -> usize { 0 }
+                fn taylor_coefficients_of<S: #runtime::Scalar>(
+                    _: &#name<S>, _: S, _: &[S], _: &[S], _: &mut [S],
+                    _: &mut [#runtime::taylor::Quad<S>],
+                ) {}
                 fn taylor_coefficients_into(
                     &self, _: T, _: &[T], _: &[T], _: &mut [T],
                     _: &mut [#runtime::taylor::Quad<T>],

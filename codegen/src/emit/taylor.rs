@@ -75,6 +75,7 @@ impl Emission<'_> {
             .then(|| quote!(time: T,));
         quote! {
             #docs
+            #[inline(always)]
             pub fn #name(
                 &self,
                 #time
@@ -151,10 +152,23 @@ impl Emission<'_> {
         );
         quote! {
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
+                #[inline(always)]
+                fn taylor_coefficients_of<S: #runtime::Scalar>(
+                    pendulum: &#name<S>,
+                    time: S,
+                    theta: &[S],
+                    omega: &[S],
+                    coefficients: &mut [S],
+                    work: &mut [#runtime::taylor::Quad<S>],
+                ) {
+                    pendulum.taylor_coefficients_into(time, theta, omega, coefficients, work);
+                }
+
                 fn taylor_workspace(order: usize) -> usize {
                     #runtime::taylor::workspace(#links, order) #rows
                 }
 
+                #[inline(always)]
                 fn taylor_coefficients_into(
                     &self,
                     #time: T,

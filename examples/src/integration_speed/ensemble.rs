@@ -13,11 +13,17 @@ use crate::solvers::scenes::Ideal;
 /// Trajectories a second on one thread.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speeds {
-    /// One by one.
+    /// `Dop853`, one by one.
     pub plain: f64,
-    /// In the lanes of vector registers.
+    /// `Dop853` in the lanes of vector registers.
     pub lanes: f64,
+    /// `Taylor` there.
+    pub series: f64,
 }
+
+/// Order of [`Speeds::series`]: as fast as the order that the tolerance of 1e-9 calls
+/// for by default, with smaller errors.
+pub const ORDER: usize = 18;
 
 /// Releases of the paper's pendulum from 40° to 55°, its children a thousandth of
 /// a radian to both sides of the vertical.
@@ -30,7 +36,7 @@ pub fn near_threshold(count: u32) -> Vec<State<f64>> {
         .collect()
 }
 
-/// The best of several runs of `Dop853` to the time `end`, the two ways in turn.
+/// The best of several runs to the time `end`, the three ways in turn.
 ///
 /// # Errors
 /// Those of the integration.
@@ -43,9 +49,11 @@ pub fn speeds(
     let model = Ideal::new();
     let ensemble = Ensemble::new().threads(NonZeroUsize::MIN);
     let method = Dop853::new(Options::with_tolerance(tolerance));
+    let series = Taylor::new(Options::with_tolerance(tolerance)).with_order(ORDER);
     let mut best = Speeds {
         plain: 0.0,
         lanes: 0.0,
+        series: 0.0,
     };
     let per_second = |clock: Instant| starts.len() as f64 / clock.elapsed().as_secs_f64();
     for _ in 0..repeats {
@@ -56,6 +64,10 @@ pub fn speeds(
         let clock = Instant::now();
         let ends = ensemble.integrate_in_lanes(&method, &model, black_box(starts), end);
         best.lanes = best.lanes.max(per_second(clock));
+        ends.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let clock = Instant::now();
+        let ends = ensemble.integrate_in_lanes(&series, &model, black_box(starts), end);
+        best.series = best.series.max(per_second(clock));
         ends.into_iter().collect::<Result<Vec<_>, _>>()?;
     }
     Ok(best)

@@ -24,9 +24,11 @@ mod control;
 mod dense;
 mod error;
 mod events;
-pub(crate) mod explicit;
+mod explicit;
 mod fixed;
 mod integrator;
+#[cfg(feature = "std")]
+pub(crate) mod lanes;
 mod options;
 mod report;
 mod request;
@@ -41,6 +43,8 @@ pub use explicit::{
 };
 pub use fixed::{Gauss, GaussOrder, Projected, Rk4, Solver, StoermerVerlet};
 pub use integrator::Integrator;
+#[cfg(feature = "std")]
+pub use lanes::LaneMethod;
 pub use options::{Options, Tolerance};
 pub use report::{Report, Solution, StopReason};
 pub use taylor::Taylor;

@@ -98,6 +98,8 @@ impl<T: Lane, const N: usize> Neg for Lanes<T, N> {
 }
 
 impl<T: Lane, const N: usize> Scalar for Lanes<T, N> {
+    const SEVERAL: bool = true;
+
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self::splat(T::from_f64(value))

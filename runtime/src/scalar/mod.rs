@@ -98,6 +98,11 @@ pub trait Scalar:
     + Sync
     + 'static
 {
+    /// Whether this is several numbers side by side: what computes with few numbers
+    /// need not put them side by side then.
+    #[doc(hidden)]
+    const SEVERAL: bool = false;
+
     /// The value of this type nearest to `value`; for lanes, the same value in
     /// each. Used for constants, and for them only.
     fn from_f64(value: f64) -> Self;

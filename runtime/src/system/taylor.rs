@@ -1,12 +1,12 @@
 //! Systems that know the Taylor coefficients of their motion.
 
-use super::{AbsoluteAngles, Ode, Pendulum};
+use super::{AbsoluteAngles, Ode, Rescale};
 use crate::scalar::Scalar;
 use crate::taylor::Quad;
 
 /// A pendulum whose motion is expanded in powers of the time: what emitted code
 /// implements where `emit(taylor)` asks for it.
-pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
+pub trait TaylorPendulum<T: Scalar>: Rescale<T> {
     /// Groups of four numbers that an expansion to order `order` works in.
     fn taylor_workspace(order: usize) -> usize;
 
@@ -15,7 +15,7 @@ pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
     /// (s).
     ///
     /// Coefficient k of all angles (rad/sᵏ), then of all angular velocities
-    /// (rad/sᵏ⁺¹), is at k · 2 [`LINKS`](Pendulum::LINKS) of `coefficients`, for
+    /// (rad/sᵏ⁺¹), is at k · 2 [`LINKS`](super::Pendulum::LINKS) of `coefficients`, for
     /// as many orders as it has room for. The recurrences work in `work`,
     /// whatever stands there: [`taylor_workspace`](Self::taylor_workspace). Where
     /// lengths do not fit, the coefficients are NaN.
@@ -26,6 +26,21 @@ pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
         omega: &[T],
         coefficients: &mut [T],
         work: &mut [Quad<T>],
+    );
+
+    /// The same of this pendulum on other scalars, in their arithmetic: how
+    /// [`Ensemble::integrate_in_lanes`](crate::ensemble::Ensemble::integrate_in_lanes)
+    /// expands as many motions at a time as a vector register holds.
+    ///
+    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
+    /// compiled for.
+    fn taylor_coefficients_of<S: Scalar>(
+        pendulum: &Self::Of<S>,
+        time: S,
+        theta: &[S],
+        omega: &[S],
+        coefficients: &mut [S],
+        work: &mut [Quad<S>],
     );
 }
 

@@ -13,6 +13,7 @@
 //! where P is known, C\[k\] likewise, so that M(θ\[0\]) α\[k\] = −r with r of
 //! known terms: one inverse, of order 0, serves all orders.
 
+use super::lanes;
 use super::levers::{Coupling, Levers};
 use super::matrix::{Vector, invert_negative, numbers, packs, product};
 use super::quad::{Kernel, Pack, Quad};
@@ -107,6 +108,18 @@ pub fn expand<T: Scalar, const N: usize, const M: usize, F>(
     for (row, angles) in orders.zip([start.theta, start.omega]) {
         // Velocities of order 1 follow.
         *row = [*angles, *start.omega];
+    }
+    if T::SEVERAL {
+        let (rows, _) = vectors.as_chunks_mut::<SERIES>();
+        lanes::Orders {
+            start,
+            tree,
+            coefficients,
+            rows,
+            bias,
+        }
+        .run();
+        return;
     }
     T::run_packs(Orders {
         start,

@@ -10,6 +10,7 @@
 //! [`integrate::Taylor`]: crate::integrate::Taylor
 
 mod expand;
+mod lanes;
 mod levers;
 mod matrix;
 mod quad;

@@ -5,7 +5,7 @@ mod dop853;
 mod dopri5;
 mod driver;
 #[cfg(feature = "std")]
-pub(crate) mod lanes;
+mod lanes;
 mod memory;
 #[cfg(test)]
 mod order_conditions;
@@ -16,9 +16,12 @@ mod verner98;
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use self::arithmetic::{NonFiniteRates, Span};
+use self::arithmetic::NonFiniteRates;
+pub(crate) use self::arithmetic::Span;
 use self::pair::Pair;
 use self::run::Run;
+#[cfg(feature = "std")]
+pub(crate) use self::run::check_step;
 use super::dense::DenseStep;
 use super::error::{InputError, IntegrationError};
 use super::integrator::Integrator;

@@ -90,7 +90,7 @@ impl<'a, T: Real, O: ?Sized> Run<'a, T, O> {
 
 /// Whether a run with this account may try a step from `time` of length `step`;
 /// `last` if it reaches the end. `state` is the last accepted one.
-pub(super) fn check_step<T: Real>(
+pub(crate) fn check_step<T: Real>(
     options: &Options<T>,
     report: &Report<T>,
     (time, step, last): (T, T, bool),

@@ -39,12 +39,11 @@ pub(super) struct Memory<T> {
 impl<T: Real> Memory<T> {
     pub(super) fn new(options: &Options<T>, order: usize, workspace: usize, start: &[T]) -> Self {
         let n = start.len();
-        let exponent = T::from_f64(-2.0) / T::from_f64((order - 1) as f64);
         Self {
             relative: options.relative.expand(n),
             absolute: options.absolute.expand(n),
             order,
-            safety: T::from_f64(core::f64::consts::E).powf(exponent),
+            safety: super::safety(order),
             start: start.to_vec(),
             end: vec![T::ZERO; n],
             start_residue: vec![T::ZERO; n],

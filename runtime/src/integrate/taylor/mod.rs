@@ -1,5 +1,7 @@
 //! The Taylor series method.
 
+#[cfg(feature = "std")]
+mod lanes;
 mod memory;
 mod root;
 mod run;
@@ -104,6 +106,30 @@ impl<T: Real> Taylor<T> {
         self.order
             .unwrap_or_else(|| order_for(smallest(&self.options)))
     }
+
+    /// What of the order and the options this method has no use for.
+    fn check_options(&self) -> Result<(), InputError<T>> {
+        if self.options.beta != T::ZERO {
+            let value = self.options.beta;
+            return Err(InputError::BetaUnused { value });
+        }
+        let order = self.order();
+        if !ORDERS.contains(&order) {
+            let (smallest, largest) = (*ORDERS.start(), *ORDERS.end());
+            return Err(InputError::Order {
+                order,
+                smallest,
+                largest,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// exp(−2/(p − 1)) for polynomials of order p.
+fn safety<T: Real>(order: usize) -> T {
+    let exponent = T::from_f64(-2.0) / T::from_f64((order - 1) as f64);
+    T::from_f64(core::f64::consts::E).powf(exponent)
 }
 
 /// p = ⌈8 − 0.65 ln ε⌉, for tolerances above one as for one.
@@ -146,20 +172,8 @@ impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for Taylor<T> {
         check_start(ode, start)?;
         check_times(start.time, &[end])?;
         self.options.validate(start.values.len())?;
-        if self.options.beta != T::ZERO {
-            let value = self.options.beta;
-            return Err(InputError::BetaUnused { value }.into());
-        }
+        self.check_options()?;
         let order = self.order();
-        if !ORDERS.contains(&order) {
-            let (smallest, largest) = (*ORDERS.start(), *ORDERS.end());
-            return Err(InputError::Order {
-                order,
-                smallest,
-                largest,
-            }
-            .into());
-        }
         if end == start.time {
             return Ok(Solution {
                 state: start.clone(),

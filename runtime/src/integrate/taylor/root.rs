@@ -1,5 +1,8 @@
 //! Roots for the choice of the step.
 
+#[cfg(feature = "std")]
+use crate::scalar::Real;
+
 /// The least of x^(−1/n) to four digits, for pairs of x ≥ 0 and n ≥ 2:
 /// infinite where all x are zero, zero where one is infinite, NaN where one is
 /// NaN.
@@ -23,29 +26,73 @@ pub(super) fn least_inverse_root<const N: usize>(roots: [(f64, usize); N]) -> f6
     }
 }
 
+/// The same for one pair in each lane, of the first `lanes`, without a branch:
+/// the compiler makes vector instructions of it.
+#[cfg(feature = "std")]
+#[inline(always)]
+pub(super) fn least_inverse_roots<T: Real, const N: usize>(
+    lanes: usize,
+    (before, order_before): (&[T; N], usize),
+    (last, order): (&[T; N], usize),
+) -> [T; N] {
+    let mut steps = [T::ZERO; N];
+    let over = [-1.0 / order_before as f64, -1.0 / order as f64];
+    for lane in 0..lanes.min(N) {
+        let [before, last] = [before[lane].to_f64(), last[lane].to_f64()];
+        let [of_before, of_last] = [log2(before) * over[0], log2(last) * over[1]];
+        let infinite = f64::INFINITY;
+        let of_before = if before > f64::MIN_POSITIVE {
+            of_before
+        } else {
+            infinite
+        };
+        let of_last = if last > f64::MIN_POSITIVE {
+            of_last
+        } else {
+            infinite
+        };
+        let least = if of_before < of_last {
+            of_before
+        } else {
+            of_last
+        };
+        let power = exp2(least);
+        let step = if least < infinite { power } else { infinite };
+        // Zero where one of them is infinite, NaN where one is NaN.
+        let sum = before + last;
+        let step = if sum < infinite { step } else { 1.0 / sum };
+        steps[lane] = T::from_f64(step);
+    }
+    steps
+}
+
 /// log₂ x = e + 2/ln 2 · artanh((m−1)/(m+1)) for x = 2ᵉ m, √½ ≤ m < √2.
 fn log2(x: f64) -> f64 {
     const FRACTION: u64 = (1 << 52) - 1;
     // Moves the boundary between exponents to √2.
     const SHIFT: u64 = 0x3FF0_0000_0000_0000 - 0x3FE6_A09E_667F_3BCD;
-    let shifted = x.to_bits() + SHIFT;
-    let exponent = (shifted >> 52) as i64 - 1023;
+    // Whole numbers below are its last bits.
+    const EXPONENT: f64 = 4_503_599_627_370_496.0;
+    let shifted = x.to_bits().wrapping_add(SHIFT);
+    let exponent = f64::from_bits((shifted >> 52) | EXPONENT.to_bits()) - (EXPONENT + 1023.0);
     let mantissa = f64::from_bits((shifted & FRACTION) + 0x3FE6_A09E_667F_3BCD);
     let s = (mantissa - 1.0) / (mantissa + 1.0);
     let square = s * s;
     let series = 1.0 + square * (1.0 / 3.0 + square * (1.0 / 5.0));
-    exponent as f64 + 2.0 * core::f64::consts::LOG2_E * s * series
+    exponent + 2.0 * core::f64::consts::LOG2_E * s * series
 }
 
 /// 2ˣ for |x| < 1,000: the series of e^(x ln 2) on the rest from a whole number.
 fn exp2(x: f64) -> f64 {
     // Adding and subtracting it rounds to a whole number.
     const ROUND: f64 = 6_755_399_441_055_744.0;
-    let whole = (x + ROUND) - ROUND;
+    let shifted = x + ROUND;
+    let whole = shifted - ROUND;
     let r = (x - whole) * core::f64::consts::LN_2;
     let square = r * r;
     let series = (1.0 + r) + square * ((0.5 + r * (1.0 / 6.0)) + square * (1.0 / 24.0));
-    let power = f64::from_bits(((whole as i64 + 1023) as u64) << 52);
+    // Its last bits are that number.
+    let power = f64::from_bits((shifted.to_bits() << 52).wrapping_add(1.0_f64.to_bits()));
     power * series
 }
 

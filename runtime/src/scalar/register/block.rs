@@ -52,6 +52,8 @@ impl<R: Register, const N: usize> Neg for Block<R, N> {
 }
 
 impl<R: Register, const N: usize> Scalar for Block<R, N> {
+    const SEVERAL: bool = true;
+
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self([R::from_f64(value); N])

@@ -3,17 +3,15 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::integrate::explicit::dop853::tables::STAGES;
+use crate::integrate::explicit::dop853::tables::{STAGES, STAGES_DENSE};
+use crate::integrate::explicit::{DormandPrince8, pair::Pair};
+use crate::integrate::lanes::registers::{set_lane, smallest_divisor, tolerances};
 use crate::integrate::options::Options;
 use crate::scalar::register::Register;
 use crate::scalar::{Real, Scalar};
-use crate::system::State;
 
-/// Numbers in the widest register.
-pub(super) const WIDEST: usize = 16;
-
-/// One number a lane; those beyond the last lane mean nothing.
-pub(super) type Numbers<T> = [T; WIDEST];
+/// Vectors that the dense output keeps.
+const DENSE_TERMS: usize = <DormandPrince8 as Pair>::DENSE_TERMS;
 
 /// Workspace for one state in each lane.
 pub(super) struct Memory<R> {
@@ -36,37 +34,29 @@ pub(super) struct Memory<R> {
     /// Rounding error of `end`.
     pub(super) end_residue: Vec<R>,
     /// Zero after a stage, NaN from the first stage on whose rates are not finite.
-    pub(super) checks: [R; STAGES + 1],
+    pub(super) checks: [R; STAGES_DENSE],
+    /// Coefficients of the dense output beyond the start value, one after the
+    /// other.
+    pub(super) dense: Vec<R>,
 }
 
 impl<R: Register> Memory<R> {
     pub(super) fn new(options: &Options<R::Lane>, n: usize) -> Self {
-        const { assert!(R::LANES <= WIDEST) }
         let zero = R::from_f64(0.0);
         let smallest = smallest_divisor();
+        let (relative, absolute) = tolerances(options, n);
         Self {
-            relative: options
-                .relative
-                .expand(n)
-                .into_iter()
-                .map(R::splat)
-                .collect(),
-            // Where a component is exactly zero by symmetry, its error is too:
-            // zero over the smallest number, not over zero.
-            absolute: options
-                .absolute
-                .expand(n)
-                .into_iter()
-                .map(|absolute| R::splat(absolute.max(smallest)))
-                .collect(),
+            relative,
+            absolute,
             smallest: R::splat(smallest),
             start: vec![zero; n],
             end: vec![zero; n],
             stage: vec![zero; n],
-            rates: vec![zero; (STAGES + 1) * n],
+            rates: vec![zero; STAGES_DENSE * n],
             start_residue: vec![zero; n],
             end_residue: vec![zero; n],
-            checks: [zero; STAGES + 1],
+            checks: [zero; STAGES_DENSE],
+            dense: vec![zero; DENSE_TERMS * n],
         }
     }
 
@@ -78,14 +68,6 @@ impl<R: Register> Memory<R> {
             set_lane(&mut self.start[i], lane, value);
             set_lane(&mut self.start_residue[i], lane, R::Lane::ZERO);
             set_lane(&mut self.rates[i], lane, R::Lane::ZERO);
-        }
-    }
-
-    /// The state at the start of the step in a lane.
-    pub(super) fn state(&self, lane: usize, time: R::Lane) -> State<R::Lane> {
-        State {
-            time,
-            values: numbers_in(&self.start, lane),
         }
     }
 
@@ -107,45 +89,6 @@ impl<R: Register> Memory<R> {
             }
         }
     }
-}
-
-/// The numbers of a register.
-#[inline(always)]
-pub(super) fn numbers<R: Register>(register: R) -> Numbers<R::Lane> {
-    let mut numbers = [R::Lane::ZERO; WIDEST];
-    register.store(&mut numbers);
-    numbers
-}
-
-/// The register of these numbers.
-#[inline(always)]
-pub(super) fn register<R: Register>(numbers: &Numbers<R::Lane>) -> R {
-    match R::load(numbers) {
-        Some(register) => register,
-        // No register is wider: asserted in `Memory::new`.
-        None => R::from_f64(f64::NAN),
-    }
-}
-
-/// The numbers that these registers have in a lane.
-pub(super) fn numbers_in<R: Register>(registers: &[R], lane: usize) -> Vec<R::Lane> {
-    registers.iter().map(|&r| numbers(r)[lane]).collect()
-}
-
-fn set_lane<R: Register>(target: &mut R, lane: usize, value: R::Lane) {
-    let mut changed = numbers(*target);
-    changed[lane] = value;
-    *target = register(&changed);
-}
-
-/// The smallest power of two whose inverse is finite.
-fn smallest_divisor<T: Real>() -> T {
-    let half = T::from_f64(0.5);
-    let mut smallest = T::ONE;
-    while (T::ONE / (smallest * half)).is_finite() {
-        smallest = smallest * half;
-    }
-    smallest
 }
 
 /// Component i of the sum of a row over the stages, for states of `n`

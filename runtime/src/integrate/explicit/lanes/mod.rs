@@ -1,297 +1,217 @@
-//! Trajectories of one pendulum in the lanes of vector registers.
-//!
-//! Stages and their sums are computed for all lanes at once; every lane has its
-//! own time, step, error and control, by the rules of the plain method. A lane
-//! whose step is rejected keeps its state, and a lane whose trajectory has ended
-//! gets the next start. Lanes without a trajectory stand still.
+//! Explicit Runge–Kutta pairs in the lanes of vector registers.
 
+mod first;
 mod memory;
 mod step;
 #[cfg(test)]
 mod tests;
-mod trajectory;
 
 use alloc::vec::Vec;
 
-use self::memory::{Memory, Numbers, WIDEST, numbers, register};
-use self::step::Rates;
-use self::trajectory::{Finite, Request, Trajectory, Verdict};
+use self::memory::{Memory, sum};
+use self::step::{Rates, node, row};
 use super::arithmetic::Span;
-use super::dop853::tables::STAGES;
-use crate::integrate::error::{InputError, IntegrationError};
+use super::dop853::tables::{C, STAGES, STAGES_DENSE};
+use super::pair::Pair;
+use super::{Dop853, DormandPrince8};
+use crate::integrate::control::StepControl;
+use crate::integrate::lanes::registers::{Numbers, WIDEST, numbers, numbers_in};
+use crate::integrate::lanes::{Flags, LaneMethod, Runs, Stepper};
 use crate::integrate::options::Options;
-use crate::integrate::report::{Report, Solution};
-use crate::integrate::request::{check_start, check_times};
-use crate::scalar::dispatch::{self, RegisterKernel};
 use crate::scalar::register::Register;
-use crate::scalar::{InstructionSet, Lane};
-use crate::system::{AbsoluteAngles, Rescale, State};
+use crate::scalar::{Lane, Real};
+use crate::system::{Rescale, State};
 
-/// The end of a trajectory.
-pub(crate) type End<T> = Result<Solution<T>, IntegrationError<T>>;
+impl<P: Rescale<T>, T: Lane> LaneMethod<P, T> for Dop853<T> {
+    type Stepper<'a, R: Register<Lane = T>> = Lanes<'a, P, R>;
 
-/// What is asked of all trajectories.
-pub(crate) struct Task<'a, P, T> {
-    pub(crate) instructions: InstructionSet,
-    pub(crate) pendulum: &'a P,
-    pub(crate) options: &'a Options<T>,
-    pub(crate) starts: &'a [State<T>],
-    pub(crate) end: T,
+    fn options(&self) -> &Options<T> {
+        &self.options
+    }
+
+    fn stepper<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> Lanes<'a, P, R> {
+        let zero = [T::ZERO; WIDEST];
+        let control = StepControl::new(DormandPrince8::CONTROL, self.options.beta);
+        Lanes {
+            rates: Rates(pendulum.rescale(R::splat)),
+            options: &self.options,
+            memory: Memory::new(&self.options, 2 * P::LINKS),
+            controls: core::array::from_fn(|_| control.clone()),
+            errors: zero,
+            finite_stages: zero,
+            finite_end: zero,
+            finite_end_rates: zero,
+        }
+    }
 }
 
-/// Integrates the starts whose indices `next` gives, until it gives none, and
-/// hands each end to `done` with its index.
-///
-/// Allocates its registers once; a trajectory allocates where it begins and
-/// where it ends, and no step does.
-pub(crate) fn integrate<P: Rescale<T>, T: Lane>(
-    task: &Task<'_, P, T>,
-    next: impl FnMut() -> Option<usize>,
-    done: impl FnMut(usize, End<T>),
-) {
-    let kernel = Lanes { task, next, done };
-    dispatch::run_in_registers(task.instructions, kernel);
+/// The method at work.
+pub struct Lanes<'a, P: Rescale<R::Lane>, R: Register> {
+    rates: Rates<P::Of<R>>,
+    options: &'a Options<R::Lane>,
+    memory: Memory<R>,
+    controls: [StepControl<R::Lane>; WIDEST],
+    /// Scaled errors of the step.
+    errors: Numbers<R::Lane>,
+    // Zero where finite, and NaN where not.
+    /// The rates of the stages, without those at the end.
+    finite_stages: Numbers<R::Lane>,
+    /// The state at the end.
+    finite_end: Numbers<R::Lane>,
+    /// The rates there.
+    finite_end_rates: Numbers<R::Lane>,
 }
 
-struct Lanes<'a, P, T, N, D> {
-    task: &'a Task<'a, P, T>,
-    next: N,
-    done: D,
-}
+impl<P: Rescale<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
+    fn set(&mut self, lane: usize, values: Option<&[R::Lane]>) {
+        self.memory.set(lane, values);
+        self.controls[lane] = StepControl::new(DormandPrince8::CONTROL, self.options.beta);
+    }
 
-/// The trajectories under way, each in its lane.
-type Slots<T> = [Option<Trajectory<T>>; WIDEST];
+    fn start(&self) -> &[R] {
+        &self.memory.start
+    }
 
-impl<P, T, N, D> RegisterKernel<T> for Lanes<'_, P, T, N, D>
-where
-    P: Rescale<T>,
-    T: Lane,
-    N: FnMut() -> Option<usize>,
-    D: FnMut(usize, End<T>),
-{
-    type Output = ();
+    fn end(&self) -> &[R] {
+        &self.memory.end
+    }
 
     #[inline(always)]
-    fn run<R: Register<Lane = T>>(mut self) {
-        let options = self.task.options;
-        let request = Request {
-            options,
-            end: self.task.end,
-        };
-        let model = Rates(self.task.pendulum.rescale(R::splat));
-        // Known to the compiler, as the lengths of all loops.
+    fn prepare(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags) {
+        if fresh.contains(&true) {
+            self.first_steps(runs, fresh);
+        }
+    }
+
+    #[inline(always)]
+    fn attempt(&mut self, span: Span<R>, size: R) {
+        let memory = &mut self.memory;
+        self.finite_end = numbers(memory.step(&self.rates, span, self.options.compensated));
+        self.errors = numbers(memory.error(2 * P::LINKS, size));
+        self.finite_stages = numbers(memory.checks[STAGES - 1]);
+        self.finite_end_rates = numbers(memory.checks[STAGES]);
+    }
+
+    #[inline(always)]
+    fn judge(&mut self, runs: &mut Runs<R::Lane>) -> Flags {
+        let mut accepted = [false; WIDEST];
+        for (lane, accepted) in accepted.iter_mut().enumerate().take(R::LANES) {
+            if runs.active[lane] {
+                *accepted = self.judge_lane(runs, lane);
+            }
+        }
+        runs.count(R::LANES, &accepted);
+        accepted
+    }
+
+    #[inline(always)]
+    fn prepare_dense(&mut self, span: Span<R>) {
+        self.memory.dense(&self.rates, span);
+    }
+
+    fn judge_dense(
+        &self,
+        runs: &mut Runs<R::Lane>,
+        lane: usize,
+    ) -> Result<(), (R::Lane, Vec<R::Lane>)> {
+        if numbers(self.memory.checks[STAGES_DENSE - 1])[lane].is_finite() {
+            runs.evaluations[lane] += (STAGES_DENSE - STAGES - 1) as u64;
+            return Ok(());
+        }
+        Err(self.failed_stage(lane, runs.span(lane), STAGES_DENSE))
+    }
+
+    #[inline(always)]
+    fn value(&self, fraction: R, out: &mut [R]) {
+        self.memory.dense_output(fraction, out);
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, accepted: R::Mask) {
         let n = 2 * P::LINKS;
-        if let Err(error) = options.validate(n) {
-            self.refuse_all(&error);
-            return;
-        }
-        let mut memory = Memory::<R>::new(options, n);
-        let mut slots: Slots<T> = [const { None }; WIDEST];
-        loop {
-            let fresh = self.fill(&request, &mut memory, &mut slots);
-            if slots.iter().all(Option::is_none) {
-                // No start is left either.
-                return;
-            }
-            if fresh.contains(&true) {
-                self.begin(&request, &mut memory, &mut slots, (&model, &fresh));
-            }
-            let Some((span, size)) = self.plan(&request, &mut memory, &mut slots) else {
-                continue;
-            };
-            let end = memory.step(&model, span, options.compensated);
-            let errors = numbers(memory.error(n, size));
-            let finite = Finite {
-                stages: numbers(memory.checks[STAGES - 1]),
-                end: numbers(end),
-                end_rates: numbers(memory.checks[STAGES]),
-            };
-            let mut accepted = [false; WIDEST];
-            let mut ended = false;
-            for (lane, slot) in slots.iter_mut().enumerate() {
-                let Some(trajectory) = slot else { continue };
-                match trajectory.judge(&request, &memory, lane, (errors[lane], &finite)) {
-                    Verdict::Rejected => {}
-                    Verdict::Accepted { last } => {
-                        accepted[lane] = true;
-                        ended |= last;
-                    }
-                    Verdict::Failed(error) => {
-                        (self.done)(trajectory.index, Err(error));
-                        *slot = None;
-                        memory.set(lane, None);
-                    }
-                }
-            }
-            memory.advance(n, R::mask(|lane| accepted[lane]), options.compensated);
-            if ended {
-                self.finish(&request, &mut memory, &mut slots);
-            }
-        }
+        self.memory.advance(n, accepted, self.options.compensated);
     }
 }
 
-impl<P, T, N, D> Lanes<'_, P, T, N, D>
-where
-    P: Rescale<T>,
-    T: Lane,
-    N: FnMut() -> Option<usize>,
-    D: FnMut(usize, End<T>),
-{
-    fn refuse_all(&mut self, error: &InputError<T>) {
-        while let Some(index) = (self.next)() {
-            // What is wrong with the start comes first, as in the plain method.
-            let error = match self.task.starts.get(index).map(|start| self.check(start)) {
-                Some(Err(error)) => error,
-                _ => error.clone(),
-            };
-            (self.done)(index, Err(error.into()));
+impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
+    /// Judges the step of a lane: whether it is accepted. Chooses the next one.
+    #[inline(always)]
+    fn judge_lane(&mut self, runs: &mut Runs<R::Lane>, lane: usize) -> bool {
+        let span = runs.span(lane);
+        let length = span.step.abs();
+        runs.next_step[lane] = runs.step[lane];
+        runs.evaluations[lane] += STAGES as u64 - 1;
+        if !self.finite_stages[lane].is_finite() {
+            let place = self.failed_stage(lane, span, STAGES);
+            runs.non_finite(lane, place, self.state(lane, span.time));
+            return false;
         }
-    }
-
-    fn check(&self, start: &State<T>) -> Result<(), InputError<T>> {
-        check_start(&AbsoluteAngles(self.task.pendulum), start)?;
-        check_times(start.time, &[self.task.end])
-    }
-
-    /// Gives a start to every lane without a trajectory. Returns which have got
-    /// one.
-    fn fill<R: Register<Lane = T>>(
-        &mut self,
-        request: &Request<'_, T>,
-        memory: &mut Memory<R>,
-        slots: &mut Slots<T>,
-    ) -> [bool; WIDEST] {
-        let mut fresh = [false; WIDEST];
-        for (lane, slot) in slots.iter_mut().enumerate().take(R::LANES) {
-            while slot.is_none()
-                && let Some(index) = (self.next)()
-                && let Some(start) = self.task.starts.get(index)
-            {
-                if let Err(error) = self.check(start) {
-                    (self.done)(index, Err(error.into()));
-                } else if start.time == request.end {
-                    let state = start.clone();
-                    let report = Report::new();
-                    (self.done)(index, Ok(Solution { state, report }));
-                } else {
-                    memory.set(lane, Some(&start.values));
-                    *slot = Some(Trajectory::new(request, index, start.time));
-                    fresh[lane] = true;
-                }
-            }
-        }
-        fresh
-    }
-
-    /// The first stage and the first step of fresh trajectories. The other lanes
-    /// go through it too, and keep what they have.
-    fn begin<R: Register<Lane = T>>(
-        &mut self,
-        request: &Request<'_, T>,
-        memory: &mut Memory<R>,
-        slots: &mut Slots<T>,
-        (model, fresh): (&Rates<P::Of<R>>, &[bool; WIDEST]),
-    ) {
-        let n = memory.start.len();
-        let mut span = Span {
-            time: [T::ZERO; WIDEST],
-            step: [T::ZERO; WIDEST],
+        let control = &mut self.controls[lane];
+        let error = if self.finite_end[lane].is_finite() {
+            self.errors[lane]
+        } else {
+            R::Lane::NAN
         };
-        for (time, slot) in span.time.iter_mut().zip(&*slots) {
-            *time = slot.as_ref().map_or(T::ZERO, |trajectory| trajectory.time);
+        // An error that is NaN must not pass either.
+        if !matches!(error.partial_cmp(&R::Lane::ONE), Some(order) if order.is_le()) {
+            runs.rejected[lane] += 1;
+            runs.step[lane] = length * control.reject(error);
+            runs.next_step[lane] = runs.step[lane];
+            return false;
         }
-        let others: Vec<R> = memory.rates[..n].to_vec();
-        memory.stage.copy_from_slice(&memory.start);
-        memory.evaluate(model, register(&span.time), 1);
-        let mask = R::mask(|lane| fresh[lane]);
-        for (rate, other) in memory.rates.iter_mut().zip(others) {
-            *rate = rate.choose(other, mask);
+        runs.evaluations[lane] += 1;
+        if !self.finite_end_rates[lane].is_finite() {
+            let place = (runs.end_time[lane], numbers_in(&self.memory.end, lane));
+            runs.non_finite(lane, place, self.state(lane, span.time));
+            return false;
         }
-        self.each_fresh(memory, slots, fresh, |trajectory, memory, lane| {
-            span.step[lane] = trajectory.euler(request, memory, lane)?;
-            span.time[lane] += span.step[lane];
-            Ok(())
-        });
-        let step = register::<R>(&span.step);
-        for i in 0..n {
-            memory.stage[i] = step.mul_add(memory.rates[i], memory.start[i]);
-        }
-        memory.evaluate(model, register(&span.time), 2);
-        self.each_fresh(memory, slots, fresh, |trajectory, memory, lane| {
-            trajectory.first_step(request, memory, lane)
-        });
+        let proposed = length * control.accept(error);
+        // A step cut short by the end says nothing against the planned one.
+        let wanted = if runs.last[lane] {
+            proposed.max(runs.step[lane])
+        } else {
+            proposed
+        };
+        runs.step[lane] = limit(self.options, wanted);
+        runs.next_step[lane] = runs.step[lane];
+        true
     }
 
-    /// Calls `work` for every fresh trajectory; those that fail leave their lanes.
-    fn each_fresh<R: Register<Lane = T>>(
-        &mut self,
-        memory: &mut Memory<R>,
-        slots: &mut Slots<T>,
-        fresh: &[bool; WIDEST],
-        mut work: impl FnMut(&mut Trajectory<T>, &Memory<R>, usize) -> Result<(), IntegrationError<T>>,
-    ) {
-        for (lane, slot) in slots.iter_mut().enumerate() {
-            if let Some(trajectory) = slot.as_mut().filter(|_| fresh[lane])
-                && let Err(error) = work(trajectory, memory, lane)
-            {
-                (self.done)(trajectory.index, Err(error));
-                *slot = None;
-                memory.set(lane, None);
-            }
+    /// The state at the start of the step in a lane.
+    fn state(&self, lane: usize, time: R::Lane) -> State<R::Lane> {
+        State {
+            time,
+            values: numbers_in(&self.memory.start, lane),
         }
     }
 
-    /// Time and step of every lane, and the lengths of the steps; none if there
-    /// is no trajectory. Those that may not go on leave their lanes.
-    fn plan<R: Register<Lane = T>>(
-        &mut self,
-        request: &Request<'_, T>,
-        memory: &mut Memory<R>,
-        slots: &mut Slots<T>,
-    ) -> Option<(Span<R>, R)> {
-        let (mut time, mut step, mut size): (Numbers<T>, Numbers<T>, Numbers<T>) =
-            ([T::ZERO; WIDEST], [T::ZERO; WIDEST], [T::ZERO; WIDEST]);
-        let mut any = false;
-        for (lane, slot) in slots.iter_mut().enumerate() {
-            let Some(trajectory) = slot else { continue };
-            match trajectory.plan(request, memory, lane) {
-                Ok(span) => {
-                    any = true;
-                    time[lane] = span.time;
-                    step[lane] = span.step;
-                    size[lane] = span.step.abs();
-                }
-                Err(error) => {
-                    (self.done)(trajectory.index, Err(error));
-                    *slot = None;
-                    memory.set(lane, None);
-                }
-            }
-        }
+    /// Time and state of the first stage whose rates are not finite in a lane,
+    /// at the latest `last`.
+    fn failed_stage(
+        &self,
+        lane: usize,
+        span: Span<R::Lane>,
+        last: usize,
+    ) -> (R::Lane, Vec<R::Lane>) {
+        let (memory, n) = (&self.memory, 2 * P::LINKS);
+        let failed = |stage: &usize| !numbers(memory.checks[stage - 1])[lane].is_finite();
+        let stage = (2..last).find(failed).unwrap_or(last);
+        // The same operations as in the step.
         let span = Span {
-            time: register(&time),
-            step: register(&step),
+            time: R::splat(span.time),
+            step: R::splat(span.step),
         };
-        any.then(|| (span, register(&size)))
+        let values: Vec<R> = (0..n)
+            .map(|i| {
+                span.step
+                    .mul_add(sum(row(stage), &memory.rates, n, i), memory.start[i])
+            })
+            .collect();
+        let time = numbers(node(span, C[stage - 1]))[lane];
+        (time, numbers_in(&values, lane))
     }
+}
 
-    /// Hands over the trajectories that have reached the end.
-    fn finish<R: Register<Lane = T>>(
-        &mut self,
-        request: &Request<'_, T>,
-        memory: &mut Memory<R>,
-        slots: &mut Slots<T>,
-    ) {
-        for (lane, slot) in slots.iter_mut().enumerate() {
-            if let Some(trajectory) = slot
-                && trajectory.time == request.end
-            {
-                let state = memory.state(lane, trajectory.time);
-                (self.done)(trajectory.index, Ok(trajectory.solution(state)));
-                *slot = None;
-                memory.set(lane, None);
-            }
-        }
-    }
+fn limit<T: Real>(options: &Options<T>, step: T) -> T {
+    options.max_step.map_or(step, |longest| step.min(longest))
 }

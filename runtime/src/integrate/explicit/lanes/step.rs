@@ -4,7 +4,8 @@ use super::memory::{Memory, sum};
 use crate::integrate::explicit::arithmetic::{Row, Span};
 use crate::integrate::explicit::dop853::B_MINUS_THIRD;
 use crate::integrate::explicit::dop853::tables::{
-    A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, B, C, E_FIFTH, STAGES,
+    A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, A14, A15, A16, B, C, D, E_FIFTH, STAGES,
+    STAGES_DENSE,
 };
 use crate::integrate::sum::two_sum;
 use crate::model::Part;
@@ -78,7 +79,7 @@ impl<R: Register> Memory<R> {
     ) {
         let n = 2 * P::LINKS;
         let (start, values) = (&self.start[..n], &mut self.stage[..n]);
-        let rates = &self.rates[..(STAGES + 1) * n];
+        let rates = &self.rates[..STAGES_DENSE * n];
         for i in 0..n {
             values[i] = span.step.mul_add(sum(row, rates, n, i), start[i]);
         }
@@ -107,7 +108,7 @@ impl<R: Register> Memory<R> {
         self.stage(model, span, 12, &A12);
         let n = 2 * P::LINKS;
         let (start, end) = (&self.start[..n], &mut self.end[..n]);
-        let rates = &self.rates[..(STAGES + 1) * n];
+        let rates = &self.rates[..STAGES_DENSE * n];
         if compensated {
             let (residue, rest) = (&self.start_residue[..n], &mut self.end_residue[..n]);
             for i in 0..n {
@@ -128,6 +129,49 @@ impl<R: Register> Memory<R> {
         check
     }
 
+    /// The stages and coefficients of the dense output.
+    #[inline(always)]
+    pub(super) fn dense<P: Rescale<R>>(&mut self, model: &Rates<P>, span: Span<R>) {
+        self.stage(model, span, 14, &A14);
+        self.stage(model, span, 15, &A15);
+        self.stage(model, span, 16, &A16);
+        let n = 2 * P::LINKS;
+        let rates = &self.rates[..STAGES_DENSE * n];
+        let (low, high) = self.dense.split_at_mut(3 * n);
+        for i in 0..n {
+            let increment = self.end[i] - self.start[i];
+            let left = span.step * rates[i] - increment;
+            let right = increment - span.step * rates[STAGES * n + i] - left;
+            low[i] = increment;
+            low[n + i] = left;
+            low[2 * n + i] = right;
+        }
+        for (row, coefficients) in D.iter().zip(high.chunks_exact_mut(n)) {
+            for (i, coefficient) in coefficients.iter_mut().enumerate() {
+                *coefficient = span.step * sum(row, rates, n, i);
+            }
+        }
+    }
+
+    /// The solutions at these fractions of the steps, as
+    /// [`Dop853`](crate::integrate::Dop853) has them.
+    #[inline(always)]
+    pub(super) fn dense_output(&self, s: R, out: &mut [R]) {
+        let n = self.start.len();
+        let r = R::from_f64(1.0) - s;
+        for (i, (out, &start)) in out.iter_mut().zip(&self.start).enumerate() {
+            // From the highest term on, times s and r in turn.
+            let mut terms = self.dense.chunks_exact(n).rev();
+            let mut value = terms.next().map_or(start, |term| term[i]);
+            let (mut factor, mut other) = (s, r);
+            for term in terms {
+                value = factor.mul_add(value, term[i]);
+                (factor, other) = (other, factor);
+            }
+            *out = factor.mul_add(value, start);
+        }
+    }
+
     /// Scaled error of the step of `n` components: one is the largest allowed.
     /// As in the plain method (Solving ODEs I, section II.10, eq. (10.17)),
     /// `size` being the lengths of the steps.
@@ -135,7 +179,7 @@ impl<R: Register> Memory<R> {
     pub(super) fn error(&self, n: usize, size: R) -> R {
         let (start, end) = (&self.start[..n], &self.end[..n]);
         let (relative, absolute) = (&self.relative[..n], &self.absolute[..n]);
-        let rates = &self.rates[..(STAGES + 1) * n];
+        let rates = &self.rates[..STAGES_DENSE * n];
         let (mut fifth, mut third) = (R::from_f64(0.0), R::from_f64(0.0));
         for i in 0..n {
             let largest = start[i].larger_size(end[i]);
@@ -154,7 +198,8 @@ impl<R: Register> Memory<R> {
 
 /// The row of a stage that is not the first.
 pub(super) fn row(stage: usize) -> &'static [(usize, f64)] {
-    const ROWS: [&[(usize, f64)]; STAGES - 1] =
-        [&A2, &A3, &A4, &A5, &A6, &A7, &A8, &A9, &A10, &A11, &A12];
+    const ROWS: [&[(usize, f64)]; STAGES_DENSE - 1] = [
+        &A2, &A3, &A4, &A5, &A6, &A7, &A8, &A9, &A10, &A11, &A12, &B, &A14, &A15, &A16,
+    ];
     ROWS[stage - 2]
 }

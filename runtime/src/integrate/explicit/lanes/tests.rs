@@ -2,9 +2,9 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use std::mem::discriminant;
 
-use super::{End, Task, integrate};
 use crate::ensemble::Ensemble;
-use crate::integrate::{Dop853, InputError, IntegrationError, Options, StopReason};
+use crate::integrate::lanes::{Task, integrate};
+use crate::integrate::{Dop853, InputError, IntegrationError, Options, Solution, StopReason};
 use crate::scalar::{InstructionSet, Lane, Scalar};
 use crate::system::{AbsoluteAngles, Pendulum, Rescale, State};
 
@@ -67,6 +67,8 @@ impl<T: Scalar> Rescale<T> for Walled<T> {
 
 const END: f64 = 8.0;
 
+type End<T> = Result<Solution<T>, IntegrationError<T>>;
+
 fn starts<T: Lane>() -> Vec<State<T>> {
     (0..43)
         .map(|i| {
@@ -86,19 +88,21 @@ fn ends<T: Lane>(
     end: T,
     pendulum: &Walled<T>,
 ) -> Vec<End<T>> {
+    let method = Dop853::new(options.clone());
     let task = Task {
         instructions,
+        method: &method,
         pendulum,
-        options,
         starts,
-        end,
+        times: &[],
+        end: Some(end),
     };
     let mut queue = 0..starts.len();
     let mut ends = vec![None; starts.len()];
     integrate(
         &task,
         || queue.next(),
-        |index, end| assert!(ends[index].replace(end).is_none()),
+        |index, outcome| assert!(ends[index].replace(outcome.end).is_none()),
     );
     ends.into_iter().map(Option::unwrap).collect()
 }

@@ -15,6 +15,8 @@ use crate::model::{Part, PartOf};
 macro_rules! fused {
     ($name:ident: $lane:ident, $fused:ident, $outlined:ident) => {
         impl Scalar for $name {
+            const SEVERAL: bool = true;
+
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
                 Self::splat(<$lane as Scalar>::from_f64(value))

@@ -10,6 +10,8 @@ use super::{F32x4, F64x2};
 // SAFETY, for all calls of instructions: see the file above.
 
 impl Scalar for F64x2 {
+    const SEVERAL: bool = true;
+
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self::splat(value)
@@ -36,6 +38,8 @@ impl Scalar for F64x2 {
 }
 
 impl Scalar for F32x4 {
+    const SEVERAL: bool = true;
+
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self::splat(<f32 as Scalar>::from_f64(value))

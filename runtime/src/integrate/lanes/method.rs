@@ -1,0 +1,87 @@
+//! What a method does that works in lanes.
+
+// A user names the trait of the methods as a bound, and nothing it is made of.
+#![allow(unreachable_pub)]
+
+use alloc::vec::Vec;
+
+use super::runs::{Flags, Runs};
+use crate::integrate::error::InputError;
+use crate::integrate::explicit::Span;
+use crate::integrate::options::Options;
+use crate::scalar::Lane;
+use crate::scalar::register::Register;
+use crate::system::Rescale;
+
+/// A method that integrates pendulums of the type `P` in the lanes of vector
+/// registers, for [`Ensemble`](crate::ensemble::Ensemble): [`Dop853`] any,
+/// [`Taylor`] those that give their Taylor coefficients.
+///
+/// No other crate can implement it.
+///
+/// [`Dop853`]: crate::integrate::Dop853
+/// [`Taylor`]: crate::integrate::Taylor
+pub trait LaneMethod<P: Rescale<T>, T: Lane>: Sync {
+    /// The method at work.
+    #[doc(hidden)]
+    type Stepper<'a, R: Register<Lane = T>>: Stepper<R>
+    where
+        Self: 'a;
+
+    /// Its options.
+    #[doc(hidden)]
+    fn options(&self) -> &Options<T>;
+
+    /// What is wrong with it beside the options.
+    #[doc(hidden)]
+    fn check(&self) -> Result<(), InputError<T>> {
+        Ok(())
+    }
+
+    /// Its memory, for this pendulum.
+    #[doc(hidden)]
+    fn stepper<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> Self::Stepper<'a, R>;
+}
+
+/// A method at work, with a state in each lane.
+pub trait Stepper<R: Register> {
+    /// Puts a state into a lane. Without one the lane gets zeros, of which
+    /// sines and cosines are sooner done than of what is not finite.
+    fn set(&mut self, lane: usize, values: Option<&[R::Lane]>);
+
+    /// The states at the start of the step.
+    fn start(&self) -> &[R];
+
+    /// The states at the end of the step.
+    fn end(&self) -> &[R];
+
+    /// Chooses steps as far as the step before has not; `fresh` lanes have not
+    /// made one.
+    fn prepare(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags);
+
+    /// Makes a step in all lanes; `size` is its length.
+    fn attempt(&mut self, span: Span<R>, size: R);
+
+    /// Judges the steps that were made: counts them, chooses the next ones where
+    /// these follow from them, and returns which are accepted.
+    fn judge(&mut self, runs: &mut Runs<R::Lane>) -> Flags;
+
+    /// Computes what values inside the step need.
+    fn prepare_dense(&mut self, span: Span<R>);
+
+    /// Counts that for a lane.
+    ///
+    /// # Errors
+    /// Time and state where the rates are not finite.
+    fn judge_dense(
+        &self,
+        runs: &mut Runs<R::Lane>,
+        lane: usize,
+    ) -> Result<(), (R::Lane, Vec<R::Lane>)>;
+
+    /// Writes the solutions at these fractions of the steps.
+    fn value(&self, fraction: R, out: &mut [R]);
+
+    /// Makes the end of the step the start of the next one in these lanes.
+    fn advance(&mut self, accepted: R::Mask);
+}

@@ -1,0 +1,236 @@
+//! Trajectories of one pendulum in the lanes of vector registers.
+//!
+//! A method computes its steps for all lanes at once; every lane has its own
+//! time, step, error and control, by the rules of the plain method. A lane
+//! whose step is rejected keeps its state, and a lane whose trajectory has ended
+//! gets the next start. Lanes without a trajectory stand still.
+
+// One index into all lanes at once.
+#![allow(clippy::needless_range_loop)]
+
+mod method;
+pub(crate) mod registers;
+mod runs;
+mod samples;
+#[cfg(test)]
+mod tests;
+
+use alloc::vec::Vec;
+
+pub use self::method::LaneMethod;
+pub(crate) use self::method::Stepper;
+use self::registers::{Numbers, WIDEST, register};
+pub(crate) use self::runs::{Flags, Outcome, Runs};
+use self::samples::Samples;
+use super::error::InputError;
+use super::explicit::Span;
+use super::request::{check_start, check_times};
+use crate::scalar::dispatch::{self, RegisterKernel};
+use crate::scalar::register::Register;
+use crate::scalar::{InstructionSet, Lane};
+use crate::system::{AbsoluteAngles, Rescale, State};
+
+/// What is asked of all trajectories.
+pub(crate) struct Task<'a, M, P, T> {
+    pub(crate) instructions: InstructionSet,
+    pub(crate) method: &'a M,
+    pub(crate) pendulum: &'a P,
+    pub(crate) starts: &'a [State<T>],
+    /// Times at which states are wanted.
+    pub(crate) times: &'a [T],
+    /// None: where it starts.
+    pub(crate) end: Option<T>,
+}
+
+/// Integrates the starts whose indices `next` gives, until it gives none, and
+/// hands each outcome to `done` with its index.
+///
+/// Allocates its registers once; a trajectory allocates where it begins and
+/// where it ends, and no step does.
+pub(crate) fn integrate<M, P, T>(
+    task: &Task<'_, M, P, T>,
+    next: impl FnMut() -> Option<usize>,
+    done: impl FnMut(usize, Outcome<T>),
+) where
+    M: LaneMethod<P, T>,
+    P: Rescale<T>,
+    T: Lane,
+{
+    let kernel = Lanes { task, next, done };
+    dispatch::run_in_registers(task.instructions, kernel);
+}
+
+struct Lanes<'a, M, P, T, N, D> {
+    task: &'a Task<'a, M, P, T>,
+    next: N,
+    done: D,
+}
+
+impl<M, P, T, N, D> RegisterKernel<T> for Lanes<'_, M, P, T, N, D>
+where
+    M: LaneMethod<P, T>,
+    P: Rescale<T>,
+    T: Lane,
+    N: FnMut() -> Option<usize>,
+    D: FnMut(usize, Outcome<T>),
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Register<Lane = T>>(mut self) {
+        let (method, pendulum) = (self.task.method, self.task.pendulum);
+        let dimension = 2 * P::LINKS;
+        let valid = method.options().validate(dimension);
+        if let Err(error) = valid.and_then(|()| method.check()) {
+            self.refuse_all(&error);
+            return;
+        }
+        let mut stepper = method.stepper::<R>(pendulum);
+        let mut runs = Runs::new();
+        let mut samples = Samples::new(dimension);
+        let mut fresh = self.fill(&mut stepper, &mut runs);
+        while runs.active.contains(&true) {
+            stepper.prepare(&mut runs, &fresh);
+            self.hand_over_failed(&mut stepper, &mut runs);
+            let (span, size) = self.plan(&mut stepper, &mut runs);
+            stepper.attempt(span, size);
+            let accepted = stepper.judge(&mut runs);
+            if !self.task.times.is_empty() {
+                samples.take(&mut stepper, &mut runs, self.task.times, &accepted, span);
+            }
+            let ended = runs.advance(R::LANES, &accepted);
+            stepper.advance(R::mask(|lane| accepted[lane]));
+            if ended {
+                self.finish(&mut stepper, &mut runs);
+            }
+            self.hand_over_failed(&mut stepper, &mut runs);
+            fresh = [false; WIDEST];
+            if runs.active[..R::LANES].contains(&false) {
+                fresh = self.fill(&mut stepper, &mut runs);
+            }
+        }
+    }
+}
+
+impl<M, P, T, N, D> Lanes<'_, M, P, T, N, D>
+where
+    M: LaneMethod<P, T>,
+    P: Rescale<T>,
+    T: Lane,
+    N: FnMut() -> Option<usize>,
+    D: FnMut(usize, Outcome<T>),
+{
+    fn refuse_all(&mut self, error: &InputError<T>) {
+        while let Some(index) = (self.next)() {
+            // What is wrong with the start comes first, as in the plain method.
+            let error = match self.task.starts.get(index).map(|start| self.check(start)) {
+                Some(Err(error)) => error,
+                _ => error.clone(),
+            };
+            (self.done)(index, Outcome::refused(error));
+        }
+    }
+
+    fn check(&self, start: &State<T>) -> Result<(), InputError<T>> {
+        check_start(&AbsoluteAngles(self.task.pendulum), start)?;
+        check_times(start.time, self.task.times)?;
+        check_times(start.time, self.task.end.as_slice())
+    }
+
+    /// Gives a start to every lane without a trajectory, as long as there are any.
+    /// Returns which have got one.
+    fn fill<R: Register<Lane = T>>(
+        &mut self,
+        stepper: &mut impl Stepper<R>,
+        runs: &mut Runs<T>,
+    ) -> Flags {
+        let mut fresh = [false; WIDEST];
+        for lane in 0..R::LANES {
+            while !runs.active[lane]
+                && let Some(index) = (self.next)()
+                && let Some(start) = self.task.starts.get(index)
+            {
+                if let Err(error) = self.check(start) {
+                    (self.done)(index, Outcome::refused(error));
+                    continue;
+                }
+                let end = self.task.end.unwrap_or(start.time);
+                runs.begin(lane, index, start.time, end);
+                runs.sample_start(lane, self.task.times, &start.values);
+                if start.time == end {
+                    let (index, outcome) = runs.finish(lane, start.values.clone());
+                    (self.done)(index, outcome);
+                } else {
+                    stepper.set(lane, Some(&start.values));
+                    fresh[lane] = true;
+                }
+            }
+        }
+        fresh
+    }
+
+    /// Time and step of every lane, and the lengths of the steps. Trajectories
+    /// that may not go on leave their lanes.
+    #[inline(always)]
+    fn plan<R: Register<Lane = T>>(
+        &mut self,
+        stepper: &mut impl Stepper<R>,
+        runs: &mut Runs<T>,
+    ) -> (Span<R>, R) {
+        let options = self.task.method.options();
+        let stuck = runs.plan(R::LANES, options);
+        if stuck.contains(&true) {
+            for lane in (0..R::LANES).filter(|&lane| stuck[lane]) {
+                let values = registers::numbers_in(stepper.start(), lane);
+                if let Some(error) = runs.why_stuck(lane, options, values) {
+                    runs.fail(lane, error);
+                }
+            }
+            self.hand_over_failed(stepper, runs);
+        }
+        let (mut step, mut size): (Numbers<T>, Numbers<T>) = (runs.time, runs.time);
+        for lane in 0..R::LANES {
+            step[lane] = runs.span(lane).step;
+            size[lane] = step[lane].abs();
+        }
+        let span = Span {
+            time: register(&runs.time),
+            step: register(&step),
+        };
+        (span, register(&size))
+    }
+
+    /// Hands over the trajectories that have failed.
+    #[inline(always)]
+    fn hand_over_failed<R: Register<Lane = T>>(
+        &mut self,
+        stepper: &mut impl Stepper<R>,
+        runs: &mut Runs<T>,
+    ) {
+        while let Some((lane, index, outcome)) = runs.take_failed() {
+            (self.done)(index, outcome);
+            stepper.set(lane, None);
+        }
+    }
+
+    /// Hands over the trajectories that have reached the end.
+    fn finish<R: Register<Lane = T>>(&mut self, stepper: &mut impl Stepper<R>, runs: &mut Runs<T>) {
+        for lane in 0..R::LANES {
+            if runs.active[lane] && runs.time[lane] == runs.end[lane] {
+                let values = registers::numbers_in(stepper.start(), lane);
+                let (index, outcome) = runs.finish(lane, values);
+                (self.done)(index, outcome);
+                stepper.set(lane, None);
+            }
+        }
+    }
+}
+
+impl<T> Outcome<T> {
+    fn refused(error: InputError<T>) -> Self {
+        Self {
+            end: Err(error.into()),
+            samples: Vec::new(),
+        }
+    }
+}

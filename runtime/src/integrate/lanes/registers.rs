@@ -1,0 +1,80 @@
+//! The numbers in registers, one by one.
+
+use alloc::vec::Vec;
+
+use crate::integrate::options::Options;
+use crate::scalar::Real;
+use crate::scalar::register::Register;
+
+/// Numbers in the widest register.
+pub(crate) const WIDEST: usize = 16;
+
+/// One number a lane; those beyond the last lane mean nothing.
+pub(crate) type Numbers<T> = [T; WIDEST];
+
+/// The numbers of a register.
+#[inline(always)]
+pub(crate) fn numbers<R: Register>(register: R) -> Numbers<R::Lane> {
+    const { assert!(R::LANES <= WIDEST) }
+    let mut numbers = [R::Lane::ZERO; WIDEST];
+    register.store(&mut numbers);
+    numbers
+}
+
+/// The register of these numbers.
+#[inline(always)]
+pub(crate) fn register<R: Register>(numbers: &Numbers<R::Lane>) -> R {
+    const { assert!(R::LANES <= WIDEST) }
+    match R::load(numbers) {
+        Some(register) => register,
+        // There are enough numbers: asserted.
+        None => R::from_f64(f64::NAN),
+    }
+}
+
+/// The numbers that these registers have in a lane.
+pub(crate) fn numbers_in<R: Register>(registers: &[R], lane: usize) -> Vec<R::Lane> {
+    registers.iter().map(|&r| numbers(r)[lane]).collect()
+}
+
+/// Writes them to `out`.
+pub(crate) fn copy_lane<R: Register>(registers: &[R], lane: usize, out: &mut [R::Lane]) {
+    for (out, &register) in out.iter_mut().zip(registers) {
+        *out = numbers(register)[lane];
+    }
+}
+
+/// Changes one of the numbers.
+pub(crate) fn set_lane<R: Register>(target: &mut R, lane: usize, value: R::Lane) {
+    let mut changed = numbers(*target);
+    changed[lane] = value;
+    *target = register(&changed);
+}
+
+/// The smallest power of two whose inverse is finite.
+pub(crate) fn smallest_divisor<T: Real>() -> T {
+    let half = T::from_f64(0.5);
+    let mut smallest = T::ONE;
+    while (T::ONE / (smallest * half)).is_finite() {
+        smallest = smallest * half;
+    }
+    smallest
+}
+
+/// Tolerances of each component in every lane: relative ones, and absolute ones
+/// that are not zero. Where a component is exactly zero by symmetry, its error is
+/// too: zero over the smallest number, not over zero.
+pub(crate) fn tolerances<R: Register>(
+    options: &Options<R::Lane>,
+    dimension: usize,
+) -> (Vec<R>, Vec<R>) {
+    let smallest = smallest_divisor();
+    let relative = options.relative.expand(dimension).into_iter();
+    let absolute = options.absolute.expand(dimension).into_iter();
+    (
+        relative.map(R::splat).collect(),
+        absolute
+            .map(|absolute| R::splat(absolute.max(smallest)))
+            .collect(),
+    )
+}

@@ -1,0 +1,272 @@
+//! The trajectories in the lanes: their times, steps, accounts and samples.
+
+// One index into all lanes at once.
+#![allow(clippy::needless_range_loop)]
+#![allow(unreachable_pub)]
+
+use alloc::vec::Vec;
+
+use super::registers::{Numbers, WIDEST};
+use crate::integrate::error::IntegrationError;
+use crate::integrate::explicit::{Span, check_step};
+use crate::integrate::options::Options;
+use crate::integrate::report::{Report, Solution, StopReason};
+use crate::scalar::Real;
+use crate::system::State;
+
+/// One yes or no a lane.
+pub(crate) type Flags = [bool; WIDEST];
+
+/// What became of a trajectory.
+#[derive(Clone, Debug)]
+pub(crate) struct Outcome<T> {
+    /// Its end.
+    pub(crate) end: Result<Solution<T>, IntegrationError<T>>,
+    /// The states at the times asked for, one after the other, as far as it came.
+    pub(crate) samples: Vec<T>,
+}
+
+/// The trajectories under way, number by number and not one by one: what is done
+/// for all of them in every step are then short loops without branches.
+///
+/// In a lane without a trajectory everything is zero.
+#[derive(Debug)]
+pub struct Runs<T> {
+    /// Which lanes have a trajectory.
+    pub(crate) active: Flags,
+    /// Its place among the starts.
+    index: [usize; WIDEST],
+    /// Start of the step.
+    pub(crate) time: Numbers<T>,
+    /// Where it is to end.
+    pub(crate) end: Numbers<T>,
+    /// 1, or −1 backwards.
+    pub(crate) direction: Numbers<T>,
+    /// Length of the step that is tried next.
+    pub(crate) step: Numbers<T>,
+    /// End of the step that is tried.
+    pub(crate) end_time: Numbers<T>,
+    /// Whether that is the end.
+    pub(crate) last: Flags,
+    pub(crate) accepted: [u64; WIDEST],
+    pub(crate) rejected: [u64; WIDEST],
+    pub(crate) evaluations: [u64; WIDEST],
+    shortest: Numbers<T>,
+    longest: Numbers<T>,
+    pub(crate) next_step: Numbers<T>,
+    samples: [Vec<T>; WIDEST],
+    /// How many times these belong to.
+    sampled: [usize; WIDEST],
+    /// Trajectories that have failed since one last looked, with their lanes.
+    failed: Vec<(usize, usize, Outcome<T>)>,
+}
+
+impl<T: Real> Runs<T> {
+    pub(super) fn new() -> Self {
+        let zero = [T::ZERO; WIDEST];
+        Self {
+            active: [false; WIDEST],
+            index: [0; WIDEST],
+            time: zero,
+            end: zero,
+            direction: zero,
+            step: zero,
+            end_time: zero,
+            last: [false; WIDEST],
+            accepted: [0; WIDEST],
+            rejected: [0; WIDEST],
+            evaluations: [0; WIDEST],
+            shortest: zero,
+            longest: zero,
+            next_step: zero,
+            samples: [const { Vec::new() }; WIDEST],
+            sampled: [0; WIDEST],
+            failed: Vec::new(),
+        }
+    }
+
+    /// Puts a trajectory into a lane.
+    pub(super) fn begin(&mut self, lane: usize, index: usize, time: T, end: T) {
+        self.active[lane] = true;
+        self.index[lane] = index;
+        self.time[lane] = time;
+        self.end[lane] = end;
+        self.direction[lane] = if end > time { T::ONE } else { -T::ONE };
+    }
+
+    /// Takes the trajectory out of a lane, with its samples.
+    fn leave(&mut self, lane: usize) -> (usize, Vec<T>) {
+        let zero = T::ZERO;
+        self.active[lane] = false;
+        for numbers in [
+            &mut self.time,
+            &mut self.end,
+            &mut self.direction,
+            &mut self.step,
+            &mut self.end_time,
+            &mut self.shortest,
+            &mut self.longest,
+            &mut self.next_step,
+        ] {
+            numbers[lane] = zero;
+        }
+        self.accepted[lane] = 0;
+        self.rejected[lane] = 0;
+        self.evaluations[lane] = 0;
+        self.sampled[lane] = 0;
+        (self.index[lane], core::mem::take(&mut self.samples[lane]))
+    }
+
+    /// Plans the steps of all lanes. Returns those that may not be tried.
+    #[inline(always)]
+    pub(super) fn plan(&mut self, lanes: usize, options: &Options<T>) -> Flags {
+        let mut stuck = [false; WIDEST];
+        let lost = T::from_f64(10.0) * T::EPSILON;
+        for lane in 0..lanes.min(WIDEST) {
+            let (time, end, step) = (self.time[lane], self.end[lane], self.step[lane]);
+            // As the drivers of the plain methods.
+            let last = step * T::from_f64(1.01) >= (end - time).abs();
+            let next = time + self.direction[lane] * step;
+            self.end_time[lane] = if last { end } else { next };
+            self.last[lane] = last;
+            let short = (step < options.min_step) | (step <= lost * time.abs());
+            let many = self.accepted[lane] + self.rejected[lane] >= options.step_limit;
+            stuck[lane] = self.active[lane] & (many | (!last & short));
+        }
+        stuck
+    }
+
+    /// Why the step of a lane that is stuck may not be tried.
+    pub(super) fn why_stuck(
+        &self,
+        lane: usize,
+        options: &Options<T>,
+        values: Vec<T>,
+    ) -> Option<IntegrationError<T>> {
+        let time = self.time[lane];
+        let attempt = (time, self.step[lane], self.last[lane]);
+        let state = State { time, values };
+        check_step(
+            options,
+            &self.report(lane, StopReason::EndReached),
+            attempt,
+            || state,
+        )
+        .err()
+    }
+
+    /// The step that is tried.
+    #[inline(always)]
+    pub(crate) fn span(&self, lane: usize) -> Span<T> {
+        Span {
+            time: self.time[lane],
+            // The difference of the rounded times, so that they add up.
+            step: self.end_time[lane] - self.time[lane],
+        }
+    }
+
+    /// Counts the steps that are accepted.
+    #[inline(always)]
+    pub(crate) fn count(&mut self, lanes: usize, accepted: &Flags) {
+        for lane in 0..lanes.min(WIDEST) {
+            let size = self.span(lane).step.abs();
+            let first = self.accepted[lane] == 0;
+            let shortest = self.shortest[lane];
+            let shorter = if first | (size < shortest) {
+                size
+            } else {
+                shortest
+            };
+            let longer = self.longest[lane].max(size);
+            let accepted = accepted[lane];
+            self.shortest[lane] = if accepted { shorter } else { shortest };
+            self.longest[lane] = if accepted { longer } else { self.longest[lane] };
+            self.accepted[lane] += u64::from(accepted);
+        }
+    }
+
+    /// Makes the end of the step the start of the next one in lanes whose step
+    /// was accepted. Returns whether a trajectory has reached its end.
+    #[inline(always)]
+    pub(super) fn advance(&mut self, lanes: usize, accepted: &Flags) -> bool {
+        let mut ended = false;
+        for lane in 0..lanes.min(WIDEST) {
+            let (time, end_time) = (self.time[lane], self.end_time[lane]);
+            self.time[lane] = if accepted[lane] { end_time } else { time };
+            ended |= accepted[lane] & self.last[lane];
+        }
+        ended
+    }
+
+    /// The time of the next sample in a lane, if that is in the step.
+    #[inline(always)]
+    pub(super) fn next_sample(&self, lane: usize, times: &[T]) -> Option<T> {
+        let time = *times.get(self.sampled[lane])?;
+        let left = self.direction[lane] * (self.end_time[lane] - time);
+        (left >= T::ZERO).then_some(time)
+    }
+
+    /// Makes room for the samples of a lane, and takes those at the start.
+    pub(super) fn sample_start(&mut self, lane: usize, times: &[T], values: &[T]) {
+        self.samples[lane].reserve_exact(times.len() * values.len());
+        while times.get(self.sampled[lane]) == Some(&self.time[lane]) {
+            self.sample(lane, values);
+        }
+    }
+
+    /// Takes the next sample of a lane.
+    pub(super) fn sample(&mut self, lane: usize, values: &[T]) {
+        self.samples[lane].extend_from_slice(values);
+        self.sampled[lane] += 1;
+    }
+
+    fn report(&self, lane: usize, stop: StopReason) -> Report<T> {
+        Report {
+            accepted: self.accepted[lane],
+            rejected: self.rejected[lane],
+            evaluations: self.evaluations[lane],
+            shortest_step: self.shortest[lane],
+            longest_step: self.longest[lane],
+            next_step: self.next_step[lane],
+            stop,
+        }
+    }
+
+    /// The trajectory in a lane ends here.
+    #[cold]
+    pub(super) fn fail(&mut self, lane: usize, error: IntegrationError<T>) {
+        let (index, samples) = self.leave(lane);
+        let end = Err(error);
+        self.failed.push((lane, index, Outcome { end, samples }));
+    }
+
+    /// The same for rates or a state that are not finite at this place; `last`
+    /// is the last good state.
+    #[cold]
+    pub(crate) fn non_finite(&mut self, lane: usize, (time, values): (T, Vec<T>), last: State<T>) {
+        let error = IntegrationError::NonFinite {
+            time,
+            values,
+            last,
+            report: self.report(lane, StopReason::NonFinite),
+        };
+        self.fail(lane, error);
+    }
+
+    /// Those that have failed since one last asked.
+    #[inline(always)]
+    pub(super) fn take_failed(&mut self) -> Option<(usize, usize, Outcome<T>)> {
+        self.failed.pop()
+    }
+
+    /// Takes a trajectory out of its lane that has reached its end.
+    pub(super) fn finish(&mut self, lane: usize, values: Vec<T>) -> (usize, Outcome<T>) {
+        let time = self.time[lane];
+        let end = Ok(Solution {
+            state: State { time, values },
+            report: self.report(lane, StopReason::EndReached),
+        });
+        let (index, samples) = self.leave(lane);
+        (index, Outcome { end, samples })
+    }
+}

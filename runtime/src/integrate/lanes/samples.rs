@@ -1,0 +1,83 @@
+//! States at times within a step.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::method::Stepper;
+use super::registers::{Numbers, WIDEST, copy_lane, numbers_in, register};
+use super::runs::{Flags, Runs};
+use crate::integrate::explicit::Span;
+use crate::scalar::Real;
+use crate::scalar::register::Register;
+use crate::system::State;
+
+/// Room for one state in each lane.
+pub(super) struct Samples<R: Register> {
+    values: Vec<R>,
+    one: Vec<R::Lane>,
+}
+
+impl<R: Register> Samples<R> {
+    pub(super) fn new(dimension: usize) -> Self {
+        Self {
+            values: vec![R::from_f64(0.0); dimension],
+            one: vec![R::Lane::ZERO; dimension],
+        }
+    }
+
+    /// Takes the samples within the steps that were accepted, one a lane at a
+    /// time. A trajectory without values inside its step ends there.
+    #[inline(always)]
+    pub(super) fn take(
+        &mut self,
+        stepper: &mut impl Stepper<R>,
+        runs: &mut Runs<R::Lane>,
+        times: &[R::Lane],
+        accepted: &Flags,
+        span: Span<R>,
+    ) {
+        let (mut prepared, mut judged) = (false, [false; WIDEST]);
+        loop {
+            let mut fraction: Numbers<R::Lane> = [R::Lane::ZERO; WIDEST];
+            let mut inside = [false; WIDEST];
+            for lane in (0..R::LANES).filter(|&lane| accepted[lane]) {
+                while runs.active[lane]
+                    && let Some(time) = runs.next_sample(lane, times)
+                {
+                    if time == runs.end_time[lane] {
+                        copy_lane(stepper.end(), lane, &mut self.one);
+                        runs.sample(lane, &self.one);
+                        continue;
+                    }
+                    if !prepared {
+                        stepper.prepare_dense(span);
+                        prepared = true;
+                    }
+                    if !judged[lane] {
+                        judged[lane] = true;
+                        if let Err(place) = stepper.judge_dense(runs, lane) {
+                            let last = State {
+                                time: runs.end_time[lane],
+                                values: numbers_in(stepper.end(), lane),
+                            };
+                            runs.non_finite(lane, place, last);
+                            break;
+                        }
+                    }
+                    let span = runs.span(lane);
+                    fraction[lane] = (time - span.time) / span.step;
+                    inside[lane] = true;
+                    break;
+                }
+            }
+            if !inside.contains(&true) {
+                return;
+            }
+            stepper.value(register(&fraction), &mut self.values);
+            for lane in (0..R::LANES).filter(|&lane| inside[lane]) {
+                copy_lane(&self.values, lane, &mut self.one);
+                runs.sample(lane, &self.one);
+            }
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! The Taylor series method in the lanes of vector registers.
+
+// One index into all lanes at once.
+#![allow(clippy::needless_range_loop)]
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::Taylor;
+use super::root::least_inverse_roots;
+use crate::integrate::error::InputError;
+use crate::integrate::explicit::Span;
+use crate::integrate::lanes::registers::{
+    Numbers, WIDEST, numbers, numbers_in, register, set_lane, tolerances,
+};
+use crate::integrate::lanes::{Flags, LaneMethod, Runs, Stepper};
+use crate::integrate::options::Options;
+use crate::integrate::sum::two_sum;
+use crate::model::Part;
+use crate::scalar::register::Register;
+use crate::scalar::{Lane, Real};
+use crate::system::{Rescale, State, TaylorPendulum};
+use crate::taylor::Quad;
+
+impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
+    type Stepper<'a, R: Register<Lane = T>> = Lanes<'a, P, R>;
+
+    fn options(&self) -> &Options<T> {
+        &self.options
+    }
+
+    fn check(&self) -> Result<(), InputError<T>> {
+        self.check_options()
+    }
+
+    fn stepper<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> Lanes<'a, P, R> {
+        let (n, order) = (2 * P::LINKS, self.order());
+        let zero = R::from_f64(0.0);
+        let (relative, absolute) = tolerances(&self.options, n);
+        Lanes {
+            series: Series {
+                pendulum: pendulum.rescale(R::splat),
+            },
+            options: &self.options,
+            order,
+            safety: super::safety(order),
+            relative,
+            absolute,
+            start: vec![zero; n],
+            end: vec![zero; n],
+            start_residue: vec![zero; n],
+            end_residue: vec![zero; n],
+            coefficients: vec![zero; (order + 1) * n],
+            work: vec![Quad([zero; 4]); P::taylor_workspace(order)],
+            step: zero,
+            finite: [T::ZERO; WIDEST],
+        }
+    }
+}
+
+/// The expansion of a pendulum in registers.
+struct Series<P: Rescale<R::Lane>, R: Register> {
+    pendulum: P::Of<R>,
+}
+
+/// What an expansion gets: time, state, coefficients, workspace.
+type Expansion<'a, R> = (R, &'a [R], &'a mut [R], &'a mut [Quad<R>]);
+
+/// In a function of its own, with registers of its own.
+impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>> for Series<P, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn part(&self, (time, state, coefficients, work): Expansion<'a, R>) {
+        let Some((theta, omega)) = state.split_at_checked(P::LINKS) else {
+            return;
+        };
+        P::taylor_coefficients_of(&self.pendulum, time, theta, omega, coefficients, work);
+    }
+}
+
+/// The method at work: its polynomials, and what it works on.
+pub struct Lanes<'a, P: Rescale<R::Lane>, R: Register> {
+    series: Series<P, R>,
+    options: &'a Options<R::Lane>,
+    order: usize,
+    safety: R::Lane,
+    relative: Vec<R>,
+    absolute: Vec<R>,
+    start: Vec<R>,
+    end: Vec<R>,
+    /// Rounding error of `start`, if the sums are compensated.
+    start_residue: Vec<R>,
+    /// Rounding error of `end`.
+    end_residue: Vec<R>,
+    /// Taylor coefficients at the start, order by order.
+    coefficients: Vec<R>,
+    work: Vec<Quad<R>>,
+    /// Lengths of the steps, with their signs.
+    step: R,
+    /// Zero where the end is finite, NaN elsewhere.
+    finite: Numbers<R::Lane>,
+}
+
+impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
+    /// Zero where all these numbers are finite, NaN elsewhere.
+    #[inline(always)]
+    fn check(values: &[R]) -> R {
+        let zero = R::from_f64(0.0);
+        let mut check = zero;
+        for value in values {
+            // Infinity times zero is NaN.
+            check = value.mul_add(zero, check);
+        }
+        check
+    }
+
+    /// Sizes of the last two terms in units of their tolerances: the largest of
+    /// all components.
+    #[inline(always)]
+    fn last_two(&self) -> [R; 2] {
+        let n = 2 * P::LINKS;
+        let last_two = &self.coefficients[(self.order - 1) * n..][..2 * n];
+        let (before, last) = last_two.split_at(n);
+        let zero = R::from_f64(0.0);
+        let (mut of_before, mut of_last) = (zero, zero);
+        for i in 0..n {
+            let size = self.start[i].larger_size(zero);
+            let inverse = R::from_f64(1.0) / self.relative[i].mul_add(size, self.absolute[i]);
+            of_before = of_before.larger_size(before[i] * inverse);
+            of_last = of_last.larger_size(last[i] * inverse);
+        }
+        [of_before, of_last]
+    }
+
+    /// Σ y\[k\] τᵏ over k ≥ 1 for component i, by Horner's rule in τ² for odd and
+    /// even k apart.
+    #[inline(always)]
+    fn increment(&self, i: usize, tau: R) -> R {
+        let n = 2 * P::LINKS;
+        let square = tau * tau;
+        let zero = R::from_f64(0.0);
+        let (mut odd, mut even) = (zero, zero);
+        let rows = &self.coefficients[n..];
+        // Pairs of an odd and an even order; the highest odd one may be alone.
+        let (pairs, alone) = rows.split_at((self.order - self.order % 2) * n);
+        if let Some(highest) = alone.get(i) {
+            odd = *highest;
+        }
+        for pair in pairs.chunks_exact(2 * n).rev() {
+            odd = odd.mul_add(square, pair[i]);
+            even = even.mul_add(square, pair[n + i]);
+        }
+        even.mul_add(tau, odd) * tau
+    }
+
+    /// Ends the trajectory of a lane whose end is not finite.
+    #[cold]
+    fn fail(&self, runs: &mut Runs<R::Lane>, lane: usize) {
+        let start = self.state(lane, runs.time[lane]);
+        // What is not finite further down shows in the end of the step.
+        let place = if numbers(Self::check(&self.coefficients))[lane].is_finite() {
+            (runs.end_time[lane], numbers_in(&self.end, lane))
+        } else {
+            (start.time, start.values.clone())
+        };
+        runs.non_finite(lane, place, start);
+    }
+
+    fn state(&self, lane: usize, time: R::Lane) -> State<R::Lane> {
+        State {
+            time,
+            values: numbers_in(&self.start, lane),
+        }
+    }
+}
+
+impl<P: TaylorPendulum<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
+    fn set(&mut self, lane: usize, values: Option<&[R::Lane]>) {
+        for i in 0..self.start.len() {
+            let value = values.map_or(R::Lane::ZERO, |values| values[i]);
+            set_lane(&mut self.start[i], lane, value);
+            set_lane(&mut self.start_residue[i], lane, R::Lane::ZERO);
+        }
+    }
+
+    fn start(&self) -> &[R] {
+        &self.start
+    }
+
+    fn end(&self) -> &[R] {
+        &self.end
+    }
+
+    #[inline(always)]
+    fn prepare(&mut self, runs: &mut Runs<R::Lane>, _fresh: &Flags) {
+        R::outlined::<0, _, _>(
+            &self.series,
+            (
+                register(&runs.time),
+                self.start.as_slice(),
+                self.coefficients.as_mut_slice(),
+                self.work.as_mut_slice(),
+            ),
+        );
+        let n = 2 * P::LINKS;
+        let finite = numbers(Self::check(&self.coefficients[(self.order - 1) * n..]));
+        let [before, last] = self.last_two().map(numbers);
+        let roots = least_inverse_roots::<R::Lane, WIDEST>(
+            R::LANES,
+            (&before, self.order - 1),
+            (&last, self.order),
+        );
+        let longest = self
+            .options
+            .max_step
+            .unwrap_or(R::Lane::ONE / R::Lane::ZERO);
+        let first = self
+            .options
+            .initial_step
+            .map_or(longest, |step| step.min(longest));
+        let mut failed = false;
+        for lane in 0..R::LANES {
+            let longest = if runs.accepted[lane] == 0 {
+                first
+            } else {
+                longest
+            };
+            let step = (self.safety * roots[lane]).min(longest);
+            let left = (runs.end[lane] - runs.time[lane]).abs();
+            runs.evaluations[lane] += self.order as u64;
+            runs.step[lane] = step;
+            runs.next_step[lane] = step.min(left);
+            failed |= runs.active[lane] & !finite[lane].is_finite();
+        }
+        if failed {
+            for lane in 0..R::LANES {
+                if runs.active[lane] && !finite[lane].is_finite() {
+                    let state = self.state(lane, runs.time[lane]);
+                    runs.non_finite(lane, (state.time, state.values.clone()), state);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn attempt(&mut self, span: Span<R>, _size: R) {
+        self.step = span.step;
+        for i in 0..2 * P::LINKS {
+            let change = self.increment(i, span.step);
+            if self.options.compensated {
+                let change = change + self.start_residue[i];
+                (self.end[i], self.end_residue[i]) = two_sum(self.start[i], change);
+            } else {
+                self.end[i] = self.start[i] + change;
+            }
+        }
+        self.finite = numbers(Self::check(&self.end));
+    }
+
+    #[inline(always)]
+    fn judge(&mut self, runs: &mut Runs<R::Lane>) -> Flags {
+        let mut accepted = [false; WIDEST];
+        for lane in 0..R::LANES {
+            accepted[lane] = runs.active[lane] & self.finite[lane].is_finite();
+        }
+        runs.count(R::LANES, &accepted);
+        if accepted != runs.active {
+            for lane in 0..R::LANES {
+                if runs.active[lane] && !accepted[lane] {
+                    self.fail(runs, lane);
+                }
+            }
+        }
+        accepted
+    }
+
+    fn prepare_dense(&mut self, _span: Span<R>) {}
+
+    fn judge_dense(
+        &self,
+        _runs: &mut Runs<R::Lane>,
+        _lane: usize,
+    ) -> Result<(), (R::Lane, Vec<R::Lane>)> {
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn value(&self, fraction: R, out: &mut [R]) {
+        let tau = fraction * self.step;
+        for (i, (out, &start)) in out.iter_mut().zip(&self.start).enumerate() {
+            *out = start + self.increment(i, tau);
+        }
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, accepted: R::Mask) {
+        let n = 2 * P::LINKS;
+        for (start, &end) in self.start.iter_mut().zip(&self.end).take(n) {
+            *start = end.choose(*start, accepted);
+        }
+        if self.options.compensated {
+            for (start, &end) in self.start_residue.iter_mut().zip(&self.end_residue) {
+                *start = end.choose(*start, accepted);
+            }
+        }
+    }
+}
