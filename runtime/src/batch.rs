@@ -192,9 +192,9 @@ fn check(
     Ok(())
 }
 
-/// Links up to which two registers are computed in step. Neither has then enough
-/// operations that do not wait for each other; with more links, the values of two
-/// do not find room.
+/// Links up to which two registers are computed in step: so few alone have not
+/// enough operations that need not wait for each other. With more links the values
+/// of two registers of states do not find room.
 const FEW: usize = 3;
 
 /// All states, if they are enough for one register; lengths checked.
