@@ -4,11 +4,12 @@
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use super::part::{Part, Run};
+use super::columns::Columns;
+use super::part::{Part, SLOTS};
 use super::plan::{Plan, WIDTH};
 use super::recursion::Recursion;
 use super::shared::Shared;
-use super::sweep::{Memory, Sweep};
+use super::sweep::Sweep;
 use super::vector::{SliceKernel, Vectors};
 use crate::scalar::Scalar;
 
@@ -33,15 +34,17 @@ fn line<T>() -> usize {
 }
 
 /// What memory for a part takes.
+#[derive(Clone, Copy)]
 struct Extent {
-    /// Unused numbers before each array, so that its longest generation starts
+    /// Unused numbers before the links, so that their longest generation starts
     /// with a line.
     lead: usize,
-    /// All links.
-    all: usize,
-    /// Those that have answers.
-    inner: usize,
-    /// Forces in joints: two arrays more.
+    /// Numbers of sines, and of cosines, velocities, angles and velocities relative
+    /// to the parents: of all links.
+    links: usize,
+    /// Numbers of each answer, and of what is kept: of links with children.
+    slots: usize,
+    /// Whether something acts in joints.
     joints: bool,
 }
 
@@ -50,64 +53,32 @@ impl Extent {
     fn new<T>(part: &Part<'_>, joints: bool) -> Self {
         let leaf = part.shape.counts.len().saturating_sub(1);
         let last = part.own(part.end.saturating_sub(1));
+        let lead = last.next_multiple_of(line::<T>()) - last;
+        // A register more: the last numbers are read with what is behind them.
         Self {
-            lead: last.next_multiple_of(line::<T>()) - last,
-            all: part.own(part.end),
-            inner: part.own((part.end + 1).min(leaf)),
+            lead,
+            links: odd::<T>(lead + part.own(part.end) + SLOTS),
+            slots: odd::<T>(part.slot((part.end + 1).min(leaf)) + SLOTS),
             joints,
         }
     }
 
-    /// An odd number of lines: arrays whose distances are multiples of a power
-    /// of two compete for the same places of the cache.
-    fn length<T>(&self, links: usize) -> usize {
-        ((self.lead + links).div_ceil(line::<T>()) | 1) * line::<T>()
+    /// How many numbers there are.
+    fn room<const R: usize, const K: usize>(&self) -> usize {
+        self.turns() + (R + K) * self.slots
     }
 
-    /// Of what is read on the way down.
-    fn kept<T, const K: usize>(&self) -> usize {
-        let whole = if self.joints { 4 } else { 2 };
-        whole * self.length::<T>(self.all) + K * self.length::<T>(self.inner)
+    /// Those of all links.
+    #[inline(always)]
+    fn turns(&self) -> usize {
+        self.links * if self.joints { 5 } else { 3 }
     }
+}
 
-    /// Of answers.
-    fn answers<T, const R: usize>(&self) -> usize {
-        R * self.length::<T>(self.inner)
-    }
-
-    fn array<'a, T>(&self, buffer: &mut &'a mut [T], links: usize) -> &'a mut [T] {
-        let padded = take(buffer, self.length::<T>(links));
-        padded
-            .get_mut(self.lead..self.lead + links)
-            .unwrap_or_default()
-    }
-
-    fn memory<'a, T, const R: usize, const K: usize>(
-        &self,
-        mut kept: &'a mut [T],
-        mut answers: &'a mut [T],
-    ) -> Memory<'a, T, R, K> {
-        let (buffer, answers) = (&mut kept, &mut answers);
-        let &Self {
-            all, inner, joints, ..
-        } = self;
-        Memory {
-            sines: self.array(buffer, all),
-            cosines: self.array(buffer, all),
-            bends: if joints {
-                self.array(buffer, all)
-            } else {
-                &mut []
-            },
-            bend_rates: if joints {
-                self.array(buffer, all)
-            } else {
-                &mut []
-            },
-            answers: core::array::from_fn(|_| self.array(answers, inner)),
-            kept: core::array::from_fn(|_| self.array(buffer, inner)),
-        }
-    }
+/// An odd number of lines: arrays whose distances are multiples of a power of two
+/// compete for the same places of the cache.
+fn odd<T>(numbers: usize) -> usize {
+    (numbers.div_ceil(line::<T>()) | 1) * line::<T>()
 }
 
 /// Takes `length` numbers off the front.
@@ -124,34 +95,29 @@ pub(super) fn workspace<T, const R: usize, const K: usize>(
     joints: bool,
     threads: usize,
 ) -> usize {
-    let top = Extent::new::<T>(&plan.top(), joints);
+    let top = Extent::new::<T>(&plan.top(), joints).room::<R, K>();
     let parts = plan.cut.map_or(0, |cut| {
-        let window = Extent::new::<T>(&plan.window(cut, 0), joints);
-        answers::<T, R>(plan, cut)
-            + plan.count(cut).div_ceil(WIDTH) * window.kept::<T, K>()
-            + threads * worker::<T, R, K>(plan, cut, joints)
+        boundary::<T, R>(plan, cut) + threads * worker::<T, R, K>(plan, cut, joints)
     });
-    line::<T>() + top.kept::<T, K>() + top.answers::<T, R>() + parts
+    line::<T>() + top + parts
 }
 
-/// Answers of all parts.
-fn answers<T, const R: usize>(plan: &Plan, cut: usize) -> usize {
+/// Room for the answers of all parts.
+fn boundary<T, const R: usize>(plan: &Plan, cut: usize) -> usize {
     (plan.count(cut) * R).next_multiple_of(line::<T>())
 }
 
-/// Room for one thread's parts, and for accelerations.
+/// Room for one thread's parts. A line more, so that two threads never write to
+/// one.
 fn worker<T, const R: usize, const K: usize>(plan: &Plan, cut: usize, joints: bool) -> usize {
-    let window = plan.window(cut, 0);
-    let extent = Extent::new::<T>(&window, joints);
-    // A line more, so that two threads never write to one.
-    extent.answers::<T, R>() + extent.length::<T>(extent.all) + line::<T>()
+    Extent::new::<T>(&plan.window(cut, 0), joints).room::<R, K>() + line::<T>()
 }
 
 /// One way through the top of the tree, or through some of the parts below.
 enum Pass<'a, T> {
     /// Up and down again, the whole tree or what is above the parts, whose
     /// answers are in memory.
-    Top { alpha: &'a mut [T] },
+    Top,
     /// Up through the parts that start with these links of their generation. A
     /// part's answers stand together.
     Up {
@@ -159,21 +125,20 @@ enum Pass<'a, T> {
         links: Range<usize>,
         answers: &'a mut [T],
     },
-    /// Down through them, from the accelerations of their pivots. What was
-    /// formed on the way up is formed again: that takes less time than writing
-    /// it to memory and reading it back.
+    /// Up again and down through them, from the accelerations of their pivots.
+    /// What was formed on the first way up is formed again: that takes less time
+    /// than writing it to memory and reading it back.
     Down {
         cut: usize,
         links: Range<usize>,
         pivots: [&'a [T]; 2],
-        alpha: Shared<'a, T>,
     },
 }
 
 struct Job<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
     given: &'a Given<'a, T, C>,
     pass: Pass<'a, T>,
-    kept: &'a mut [T],
+    alpha: Shared<'a, T>,
     buffer: &'a mut [T],
     recursion: PhantomData<P>,
 }
@@ -194,76 +159,59 @@ where
             omega,
         } = self.given;
         let mut next = match &self.pass {
-            Pass::Top { .. } => 0..1,
+            Pass::Top => 0..1,
             Pass::Up { links, .. } | Pass::Down { links, .. } => links.clone(),
         };
         // The passes share one loop: each one's code is long.
         while !next.is_empty() {
             let part = match self.pass {
-                Pass::Top { .. } => plan.top(),
+                Pass::Top => plan.top(),
                 Pass::Up { cut, .. } | Pass::Down { cut, .. } => plan.window(cut, next.start),
             };
-            let mut buffer = &mut *self.buffer;
             let extent = Extent::new::<T>(&part, P::JOINTS);
-            let answers = take(&mut buffer, extent.answers::<T, R>());
-            let kept = take(&mut self.kept, extent.kept::<T, K>());
+            let mut buffer = &mut *self.buffer;
+            let turns = take(&mut buffer, 3 * extent.links);
+            let bends = take(&mut buffer, extent.turns() - 3 * extent.links);
+            let answers = take(&mut buffer, R * extent.slots);
             let mut sweep = Sweep::<P, T, C, L, R, K> {
                 part,
                 constants,
                 theta,
                 omega,
-                memory: extent.memory(kept, answers),
+                turns: Columns::new(turns, extent.links),
+                bends: Columns::new(bends, extent.links),
+                lead: extent.lead,
+                answers: Columns::new(answers, extent.slots),
+                kept: Columns::new(buffer, extent.slots),
+                alpha: self.alpha,
                 recursion: PhantomData,
             };
-            if !matches!(self.pass, Pass::Down { .. }) {
-                sweep.prepare::<W>();
-                sweep.up::<W>();
-            }
+            sweep.prepare::<W>();
+            sweep.up::<W>();
             let width = part.width;
+            let here = next.start;
+            next.start += width;
             match &mut self.pass {
-                Pass::Top { .. } => fill_front(sweep.memory.pivots_mut(), root),
+                Pass::Top => {
+                    for (column, root) in root.into_iter().enumerate() {
+                        copy(sweep.answers.slice_mut(column, 0, 1), &[root]);
+                    }
+                }
                 Pass::Up { answers, .. } => {
-                    for own in &sweep.memory.answers {
+                    for column in 0..R {
+                        let own = sweep.answers.slice_mut(column, 0, width);
                         copy(take(answers, width), own);
                     }
-                    next.start += width;
                     continue;
                 }
                 Pass::Down { pivots, .. } => {
-                    for (own, all) in sweep.memory.pivots_mut().into_iter().zip(pivots) {
-                        copy(
-                            own,
-                            all.get(next.start..next.start + width).unwrap_or_default(),
-                        );
+                    for (column, all) in pivots.iter().enumerate() {
+                        let all = all.get(here..here + width).unwrap_or_default();
+                        copy(sweep.answers.slice_mut(column, 0, width), all);
                     }
                 }
             }
-            let scattered = match &self.pass {
-                Pass::Down { alpha, .. } => Some(*alpha),
-                _ => None,
-            };
-            let turned = match &mut self.pass {
-                Pass::Top { alpha } => &mut **alpha,
-                _ => buffer,
-            };
-            sweep.down::<W>(turned);
-            if let Some(mut alpha) = scattered {
-                for Run {
-                    own, whole, length, ..
-                } in part.all()
-                {
-                    alpha.write(whole, turned.get(own..own + length).unwrap_or_default());
-                }
-            }
-            next.start += width;
-        }
-    }
-}
-
-fn fill_front<T: Copy>(arrays: [&mut [T]; 2], values: [T; 2]) {
-    for (array, value) in arrays.into_iter().zip(values) {
-        if let Some(first) = array.first_mut() {
-            *first = value;
+            sweep.down::<W>();
         }
     }
 }
@@ -287,11 +235,12 @@ pub(super) fn accelerations<P, T, const C: usize, const L: usize, const R: usize
     T: Scalar,
 {
     let plan = given.plan;
-    let run = |pass: Pass<'_, T>, kept: &mut [T], buffer: &mut [T]| {
+    let alpha = Shared::new(alpha);
+    let run = |pass: Pass<'_, T>, alpha: Shared<'_, T>, buffer: &mut [T]| {
         T::over_slices(Job::<P, T, C, L, R, K> {
             given,
             pass,
-            kept,
+            alpha,
             buffer,
             recursion: PhantomData,
         });
@@ -300,22 +249,18 @@ pub(super) fn accelerations<P, T, const C: usize, const L: usize, const R: usize
     let extent = Extent::new::<T>(&top, P::JOINTS);
     let unaligned = buffer.as_ptr().align_offset(LINE).min(line::<T>());
     let mut buffer = buffer.get_mut(unaligned..).unwrap_or_default();
-    let kept = take(&mut buffer, extent.kept::<T, K>());
-    let above = take(&mut buffer, extent.answers::<T, R>());
+    let above = take(&mut buffer, extent.room::<R, K>());
     let Some(cut) = plan.cut else {
-        run(Pass::Top { alpha }, kept, above);
+        run(Pass::Top, alpha, above);
         return;
     };
     let count = plan.count(cut);
-    let answers = take(&mut buffer, answers::<T, R>(plan, cut));
+    let answers = take(&mut buffer, boundary::<T, R>(plan, cut));
     let size = worker::<T, R, K>(plan, cut, P::JOINTS);
     let parts = count.div_ceil(WIDTH);
     let each = parts.div_ceil(threads.max(1)) * WIDTH;
-    let window = Extent::new::<T>(&plan.window(cut, 0), P::JOINTS).kept::<T, K>();
-    let all_kept = take(&mut buffer, parts * window);
-    let some = each / WIDTH * window;
     {
-        let (mut answers, mut buffer, mut kept) = (&mut *answers, &mut *buffer, &mut *all_kept);
+        let (mut answers, mut buffer) = (&mut *answers, &mut *buffer);
         let jobs = (0..count).step_by(each).map(|start| {
             let links = start..(start + each).min(count);
             let answers = take(&mut answers, links.len() * R);
@@ -324,37 +269,31 @@ pub(super) fn accelerations<P, T, const C: usize, const L: usize, const R: usize
                 links,
                 answers,
             };
-            (pass, take(&mut kept, some), take(&mut buffer, size))
+            (pass, alpha, take(&mut buffer, size))
         });
-        super::threads::all(jobs, |(pass, kept, buffer)| run(pass, kept, buffer));
+        super::threads::all(jobs, |(pass, alpha, buffer)| run(pass, alpha, buffer));
     }
-    let boundary = top.own(cut);
-    let mut memory = extent.memory::<T, R, K>(kept, above);
+    let first = extent.turns();
+    let slot = top.slot(cut);
+    let inner = above.get_mut(first..).unwrap_or_default();
+    let mut columns = Columns::<T, R>::new(inner, extent.slots);
     let mut rest = &*answers;
     for start in (0..count).step_by(WIDTH) {
         let width = WIDTH.min(count - start);
-        for all in &mut memory.answers {
+        for column in 0..R {
             let (own, others) = rest.split_at(width.min(rest.len()));
             rest = others;
-            copy(all.get_mut(boundary + start..).unwrap_or_default(), own);
+            copy(columns.slice_mut(column, slot + start, width), own);
         }
     }
-    run(Pass::Top { alpha: &mut *alpha }, kept, above);
-    let mut memory = extent.memory::<T, R, K>(kept, above);
-    let pivots = memory.pivots_mut();
-    let pivots = pivots.map(|all| &*all.get_mut(boundary..boundary + count).unwrap_or_default());
-    let alpha = Shared::new(alpha);
-    let (mut buffer, mut all_kept) = (&mut *buffer, &mut *all_kept);
+    run(Pass::Top, alpha, above);
+    let (x, y) = above.get_mut(first..).unwrap_or_default().split_at_mut(extent.slots);
+    let pivots = [x, y].map(|all| &*all.get_mut(slot..slot + count).unwrap_or_default());
+    let mut buffer = &mut *buffer;
     let jobs = (0..count).step_by(each).map(|start| {
         let links = start..(start + each).min(count);
-        let pass = Pass::Down {
-            cut,
-            links,
-            pivots,
-            alpha,
-        };
-        (pass, take(&mut all_kept, some), take(&mut buffer, size))
+        let pass = Pass::Down { cut, links, pivots };
+        (pass, alpha, take(&mut buffer, size))
     });
-
-    super::threads::all(jobs, |(pass, kept, buffer)| run(pass, kept, buffer));
+    super::threads::all(jobs, |(pass, alpha, buffer)| run(pass, alpha, buffer));
 }

@@ -27,6 +27,7 @@
 //! R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
 //! (articulated-body algorithm), in the plane; `docs/physics.md`, section 2.
 
+mod columns;
 mod energy;
 mod evaluate;
 mod name;
@@ -297,3 +298,4 @@ impl<P, T: fmt::Debug, const C: usize, const L: usize, const R: usize, const K: 
             .finish_non_exhaustive()
     }
 }
+

@@ -36,21 +36,44 @@ pub(super) struct Part<'a> {
     pub(super) width: usize,
 }
 
-/// Neighbours of a generation.
+/// Neighbours of a generation: where the first one stands.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run {
-    /// The first one in the part's own arrays.
-    pub(super) own: usize,
-    /// The first one in arrays of the whole tree.
-    pub(super) whole: usize,
+    pub(super) first: Place,
     /// How many there are.
     pub(super) length: usize,
-    /// Their first copy of children, likewise, and how far the next copy is.
-    pub(super) child_own: usize,
-    pub(super) child_whole: usize,
+    /// The first copy of the first one's children.
+    pub(super) child: Place,
+    /// How far the next copy is in the part's own arrays, and in the whole tree's.
     pub(super) next_own: usize,
     pub(super) next_whole: usize,
 }
+
+/// Where a link stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// In the part's own arrays of all links.
+    pub(super) own: usize,
+    /// In its arrays of links with children.
+    pub(super) slot: usize,
+    /// In arrays of the whole tree.
+    pub(super) whole: usize,
+}
+
+impl Place {
+    #[inline(always)]
+    pub(super) fn plus(self, own: usize, whole: usize) -> Self {
+        Self {
+            own: self.own + own,
+            slot: self.slot + own,
+            whole: self.whole + whole,
+        }
+    }
+}
+
+/// In arrays of links with children, a generation starts where a register of any
+/// width would, and has room for a whole one.
+pub(super) const SLOTS: usize = 16;
 
 impl Part<'_> {
     #[inline(always)]
@@ -89,46 +112,59 @@ impl Part<'_> {
         )
     }
 
-    /// Runs of neighbours in a generation, whose first link stands at `own`.
+    /// The first link of a generation in the part's own arrays of links with
+    /// children; of the one behind the last of these, their length.
     #[inline(always)]
-    pub(super) fn runs(&self, generation: usize, own: usize) -> impl Iterator<Item = Run> {
+    pub(super) fn slot(&self, generation: usize) -> usize {
+        // A whole register more for each generation above.
+        let above = generation.saturating_sub(self.first);
+        self.own(generation).next_multiple_of(SLOTS) + above * SLOTS
+    }
+
+    /// Where the first link of a generation stands.
+    #[inline(always)]
+    pub(super) fn place(&self, generation: usize) -> Place {
+        Place {
+            own: self.own(generation),
+            slot: self.slot(generation),
+            whole: self.shape.start(generation) + self.start,
+        }
+    }
+
+    /// Runs of neighbours in a generation.
+    #[inline(always)]
+    pub(super) fn runs(&self, generation: usize) -> impl Iterator<Item = Run> {
         let count = self.count(generation);
         let (length, runs) = match self.is_whole() {
             true => (count, 1),
             false => (self.width, count / self.width.max(1)),
         };
-        let (stride, start) = (self.stride(), self.start);
-        let whole = self.shape.start(generation);
-        let child = self.shape.start(generation + 1);
-        let next_whole = self.shape.count(generation);
+        let (first, child) = (self.place(generation), self.place(generation + 1));
+        let (stride, next_whole) = (self.stride(), self.shape.count(generation));
         (0..runs).map(move |run| Run {
-            own: own + run * length,
-            whole: whole + start + run * stride,
+            first: first.plus(run * length, run * stride),
             length,
-            child_own: own + count + run * length,
-            child_whole: child + start + run * stride,
+            child: child.plus(run * length, run * stride),
             next_own: count,
             next_whole,
         })
     }
 
-    /// All links as runs. Those of a whole tree are neighbours.
+    /// All links in spans of neighbours: where one starts in the part's own arrays
+    /// and in the whole tree's, and how many there are. A whole tree is one.
     #[inline(always)]
-    pub(super) fn all(&self) -> impl Iterator<Item = Run> {
-        let whole = self.is_whole().then(|| Run {
-            own: 0,
-            whole: self.shape.start(self.first),
-            length: self.own(self.end),
-            child_own: 0,
-            child_whole: 0,
-            next_own: 0,
-            next_whole: 0,
+    pub(super) fn spans(&self) -> impl Iterator<Item = (usize, usize, usize)> {
+        let whole = self.is_whole().then(|| {
+            let start = self.shape.start(self.first);
+            (0, start, self.own(self.end))
         });
-        let parts = match whole {
+        let generations = match whole {
             Some(_) => self.end..self.end,
             None => self.first..self.end,
         };
-        let single = parts.flat_map(|generation| self.runs(generation, self.own(generation)));
-        whole.into_iter().chain(single)
+        let runs = generations.flat_map(|generation| self.runs(generation));
+        whole
+            .into_iter()
+            .chain(runs.map(|run| (run.first.own, run.first.whole, run.length)))
     }
 }

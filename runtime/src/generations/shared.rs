@@ -4,6 +4,8 @@
 
 use core::marker::PhantomData;
 
+use super::vector::Vector;
+
 /// A mutable slice whose elements are written from several places.
 #[derive(Debug)]
 pub(super) struct Shared<'a, T> {
@@ -30,6 +32,18 @@ impl<'a, T: Copy> Shared<'a, T> {
             start: slice.as_mut_ptr(),
             length: slice.len(),
             slice: PhantomData,
+        }
+    }
+
+    /// Writes the first `count` numbers of a vector from `slice[at]` on, as
+    /// [`write`](Self::write).
+    #[inline(always)]
+    pub(super) fn store<V: Vector<T>>(&mut self, at: usize, vector: V, count: usize) {
+        let length = count.min(V::LANES);
+        if at <= self.length && length <= self.length - at {
+            // SAFETY: as for `write`.
+            let place = unsafe { core::slice::from_raw_parts_mut(self.start.add(at), length) };
+            vector.store(place, 0);
         }
     }
 

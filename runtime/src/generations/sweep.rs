@@ -2,43 +2,12 @@
 
 use core::marker::PhantomData;
 
+use super::columns::Columns;
 use super::part::{Part, Run};
 use super::recursion::{Motion, Recursion};
+use super::shared::Shared;
 use super::vector::{Step, Vector, Vectors, each};
 use crate::scalar::Scalar;
-
-/// Numbers of a part that are formed on the way up and read on the way down.
-/// Each array holds the part's links by generation.
-#[derive(Debug)]
-pub(super) struct Memory<'a, T, const R: usize, const K: usize> {
-    pub(super) sines: &'a mut [T],
-    pub(super) cosines: &'a mut [T],
-    /// Angles and velocities relative to the parents; empty where nothing acts
-    /// in joints.
-    pub(super) bends: &'a mut [T],
-    pub(super) bend_rates: &'a mut [T],
-    /// Answers of inner links on the way up; on the way down the first two hold
-    /// the accelerations of their pivots.
-    pub(super) answers: [&'a mut [T]; R],
-    pub(super) kept: [&'a mut [T]; K],
-}
-
-impl<T, const R: usize, const K: usize> Memory<'_, T, R, K> {
-    #[inline(always)]
-    pub(super) fn pivots_mut(&mut self) -> [&mut [T]; 2] {
-        const { assert!(R >= 2, "two numbers must have room") };
-        match &mut self.answers[..] {
-            [x, y, ..] => [x, y],
-            _ => [&mut [], &mut []],
-        }
-    }
-
-    #[inline(always)]
-    fn pivots<V: Vector<T>>(&self, own: usize) -> [V; 2] {
-        const { assert!(R >= 2, "two numbers must have room") };
-        [V::load(self.answers[0], own), V::load(self.answers[1], own)]
-    }
-}
 
 /// A part with its state.
 #[derive(Debug)]
@@ -47,7 +16,17 @@ pub(super) struct Sweep<'a, P, T, const C: usize, const L: usize, const R: usize
     pub(super) constants: &'a [[T; C]],
     pub(super) theta: &'a [T],
     pub(super) omega: &'a [T],
-    pub(super) memory: Memory<'a, T, R, K>,
+    /// Of each link sine, cosine and angular velocity, from row `lead` on.
+    pub(super) turns: Columns<'a, T, 3>,
+    /// Likewise angles and velocities relative to the parents, where something
+    /// acts in joints.
+    pub(super) bends: Columns<'a, T, 2>,
+    pub(super) lead: usize,
+    /// Answers of links with children; on the way down the first two numbers hold
+    /// the acceleration of their pivots.
+    pub(super) answers: Columns<'a, T, R>,
+    pub(super) kept: Columns<'a, T, K>,
+    pub(super) alpha: Shared<'a, T>,
     pub(super) recursion: PhantomData<P>,
 }
 
@@ -74,19 +53,27 @@ where
         self.part.first..self.part.end.min(P::COPIES.len().saturating_sub(1))
     }
 
+    /// The last generation with children that fits a vector, if this is the top of
+    /// the tree: those above it go from one to the next in registers.
+    #[inline(always)]
+    fn crown<V: Vector<T>>(&self) -> usize {
+        let narrow = |&generation: &usize| self.part.count(generation) <= V::LANES;
+        let last = self.inner().take_while(narrow).last();
+        last.unwrap_or(self.part.first)
+    }
+
     /// Sines, cosines and relative motions.
     #[inline(always)]
     pub(super) fn prepare<W: Vectors<T>>(&mut self) {
-        for run in self.part.all() {
-            each::<T, W>(
-                run.length,
-                &mut Turns {
-                    run,
-                    theta: self.theta,
-                    sines: self.memory.sines,
-                    cosines: self.memory.cosines,
-                },
-            );
+        let part = self.part;
+        for (own, whole, length) in part.spans() {
+            let own = self.lead + own;
+            let step = &mut Turns {
+                sweep: self,
+                own,
+                whole,
+            };
+            each::<T, W::Wide>(length, step);
         }
         if P::JOINTS {
             self.bend();
@@ -94,14 +81,13 @@ where
     }
 
     fn bend(&mut self) {
-        let mut own = 0;
         for generation in self.part.first..self.part.end {
             let above = generation.checked_sub(1);
             let above = above.map(|g| (self.part.shape.start(g), self.part.shape.count(g)));
             let first = self.part.shape.start(generation);
-            for run in self.part.runs(generation, own) {
+            for run in self.part.runs(generation) {
                 for i in 0..run.length {
-                    let index = run.whole + i;
+                    let index = run.first.whole + i;
                     let (mut bend, mut rate) =
                         (T::load(self.theta, index), T::load(self.omega, index));
                     if let Some((start, count)) = above {
@@ -109,157 +95,120 @@ where
                         bend = bend - T::load(self.theta, parent);
                         rate = rate - T::load(self.omega, parent);
                     }
-                    bend.store(self.memory.bends, run.own + i);
-                    rate.store(self.memory.bend_rates, run.own + i);
+                    let own = self.lead + run.first.own + i;
+                    if let Some(mut row) = self.bends.row_mut::<T>(own) {
+                        row.store([bend, rate]);
+                    }
                 }
             }
-            own += self.part.count(generation);
         }
+    }
+
+    #[inline(always)]
+    fn motion<V: Vector<T>>(&self, own: usize) -> Option<Motion<V>> {
+        let own = self.lead + own;
+        let [sine, cosine, omega] = self.turns.row(own)?.load();
+        let [bend, bend_rate] = match P::JOINTS {
+            true => self.bends.row(own)?.load(),
+            false => [omega; 2],
+        };
+        Some(Motion {
+            sine,
+            cosine,
+            omega,
+            bend,
+            bend_rate,
+        })
     }
 
     /// From the last generation to the first.
     #[inline(always)]
     pub(super) fn up<W: Vectors<T>>(&mut self) {
-        let leaf = P::COPIES.len() - 1;
-        for generation in self.inner().rev() {
-            let own = self.part.own(generation);
+        let (part, leaf) = (self.part, P::COPIES.len() - 1);
+        let crown = self.crown::<W::Wide>();
+        for generation in (crown..self.inner().end).rev() {
             let (constants, copies) = (self.constants(generation), Self::copies(generation));
-            if generation + 1 == leaf {
-                let leaf_constants = self.constants(leaf);
-                for run in self.part.runs(generation, own) {
-                    let step = &mut Stems::<P, T, C, L, R, K> {
-                        constants,
-                        leaf_constants,
-                        copies,
-                        run,
-                        theta: self.theta,
-                        omega: self.omega,
-                        memory: &mut self.memory,
-                        recursion: PhantomData,
-                    };
-                    each::<T, W>(run.length, step);
-                }
-            } else {
-                for run in self.part.runs(generation, own) {
-                    let step = &mut Inners::<P, T, C, L, R, K> {
-                        constants,
-                        copies,
-                        run,
-                        theta: self.theta,
-                        omega: self.omega,
-                        memory: &mut self.memory,
-                        recursion: PhantomData,
-                    };
-                    each::<T, W>(run.length, step);
-                }
-            }
-        }
-    }
-
-    /// From the first generation, whose pivots' accelerations are in memory, to
-    /// the last. `alpha` holds the part's links as memory does.
-    #[inline(always)]
-    pub(super) fn down<W: Vectors<T>>(&mut self, alpha: &mut [T]) {
-        let leaf = P::COPIES.len() - 1;
-        let mut own = 0;
-        for generation in self.inner() {
-            let (constants, copies) = (self.constants(generation), Self::copies(generation));
-            let stem = generation + 1 == leaf;
             let leaf_constants = self.constants(leaf);
-            for run in self.part.runs(generation, own) {
-                if stem {
-                    let step = &mut TurnStems::<P, T, C, L, R, K> {
-                        constants,
-                        leaf_constants,
-                        copies,
-                        run,
-                        theta: self.theta,
-                        omega: self.omega,
-                        memory: &mut self.memory,
-                        alpha,
-                        recursion: PhantomData,
-                    };
-                    each::<T, W>(run.length, step);
-                } else {
-                    let step = &mut TurnInners::<P, T, C, L, R, K> {
-                        constants,
-                        copies,
-                        run,
-                        theta: self.theta,
-                        omega: self.omega,
-                        memory: &mut self.memory,
-                        alpha,
-                        recursion: PhantomData,
-                    };
-                    each::<T, W>(run.length, step);
+            for run in part.runs(generation) {
+                let step = Level {
+                    constants,
+                    leaf_constants,
+                    copies,
+                    run,
+                    sweep: self,
+                };
+                match generation + 1 == leaf {
+                    true => each::<T, W::Wide>(run.length, &mut Stems(step)),
+                    false => each::<T, W::Wide>(run.length, &mut Inners(step)),
                 }
             }
-            own += self.part.count(generation);
+        }
+        let _ = self.crown_up::<W::Wide>(crown);
+    }
+
+    /// The generations above `crown`. There is room for all of it: none is missing.
+    #[inline(always)]
+    fn crown_up<V: Vector<T>>(&mut self, crown: usize) -> Option<()> {
+        let part = self.part;
+        let mut answers: [V; R] = self.answers.row(part.slot(crown))?.load();
+        for generation in (part.first..crown).rev() {
+            let (place, count) = (part.place(generation), part.count(generation));
+            let mut below = answers;
+            for copy in 1..Self::copies(generation) {
+                for i in 0..R {
+                    below[i] = below[i] + answers[i].behind(copy * count);
+                }
+            }
+            let constants = splat(&self.constants(generation));
+            let kept;
+            (answers, kept) = P::inner(&constants, self.motion(place.own)?, below);
+            self.kept.row_mut(place.slot)?.store(kept);
+        }
+        self.answers.row_mut(part.slot(part.first))?.store(answers);
+        Some(())
+    }
+
+    /// From the first generation, the acceleration of whose pivots is in memory, to
+    /// the last.
+    #[inline(always)]
+    pub(super) fn down<W: Vectors<T>>(&mut self) {
+        let (part, leaf) = (self.part, P::COPIES.len() - 1);
+        let crown = self.crown::<W::Wide>();
+        let _ = self.crown_down::<W::Wide>(crown);
+        for generation in crown..self.inner().end {
+            let (constants, copies) = (self.constants(generation), Self::copies(generation));
+            let leaf_constants = self.constants(leaf);
+            for run in part.runs(generation) {
+                let step = Level {
+                    constants,
+                    leaf_constants,
+                    copies,
+                    run,
+                    sweep: self,
+                };
+                match generation + 1 == leaf {
+                    true => each::<T, W::Wide>(run.length, &mut TurnStems(step)),
+                    false => each::<T, W::Wide>(run.length, &mut TurnInners(step)),
+                }
+            }
         }
     }
-}
 
-/// Sines and cosines.
-struct Turns<'a, T> {
-    run: Run,
-    theta: &'a [T],
-    sines: &'a mut [T],
-    cosines: &'a mut [T],
-}
-
-impl<T: Scalar> Step<T> for Turns<'_, T> {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let (sine, cosine) = V::load(self.theta, self.run.whole + index).sin_cos();
-        sine.store(self.sines, self.run.own + index);
-        cosine.store(self.cosines, self.run.own + index);
+    fn crown_down<V: Vector<T>>(&mut self, crown: usize) -> Option<()> {
+        let part = self.part;
+        let mut pivot: [V; 2] = self.answers.row(part.slot(part.first))?.load();
+        for generation in part.first..crown {
+            let (place, count) = (part.place(generation), part.count(generation));
+            let constants = splat(&self.constants(generation));
+            let kept: [V; K] = self.kept.row(place.slot)?.load();
+            let (acceleration, [x, y]) = P::turn(&constants, self.motion(place.own)?, kept, pivot);
+            self.alpha.store(place.whole, acceleration, count);
+            pivot = [x.repeat(count), y.repeat(count)];
+        }
+        self.answers.row_mut(part.slot(crown))?.store(pivot);
+        Some(())
     }
-}
-
-#[inline(always)]
-fn motion<T, V: Vector<T>, const R: usize, const K: usize>(
-    memory: &Memory<'_, T, R, K>,
-    theta: &[T],
-    omega: &[T],
-    own: usize,
-    whole: usize,
-) -> Motion<V> {
-    Motion {
-        sine: V::load(memory.sines, own),
-        cosine: V::load(memory.cosines, own),
-        theta: V::load(theta, whole),
-        omega: V::load(omega, whole),
-        bend: V::load(memory.bends, own),
-        bend_rate: V::load(memory.bend_rates, own),
-    }
-}
-
-#[inline(always)]
-fn load_all<T, V: Vector<T>, const N: usize>(arrays: &[&mut [T]; N], at: usize) -> [V; N] {
-    let mut values = [V::from_f64(0.0); N];
-    for i in 0..N {
-        values[i] = V::load(arrays[i], at);
-    }
-    values
-}
-
-#[inline(always)]
-fn store_all<T, V: Vector<T>, const N: usize>(
-    values: [V; N],
-    arrays: &mut [&mut [T]; N],
-    at: usize,
-) {
-    for i in 0..N {
-        values[i].store(arrays[i], at);
-    }
-}
-
-#[inline(always)]
-fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
-    for i in 0..N {
-        a[i] = a[i] + b[i];
-    }
-    a
 }
 
 // Loops: `map` and `from_fn` are not always inlined, and must be.
@@ -272,153 +221,182 @@ pub(super) fn splat<T: Copy, V: Vector<T>, const N: usize>(numbers: &[T; N]) -> 
     values
 }
 
-/// Links above leaves, and these, on the way up.
-struct Stems<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
+#[inline(always)]
+fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
+    for i in 0..N {
+        a[i] = a[i] + b[i];
+    }
+    a
+}
+
+/// Sines and cosines of neighbours.
+struct Turns<'a, S> {
+    sweep: &'a mut S,
+    own: usize,
+    whole: usize,
+}
+
+impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
+    for Turns<'_, Sweep<'_, P, T, C, L, R, K>>
+where
+    T: Scalar,
+    V: Vector<T>,
+{
+    #[inline(always)]
+    fn at(&mut self, index: usize) -> Option<()> {
+        let whole = self.whole + index;
+        let (sine, cosine) = V::load(self.sweep.theta, whole).sin_cos();
+        let omega = V::load(self.sweep.omega, whole);
+        let mut row = self.sweep.turns.row_mut(self.own + index)?;
+        row.store([sine, cosine, omega]);
+        Some(())
+    }
+}
+
+/// Neighbours of one generation, on the way up or down.
+struct Level<'a, S, T, const C: usize> {
+    sweep: &'a mut S,
     constants: [T; C],
     leaf_constants: [T; C],
     copies: usize,
     run: Run,
-    theta: &'a [T],
-    omega: &'a [T],
-    memory: &'a mut Memory<'b, T, R, K>,
-    recursion: PhantomData<P>,
 }
 
-impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize>
-    Stems<'_, '_, P, T, C, L, R, K>
-where
-    P: Recursion<C, L, R, K>,
-{
-    #[inline(always)]
-    fn leaf<V: Vector<T>>(&self, copy: usize, index: usize) -> [V; L] {
-        let own = self.run.child_own + copy * self.run.next_own + index;
-        let whole = self.run.child_whole + copy * self.run.next_whole + index;
-        let link = motion(self.memory, self.theta, self.omega, own, whole);
-        P::leaf(&splat::<T, V, C>(&self.leaf_constants), link)
-    }
-}
+/// Links above leaves, and these, on the way up.
+struct Stems<'a, S, T, const C: usize>(Level<'a, S, T, C>);
 
-impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize> Step<T>
-    for Stems<'_, '_, P, T, C, L, R, K>
+impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
+    for Stems<'_, Sweep<'_, P, T, C, L, R, K>, T, C>
 where
     P: Recursion<C, L, R, K>,
+    T: Scalar,
+    V: Vector<T>,
 {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let run = self.run;
-        let mut below = self.leaf(0, index);
-        for copy in 1..self.copies {
-            below = sum(below, self.leaf(copy, index));
+    fn at(&mut self, index: usize) -> Option<()> {
+        let Level {
+            sweep,
+            run,
+            copies,
+            constants,
+            leaf_constants,
+        } = &mut self.0;
+        let leaf_constants = splat::<T, V, C>(leaf_constants);
+        let mut child = run.child.plus(index, index);
+        let mut below = P::leaf(&leaf_constants, sweep.motion(child.own)?);
+        for _ in 1..*copies {
+            child = child.plus(run.next_own, run.next_whole);
+            below = sum(below, P::leaf(&leaf_constants, sweep.motion(child.own)?));
         }
-        let (own, whole) = (run.own + index, run.whole + index);
-        let link = motion(self.memory, self.theta, self.omega, own, whole);
-        let (answers, kept) = P::stem(&splat::<T, V, C>(&self.constants), link, below);
-        store_all(answers, &mut self.memory.answers, own);
-        store_all(kept, &mut self.memory.kept, own);
+        let place = run.first.plus(index, index);
+        let constants = splat(constants);
+        let (answers, kept) = P::stem(&constants, sweep.motion(place.own)?, below);
+        sweep.answers.row_mut(place.slot)?.store(answers);
+        sweep.kept.row_mut(place.slot)?.store(kept);
+        Some(())
     }
 }
 
 /// Links above inner links, on the way up.
-struct Inners<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
-    constants: [T; C],
-    copies: usize,
-    run: Run,
-    theta: &'a [T],
-    omega: &'a [T],
-    memory: &'a mut Memory<'b, T, R, K>,
-    recursion: PhantomData<P>,
-}
+struct Inners<'a, S, T, const C: usize>(Level<'a, S, T, C>);
 
-impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize> Step<T>
-    for Inners<'_, '_, P, T, C, L, R, K>
+impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
+    for Inners<'_, Sweep<'_, P, T, C, L, R, K>, T, C>
 where
     P: Recursion<C, L, R, K>,
+    T: Scalar,
+    V: Vector<T>,
 {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let run = self.run;
-        let mut child = run.child_own + index;
-        let mut below = load_all(&self.memory.answers, child);
-        for _ in 1..self.copies {
+    fn at(&mut self, index: usize) -> Option<()> {
+        let Level {
+            sweep,
+            run,
+            copies,
+            constants,
+            ..
+        } = &mut self.0;
+        let mut child = run.child.slot + index;
+        let mut below: [V; R] = sweep.answers.row(child)?.load();
+        for _ in 1..*copies {
             child += run.next_own;
-            below = sum(below, load_all(&self.memory.answers, child));
+            below = sum(below, sweep.answers.row(child)?.load());
         }
-        let (own, whole) = (run.own + index, run.whole + index);
-        let link = motion(self.memory, self.theta, self.omega, own, whole);
-        let (answers, kept) = P::inner(&splat::<T, V, C>(&self.constants), link, below);
-        store_all(answers, &mut self.memory.answers, own);
-        store_all(kept, &mut self.memory.kept, own);
+        let place = run.first.plus(index, index);
+        let constants = splat(constants);
+        let (answers, kept) = P::inner(&constants, sweep.motion(place.own)?, below);
+        sweep.answers.row_mut(place.slot)?.store(answers);
+        sweep.kept.row_mut(place.slot)?.store(kept);
+        Some(())
     }
 }
 
 /// Links above leaves, and these, on the way down.
-struct TurnStems<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
-    constants: [T; C],
-    leaf_constants: [T; C],
-    copies: usize,
-    run: Run,
-    theta: &'a [T],
-    omega: &'a [T],
-    memory: &'a mut Memory<'b, T, R, K>,
-    alpha: &'a mut [T],
-    recursion: PhantomData<P>,
-}
+struct TurnStems<'a, S, T, const C: usize>(Level<'a, S, T, C>);
 
-impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize> Step<T>
-    for TurnStems<'_, '_, P, T, C, L, R, K>
+impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
+    for TurnStems<'_, Sweep<'_, P, T, C, L, R, K>, T, C>
 where
     P: Recursion<C, L, R, K>,
+    T: Scalar,
+    V: Vector<T>,
 {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let run = self.run;
-        let (own, whole) = (run.own + index, run.whole + index);
-        let link = motion(self.memory, self.theta, self.omega, own, whole);
-        let kept: [V; K] = load_all(&self.memory.kept, own);
-        let pivot = self.memory.pivots(own);
-        let (acceleration, below) = P::turn(&splat::<T, V, C>(&self.constants), link, kept, pivot);
-        acceleration.store(self.alpha, own);
-        let constants = splat::<T, V, C>(&self.leaf_constants);
-        for copy in 0..self.copies {
-            let own = run.child_own + copy * run.next_own + index;
-            let whole = run.child_whole + copy * run.next_whole + index;
-            let link = motion(self.memory, self.theta, self.omega, own, whole);
-            P::turn_leaf(&constants, link, below).store(self.alpha, own);
+    fn at(&mut self, index: usize) -> Option<()> {
+        let Level {
+            sweep,
+            run,
+            copies,
+            constants,
+            leaf_constants,
+        } = &mut self.0;
+        let place = run.first.plus(index, index);
+        let kept = sweep.kept.row(place.slot)?.load();
+        let pivot = sweep.answers.row(place.slot)?.load();
+        let constants = splat::<T, V, C>(constants);
+        let (acceleration, below) = P::turn(&constants, sweep.motion(place.own)?, kept, pivot);
+        sweep.alpha.store(place.whole, acceleration, run.length);
+        let mut child = run.child.plus(index, index);
+        let constants = splat(leaf_constants);
+        for _ in 0..*copies {
+            let acceleration = P::turn_leaf(&constants, sweep.motion(child.own)?, below);
+            sweep.alpha.store(child.whole, acceleration, run.length);
+            child = child.plus(run.next_own, run.next_whole);
         }
+        Some(())
     }
 }
 
 /// Links above inner links, on the way down.
-struct TurnInners<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
-    constants: [T; C],
-    copies: usize,
-    run: Run,
-    theta: &'a [T],
-    omega: &'a [T],
-    memory: &'a mut Memory<'b, T, R, K>,
-    alpha: &'a mut [T],
-    recursion: PhantomData<P>,
-}
+struct TurnInners<'a, S, T, const C: usize>(Level<'a, S, T, C>);
 
-impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize> Step<T>
-    for TurnInners<'_, '_, P, T, C, L, R, K>
+impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
+    for TurnInners<'_, Sweep<'_, P, T, C, L, R, K>, T, C>
 where
     P: Recursion<C, L, R, K>,
+    T: Scalar,
+    V: Vector<T>,
 {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let run = self.run;
-        let (own, whole) = (run.own + index, run.whole + index);
-        let link = motion(self.memory, self.theta, self.omega, own, whole);
-        let kept: [V; K] = load_all(&self.memory.kept, own);
-        let pivot = self.memory.pivots(own);
-        let (acceleration, below) = P::turn(&splat::<T, V, C>(&self.constants), link, kept, pivot);
-        acceleration.store(self.alpha, own);
-        for copy in 0..self.copies {
-            let own = run.child_own + copy * run.next_own + index;
-            let [x, y] = self.memory.pivots_mut();
-            below[0].store(x, own);
-            below[1].store(y, own);
+    fn at(&mut self, index: usize) -> Option<()> {
+        let Level {
+            sweep,
+            run,
+            copies,
+            constants,
+            ..
+        } = &mut self.0;
+        let place = run.first.plus(index, index);
+        let kept = sweep.kept.row(place.slot)?.load();
+        let pivot = sweep.answers.row(place.slot)?.load();
+        let constants = splat::<T, V, C>(constants);
+        let (acceleration, below) = P::turn(&constants, sweep.motion(place.own)?, kept, pivot);
+        sweep.alpha.store(place.whole, acceleration, run.length);
+        let mut child = run.child.slot + index;
+        for _ in 0..*copies {
+            sweep.answers.row_mut(child)?.store(below);
+            child += run.next_own;
         }
+        Some(())
     }
 }

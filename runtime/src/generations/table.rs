@@ -170,12 +170,13 @@ struct Turns<'a, T> {
     cosines: &'a mut [T],
 }
 
-impl<T: Scalar> Step<T> for Turns<'_, T> {
+impl<T: Scalar, V: Vector<T>> Step<V> for Turns<'_, T> {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
+    fn at(&mut self, index: usize) -> Option<()> {
         let (sine, cosine) = V::load(self.theta, index).sin_cos();
         sine.store(self.sines, index);
         cosine.store(self.cosines, index);
+        Some(())
     }
 }
 
@@ -212,7 +213,6 @@ impl<T: Scalar> State<'_, T> {
         Motion {
             sine: V::load(self.sines, link),
             cosine: V::load(self.cosines, link),
-            theta,
             omega,
             bend,
             bend_rate,
@@ -254,7 +254,7 @@ where
         let (below, buffer) = buffer.split_at_mut(R * n);
         let kept = buffer.get_mut(..K * n).unwrap_or_default();
         let (theta, omega) = (self.theta, self.omega);
-        each::<T, W>(
+        each::<T, W::Wide>(
             n,
             &mut Turns {
                 theta,

@@ -23,7 +23,7 @@ macro_rules! register {
         $(#[$docs:meta])*
         $name:ident: $vector:ident = $lanes:literal of $lane:ident,
         $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident,
-        $max:ident, $and:ident, $andnot:ident, $or:ident
+        $max:ident, $and:ident, $andnot:ident, $or:ident, $words:ident = $count:literal, $some:ident
     ) => {
         $(#[$docs])*
         #[derive(Clone, Copy, Debug)]
@@ -47,15 +47,28 @@ macro_rules! register {
 
         impl $name {
             #[inline(always)]
-            pub(in crate::scalar) fn from_array(numbers: [$lane; $lanes]) -> Self {
+            pub(crate) fn from_array(numbers: [$lane; $lanes]) -> Self {
                 // SAFETY: see the top.
                 Self(unsafe { core::mem::transmute::<[$lane; $lanes], $vector>(numbers) })
             }
 
             #[inline(always)]
-            pub(in crate::scalar) fn to_array(self) -> [$lane; $lanes] {
+            pub(crate) fn to_array(self) -> [$lane; $lanes] {
                 // SAFETY: see the top.
                 unsafe { core::mem::transmute::<$vector, [$lane; $lanes]>(self.0) }
+            }
+
+            /// The register whose word `i`, of 32 bits, is `words[i]` of this one.
+            #[inline(always)]
+            pub(crate) fn permuted(self, words: &[u32; $count]) -> Self {
+                // SAFETY: see the top; and plain bits are as many.
+                Self(unsafe { $words(self.0, words) })
+            }
+
+            /// Writes as many numbers as there are places.
+            #[inline(always)]
+            pub(crate) fn store_some(self, places: &mut [$lane]) {
+                $some(self.0, self.to_array(), places);
             }
 
             #[inline(always)]
@@ -141,42 +154,93 @@ register! {
     /// A register of SSE2.
     F64x2: __m128d = 2 of f64,
     _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd,
-    _mm_max_pd, _mm_and_pd, _mm_andnot_pd, _mm_or_pd
+    _mm_max_pd, _mm_and_pd, _mm_andnot_pd, _mm_or_pd, words_of_sse2 = 4, one_by_one
 }
 
 register! {
     /// A register of SSE2.
     F32x4: __m128 = 4 of f32,
     _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps,
-    _mm_max_ps, _mm_and_ps, _mm_andnot_ps, _mm_or_ps
+    _mm_max_ps, _mm_and_ps, _mm_andnot_ps, _mm_or_ps, words_of_sse2 = 4, one_by_one
 }
 
 register! {
     /// A register of AVX2.
     F64x4: __m256d = 4 of f64,
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
-    _mm256_max_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd
+    _mm256_max_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd, words_of_avx2 = 8, one_by_one
 }
 
 register! {
     /// A register of AVX2.
     F32x8: __m256 = 8 of f32,
     _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps,
-    _mm256_max_ps, _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps
+    _mm256_max_ps, _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps, words_of_avx2 = 8, one_by_one
 }
 
 register! {
     /// A register of AVX-512.
     F64x8: __m512d = 8 of f64,
     _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_sqrt_pd,
-    _mm512_max_pd, _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd
+    _mm512_max_pd, _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd, words_of_avx512 = 16, masked_f64
 }
 
 register! {
     /// A register of AVX-512.
     F32x16: __m512 = 16 of f32,
     _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps,
-    _mm512_max_ps, _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps
+    _mm512_max_ps, _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps, words_of_avx512 = 16, masked_f32
+}
+
+/// Without an instruction for it.
+#[inline(always)]
+unsafe fn words_of_sse2<V>(vector: V, words: &[u32; 4]) -> V {
+    // SAFETY: the caller's vector has 128 bits, any of which are four words.
+    let own: [u32; 4] = unsafe { core::mem::transmute_copy(&vector) };
+    let result = words.map(|word| own[word as usize % 4]);
+    // SAFETY: likewise.
+    unsafe { core::mem::transmute_copy(&result) }
+}
+
+#[inline(always)]
+unsafe fn words_of_avx2<V>(vector: V, words: &[u32; 8]) -> V {
+    // SAFETY: the caller's vector has 256 bits.
+    unsafe {
+        let own = core::mem::transmute_copy(&vector);
+        let words = core::mem::transmute::<[u32; 8], __m256i>(*words);
+        core::mem::transmute_copy(&_mm256_permutevar8x32_epi32(own, words))
+    }
+}
+
+#[inline(always)]
+unsafe fn words_of_avx512<V>(vector: V, words: &[u32; 16]) -> V {
+    // SAFETY: the caller's vector has 512 bits.
+    unsafe {
+        let own = core::mem::transmute_copy(&vector);
+        let words = core::mem::transmute::<[u32; 16], __m512i>(*words);
+        core::mem::transmute_copy(&_mm512_permutexvar_epi32(words, own))
+    }
+}
+
+#[inline(always)]
+fn one_by_one<V, T: Copy, const N: usize>(_vector: V, numbers: [T; N], places: &mut [T]) {
+    for (place, number) in places.iter_mut().zip(numbers) {
+        *place = number;
+    }
+}
+
+#[inline(always)]
+fn masked_f64(vector: __m512d, _numbers: [f64; 8], places: &mut [f64]) {
+    let mask = !(0xff_u8 << places.len().min(7));
+    // SAFETY: writes the numbers of the mask alone, and there are as many places.
+    unsafe { _mm512_mask_storeu_pd(places.as_mut_ptr(), mask, vector) }
+}
+
+#[inline(always)]
+fn masked_f32(vector: __m512, _numbers: [f32; 16], places: &mut [f32]) {
+    let mask = !(0xffff_u16 << places.len().min(15));
+    // SAFETY: likewise.
+    unsafe { _mm512_mask_storeu_ps(places.as_mut_ptr(), mask, vector) }
 }
 
 /// Those that fuse.
