@@ -2,30 +2,64 @@
 
 use core::marker::PhantomData;
 
+use super::memory::Storage;
 use super::part::{Part, Run};
 use super::recursion::{Motion, Recursion};
-use super::vector::{Step, Vector, Vectors, each};
+use super::vector::{SliceKernel, Step, Vector, Vectors, each};
 use crate::scalar::Scalar;
 
-/// Numbers of a part that are formed on the way up and read on the way down.
-/// Each array holds the part's links by generation.
+/// A part with its state.
 #[derive(Debug)]
-pub(super) struct Memory<'a, T, const R: usize, const K: usize> {
-    pub(super) sines: &'a mut [T],
-    pub(super) cosines: &'a mut [T],
-    /// Angles and velocities relative to the parents; empty where nothing acts
-    /// in joints.
-    pub(super) bends: &'a mut [T],
-    pub(super) bend_rates: &'a mut [T],
-    /// Answers of inner links on the way up; on the way down the first two hold
-    /// the accelerations of their pivots.
-    pub(super) answers: [&'a mut [T]; R],
-    pub(super) kept: [&'a mut [T]; K],
+pub(super) struct Sweep<'a, T> {
+    pub(super) part: Part<'a>,
+    /// Rows of all generations.
+    pub(super) constants: &'a [T],
+    pub(super) theta: &'a [T],
+    pub(super) omega: &'a [T],
+    pub(super) storage: Storage<'a, T>,
+}
+
+impl<T: Scalar> Sweep<'_, T> {
+    /// Angles and velocities relative to the parents.
+    pub(super) fn bend(&mut self) {
+        let mut own = 0;
+        for generation in self.part.first..self.part.end {
+            let above = generation.checked_sub(1);
+            let above = above.map(|g| (self.part.shape.start(g), self.part.shape.count(g)));
+            let first = self.part.shape.start(generation);
+            for run in self.part.runs(generation, own) {
+                for i in 0..run.length {
+                    let index = run.whole + i;
+                    let (mut bend, mut rate) =
+                        (T::load(self.theta, index), T::load(self.omega, index));
+                    if let Some((start, count)) = above {
+                        let parent = start + (index - first) % count.max(1);
+                        bend = bend - T::load(self.theta, parent);
+                        rate = rate - T::load(self.omega, parent);
+                    }
+                    bend.store(self.storage.bends, run.own + i);
+                    rate.store(self.storage.bend_rates, run.own + i);
+                }
+            }
+            own += self.part.count(generation);
+        }
+    }
+}
+
+/// The numbers of a part, those of the links' own in arrays of known number.
+#[derive(Debug)]
+struct Memory<'a, T, const R: usize, const K: usize> {
+    sines: &'a mut [T],
+    cosines: &'a mut [T],
+    bends: &'a mut [T],
+    bend_rates: &'a mut [T],
+    answers: [&'a mut [T]; R],
+    kept: [&'a mut [T]; K],
 }
 
 impl<T, const R: usize, const K: usize> Memory<'_, T, R, K> {
     #[inline(always)]
-    pub(super) fn pivots_mut(&mut self) -> [&mut [T]; 2] {
+    fn pivots_mut(&mut self) -> [&mut [T]; 2] {
         const { assert!(R >= 2, "two numbers must have room") };
         match &mut self.answers[..] {
             [x, y, ..] => [x, y],
@@ -40,23 +74,102 @@ impl<T, const R: usize, const K: usize> Memory<'_, T, R, K> {
     }
 }
 
-/// A part with its state.
-#[derive(Debug)]
-pub(super) struct Sweep<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
-    pub(super) part: Part<'a>,
-    pub(super) constants: &'a [[T; C]],
-    pub(super) theta: &'a [T],
-    pub(super) omega: &'a [T],
-    pub(super) memory: Memory<'a, T, R, K>,
-    pub(super) recursion: PhantomData<P>,
+/// From the leaves of a part to its first generation.
+pub(super) fn up<P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    sweep: &mut Sweep<'_, T>,
+) where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    T::over_slices(Up(Typed::<P, T, C, L, R, K>::of(sweep)));
 }
 
-impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize>
-    Sweep<'_, P, T, C, L, R, K>
+/// From the first generation of a part, whose pivots' accelerations are in
+/// memory, to the leaves. `alpha` holds the part's links as memory does.
+pub(super) fn down<P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    sweep: &mut Sweep<'_, T>,
+    alpha: &mut [T],
+) where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    T::over_slices(Down(Typed::<P, T, C, L, R, K>::of(sweep), alpha));
+}
+
+/// A sweep of a recursion.
+struct Typed<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
+    part: Part<'a>,
+    constants: &'a [[T; C]],
+    theta: &'a [T],
+    omega: &'a [T],
+    memory: Memory<'a, T, R, K>,
+    recursion: PhantomData<P>,
+}
+
+struct Up<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    Typed<'a, P, T, C, L, R, K>,
+);
+
+struct Down<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    Typed<'a, P, T, C, L, R, K>,
+    &'a mut [T],
+);
+
+impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
+    for Up<'_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
+    #[inline(always)]
+    fn run<W: Vectors<T>>(mut self) {
+        self.0.up::<W>();
+    }
+}
+
+impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
+    for Down<'_, P, T, C, L, R, K>
+where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    #[inline(always)]
+    fn run<W: Vectors<T>>(mut self) {
+        self.0.down::<W>(self.1);
+    }
+}
+
+impl<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>
+    Typed<'a, P, T, C, L, R, K>
+where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    fn of(sweep: &'a mut Sweep<'_, T>) -> Self {
+        let Sweep {
+            part,
+            constants,
+            theta,
+            omega,
+            storage,
+        } = sweep;
+        Self {
+            part: *part,
+            constants: constants.as_chunks().0,
+            theta,
+            omega,
+            memory: Memory {
+                sines: storage.sines,
+                cosines: storage.cosines,
+                bends: storage.bends,
+                bend_rates: storage.bend_rates,
+                answers: storage.answers.first(),
+                kept: storage.kept.first(),
+            },
+            recursion: PhantomData,
+        }
+    }
+
     fn constants(&self, generation: usize) -> [T; C] {
         match self.constants.get(generation) {
             Some(row) => *row,
@@ -74,52 +187,9 @@ where
         self.part.first..self.part.end.min(P::COPIES.len().saturating_sub(1))
     }
 
-    /// Sines, cosines and relative motions.
-    #[inline(always)]
-    pub(super) fn prepare<W: Vectors<T>>(&mut self) {
-        for run in self.part.all() {
-            each::<T, W>(
-                run.length,
-                &mut Turns {
-                    run,
-                    theta: self.theta,
-                    sines: self.memory.sines,
-                    cosines: self.memory.cosines,
-                },
-            );
-        }
-        if P::JOINTS {
-            self.bend();
-        }
-    }
-
-    fn bend(&mut self) {
-        let mut own = 0;
-        for generation in self.part.first..self.part.end {
-            let above = generation.checked_sub(1);
-            let above = above.map(|g| (self.part.shape.start(g), self.part.shape.count(g)));
-            let first = self.part.shape.start(generation);
-            for run in self.part.runs(generation, own) {
-                for i in 0..run.length {
-                    let index = run.whole + i;
-                    let (mut bend, mut rate) =
-                        (T::load(self.theta, index), T::load(self.omega, index));
-                    if let Some((start, count)) = above {
-                        let parent = start + (index - first) % count.max(1);
-                        bend = bend - T::load(self.theta, parent);
-                        rate = rate - T::load(self.omega, parent);
-                    }
-                    bend.store(self.memory.bends, run.own + i);
-                    rate.store(self.memory.bend_rates, run.own + i);
-                }
-            }
-            own += self.part.count(generation);
-        }
-    }
-
     /// From the last generation to the first.
     #[inline(always)]
-    pub(super) fn up<W: Vectors<T>>(&mut self) {
+    fn up<W: Vectors<T>>(&mut self) {
         let leaf = P::COPIES.len() - 1;
         for generation in self.inner().rev() {
             let own = self.part.own(generation);
@@ -159,7 +229,7 @@ where
     /// From the first generation, whose pivots' accelerations are in memory, to
     /// the last. `alpha` holds the part's links as memory does.
     #[inline(always)]
-    pub(super) fn down<W: Vectors<T>>(&mut self, alpha: &mut [T]) {
+    fn down<W: Vectors<T>>(&mut self, alpha: &mut [T]) {
         let leaf = P::COPIES.len() - 1;
         let mut own = 0;
         for generation in self.inner() {
@@ -196,23 +266,6 @@ where
             }
             own += self.part.count(generation);
         }
-    }
-}
-
-/// Sines and cosines.
-struct Turns<'a, T> {
-    run: Run,
-    theta: &'a [T],
-    sines: &'a mut [T],
-    cosines: &'a mut [T],
-}
-
-impl<T: Scalar> Step<T> for Turns<'_, T> {
-    #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let (sine, cosine) = V::load(self.theta, self.run.whole + index).sin_cos();
-        sine.store(self.sines, self.run.own + index);
-        cosine.store(self.cosines, self.run.own + index);
     }
 }
 
