@@ -68,18 +68,6 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
             vector: PhantomData,
         })
     }
-
-    /// `length` numbers of a column from `at` on; none where these are fewer.
-    pub(super) fn slice_mut(&mut self, column: usize, at: usize, length: usize) -> &mut [T] {
-        if column >= N || !self.has(at, length) {
-            return &mut [];
-        }
-        // SAFETY: the numbers lie in the column, and this in the slice; see
-        // `RowMut`.
-        unsafe {
-            core::slice::from_raw_parts_mut(self.start.add(column * self.length + at), length)
-        }
-    }
 }
 
 impl<T: Copy, V: Vector<T>, const N: usize> Row<'_, T, V, N> {

@@ -86,6 +86,12 @@ impl Part<'_> {
         self.width == self.stride()
     }
 
+    /// How far the links of the next part are, where this one is not the whole.
+    #[inline(always)]
+    pub(super) fn ahead(&self) -> Option<usize> {
+        (!self.is_whole()).then_some(self.width)
+    }
+
     /// Of so many links of the whole tree, those of the part.
     #[inline(always)]
     fn share(&self, links: usize) -> usize {

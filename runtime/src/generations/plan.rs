@@ -52,6 +52,11 @@ impl Plan {
         plan
     }
 
+    /// All of them.
+    pub(super) fn links(&self) -> usize {
+        self.start(self.generations())
+    }
+
     pub(super) fn generations(&self) -> usize {
         self.counts.len()
     }

@@ -3,39 +3,142 @@
 use core::marker::PhantomData;
 
 use super::columns::Columns;
+use super::memory::Storage;
 use super::part::{Part, Run};
 use super::recursion::{Motion, Recursion};
 use super::shared::Shared;
-use super::vector::{Step, Vector, Vectors, each};
+use super::vector::{SliceKernel, Step, Vector, Vectors, each};
 use crate::scalar::Scalar;
 
 /// A part with its state.
 #[derive(Debug)]
-pub(super) struct Sweep<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
+pub(super) struct Sweep<'a, T> {
     pub(super) part: Part<'a>,
-    pub(super) constants: &'a [[T; C]],
+    /// Rows of all generations.
+    pub(super) constants: &'a [T],
     pub(super) theta: &'a [T],
     pub(super) omega: &'a [T],
-    /// Of each link sine, cosine and angular velocity, from row `lead` on.
-    pub(super) turns: Columns<'a, T, 3>,
-    /// Likewise angles and velocities relative to the parents, where something
-    /// acts in joints.
-    pub(super) bends: Columns<'a, T, 2>,
-    pub(super) lead: usize,
-    /// Answers of links with children; on the way down the first two numbers hold
-    /// the acceleration of their pivots.
-    pub(super) answers: Columns<'a, T, R>,
-    pub(super) kept: Columns<'a, T, K>,
+    pub(super) storage: Storage<'a, T>,
     pub(super) alpha: Shared<'a, T>,
-    pub(super) recursion: PhantomData<P>,
 }
 
-impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize>
-    Sweep<'_, P, T, C, L, R, K>
+impl<T: Scalar> Sweep<'_, T> {
+    /// Angles and velocities relative to the parents.
+    pub(super) fn bend(&mut self) {
+        let part = self.part;
+        for generation in part.first..part.end {
+            let above = generation.checked_sub(1);
+            let above = above.map(|g| (part.shape.start(g), part.shape.count(g)));
+            let first = part.shape.start(generation);
+            for run in part.runs(generation) {
+                for i in 0..run.length {
+                    let index = run.first.whole + i;
+                    let (mut bend, mut rate) =
+                        (T::load(self.theta, index), T::load(self.omega, index));
+                    if let Some((start, count)) = above {
+                        let parent = start + (index - first) % count.max(1);
+                        bend = bend - T::load(self.theta, parent);
+                        rate = rate - T::load(self.omega, parent);
+                    }
+                    let own = self.storage.lead + run.first.own + i;
+                    if let Some(mut row) = self.storage.bends.row_mut::<T>(own) {
+                        row.store([bend, rate]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// From the leaves of a part to its first generation.
+pub(super) fn up<P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    sweep: &mut Sweep<'_, T>,
+) where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    T::over_slices(Up(Typed::<P, T, C, L, R, K>::of(sweep)));
+}
+
+/// From the first generation of a part, the accelerations of whose pivots are in
+/// memory, to the leaves.
+pub(super) fn down<P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    sweep: &mut Sweep<'_, T>,
+) where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    T::over_slices(Down(Typed::<P, T, C, L, R, K>::of(sweep)));
+}
+
+struct Up<S>(S);
+
+struct Down<S>(S);
+
+impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
+    for Up<Typed<'_, P, T, C, L, R, K>>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
+    #[inline(always)]
+    fn run<W: Vectors<T>>(mut self) {
+        self.0.up::<W::Wide>();
+    }
+}
+
+impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
+    for Down<Typed<'_, P, T, C, L, R, K>>
+where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    #[inline(always)]
+    fn run<W: Vectors<T>>(mut self) {
+        self.0.down::<W::Wide>();
+    }
+}
+
+/// A sweep of a recursion.
+struct Typed<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
+    part: Part<'a>,
+    constants: &'a [[T; C]],
+    turns: &'a Columns<'a, T, 3>,
+    bends: &'a Columns<'a, T, 2>,
+    lead: usize,
+    answers: Columns<'a, T, R>,
+    kept: Columns<'a, T, K>,
+    alpha: Shared<'a, T>,
+    recursion: PhantomData<P>,
+}
+
+impl<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>
+    Typed<'a, P, T, C, L, R, K>
+where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    fn of(sweep: &'a mut Sweep<'_, T>) -> Self {
+        let Sweep {
+            part,
+            constants,
+            storage,
+            alpha,
+            ..
+        } = sweep;
+        Self {
+            part: *part,
+            constants: constants.as_chunks().0,
+            turns: &storage.turns,
+            bends: &storage.bends,
+            lead: storage.lead,
+            answers: Columns::new(storage.answers, storage.slots),
+            kept: Columns::new(storage.kept, storage.slots),
+            alpha: *alpha,
+            recursion: PhantomData,
+        }
+    }
+
     fn constants(&self, generation: usize) -> [T; C] {
         match self.constants.get(generation) {
             Some(row) => *row,
@@ -62,48 +165,6 @@ where
         last.unwrap_or(self.part.first)
     }
 
-    /// Sines, cosines and relative motions.
-    #[inline(always)]
-    pub(super) fn prepare<W: Vectors<T>>(&mut self) {
-        let part = self.part;
-        for (own, whole, length) in part.spans() {
-            let own = self.lead + own;
-            let step = &mut Turns {
-                sweep: self,
-                own,
-                whole,
-            };
-            each::<T, W::Wide>(length, step);
-        }
-        if P::JOINTS {
-            self.bend();
-        }
-    }
-
-    fn bend(&mut self) {
-        for generation in self.part.first..self.part.end {
-            let above = generation.checked_sub(1);
-            let above = above.map(|g| (self.part.shape.start(g), self.part.shape.count(g)));
-            let first = self.part.shape.start(generation);
-            for run in self.part.runs(generation) {
-                for i in 0..run.length {
-                    let index = run.first.whole + i;
-                    let (mut bend, mut rate) =
-                        (T::load(self.theta, index), T::load(self.omega, index));
-                    if let Some((start, count)) = above {
-                        let parent = start + (index - first) % count.max(1);
-                        bend = bend - T::load(self.theta, parent);
-                        rate = rate - T::load(self.omega, parent);
-                    }
-                    let own = self.lead + run.first.own + i;
-                    if let Some(mut row) = self.bends.row_mut::<T>(own) {
-                        row.store([bend, rate]);
-                    }
-                }
-            }
-        }
-    }
-
     #[inline(always)]
     fn motion<V: Vector<T>>(&self, own: usize) -> Option<Motion<V>> {
         let own = self.lead + own;
@@ -123,9 +184,9 @@ where
 
     /// From the last generation to the first.
     #[inline(always)]
-    pub(super) fn up<W: Vectors<T>>(&mut self) {
+    fn up<V: Vector<T>>(&mut self) {
         let (part, leaf) = (self.part, P::COPIES.len() - 1);
-        let crown = self.crown::<W::Wide>();
+        let crown = self.crown::<V>();
         for generation in (crown..self.inner().end).rev() {
             let (constants, copies) = (self.constants(generation), Self::copies(generation));
             let leaf_constants = self.constants(leaf);
@@ -138,12 +199,12 @@ where
                     sweep: self,
                 };
                 match generation + 1 == leaf {
-                    true => each::<T, W::Wide>(run.length, &mut Stems(step)),
-                    false => each::<T, W::Wide>(run.length, &mut Inners(step)),
+                    true => each::<T, V>(run.length, &mut Stems(step)),
+                    false => each::<T, V>(run.length, &mut Inners(step)),
                 }
             }
         }
-        let _ = self.crown_up::<W::Wide>(crown);
+        let _ = self.crown_up::<V>(crown);
     }
 
     /// The generations above `crown`. There is room for all of it: none is missing.
@@ -171,10 +232,10 @@ where
     /// From the first generation, the acceleration of whose pivots is in memory, to
     /// the last.
     #[inline(always)]
-    pub(super) fn down<W: Vectors<T>>(&mut self) {
+    fn down<V: Vector<T>>(&mut self) {
         let (part, leaf) = (self.part, P::COPIES.len() - 1);
-        let crown = self.crown::<W::Wide>();
-        let _ = self.crown_down::<W::Wide>(crown);
+        let crown = self.crown::<V>();
+        let _ = self.crown_down::<V>(crown);
         for generation in crown..self.inner().end {
             let (constants, copies) = (self.constants(generation), Self::copies(generation));
             let leaf_constants = self.constants(leaf);
@@ -187,8 +248,8 @@ where
                     sweep: self,
                 };
                 match generation + 1 == leaf {
-                    true => each::<T, W::Wide>(run.length, &mut TurnStems(step)),
-                    false => each::<T, W::Wide>(run.length, &mut TurnInners(step)),
+                    true => each::<T, V>(run.length, &mut TurnStems(step)),
+                    false => each::<T, V>(run.length, &mut TurnInners(step)),
                 }
             }
         }
@@ -229,30 +290,6 @@ fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
     a
 }
 
-/// Sines and cosines of neighbours.
-struct Turns<'a, S> {
-    sweep: &'a mut S,
-    own: usize,
-    whole: usize,
-}
-
-impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for Turns<'_, Sweep<'_, P, T, C, L, R, K>>
-where
-    T: Scalar,
-    V: Vector<T>,
-{
-    #[inline(always)]
-    fn at(&mut self, index: usize) -> Option<()> {
-        let whole = self.whole + index;
-        let (sine, cosine) = V::load(self.sweep.theta, whole).sin_cos();
-        let omega = V::load(self.sweep.omega, whole);
-        let mut row = self.sweep.turns.row_mut(self.own + index)?;
-        row.store([sine, cosine, omega]);
-        Some(())
-    }
-}
-
 /// Neighbours of one generation, on the way up or down.
 struct Level<'a, S, T, const C: usize> {
     sweep: &'a mut S,
@@ -266,7 +303,7 @@ struct Level<'a, S, T, const C: usize> {
 struct Stems<'a, S, T, const C: usize>(Level<'a, S, T, C>);
 
 impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for Stems<'_, Sweep<'_, P, T, C, L, R, K>, T, C>
+    for Stems<'_, Typed<'_, P, T, C, L, R, K>, T, C>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
@@ -301,7 +338,7 @@ where
 struct Inners<'a, S, T, const C: usize>(Level<'a, S, T, C>);
 
 impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for Inners<'_, Sweep<'_, P, T, C, L, R, K>, T, C>
+    for Inners<'_, Typed<'_, P, T, C, L, R, K>, T, C>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
@@ -335,7 +372,7 @@ where
 struct TurnStems<'a, S, T, const C: usize>(Level<'a, S, T, C>);
 
 impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for TurnStems<'_, Sweep<'_, P, T, C, L, R, K>, T, C>
+    for TurnStems<'_, Typed<'_, P, T, C, L, R, K>, T, C>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
@@ -371,7 +408,7 @@ where
 struct TurnInners<'a, S, T, const C: usize>(Level<'a, S, T, C>);
 
 impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for TurnInners<'_, Sweep<'_, P, T, C, L, R, K>, T, C>
+    for TurnInners<'_, Typed<'_, P, T, C, L, R, K>, T, C>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
