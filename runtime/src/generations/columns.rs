@@ -81,11 +81,10 @@ impl<T: Copy, V: Vector<T>, const N: usize> Row<'_, T, V, N> {
             // `Columns::new`, and `row` has seen that `LANES` from `at` on lie in
             // each. The slice is borrowed for as long as the columns live. Nothing
             // writes to it meanwhile: that takes `&mut Columns`.
-            let numbers = unsafe {
+            vectors[i] = unsafe {
                 let start = self.columns.start.add(i * self.columns.length + self.at);
-                core::slice::from_raw_parts(start, V::LANES)
+                V::read(start)
             };
-            vectors[i] = V::load(numbers, 0);
         }
         vectors
     }
@@ -98,11 +97,10 @@ impl<T: Copy, V: Vector<T>, const N: usize> RowMut<'_, '_, T, V, N> {
         const { assert!(M <= N, "there are not so many columns") };
         for i in 0..M {
             // SAFETY: as for `Row::load`, and the columns are borrowed mutably.
-            let numbers = unsafe {
+            unsafe {
                 let start = self.columns.start.add(i * self.columns.length + self.at);
-                core::slice::from_raw_parts_mut(start, V::LANES)
-            };
-            vectors[i].store(numbers, 0);
+                vectors[i].write(start);
+            }
         }
     }
 }

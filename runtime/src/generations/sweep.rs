@@ -83,7 +83,7 @@ where
 {
     #[inline(always)]
     fn run<W: Vectors<T>>(mut self) {
-        self.0.up::<W::Wide>();
+        self.0.up::<W::Long>();
     }
 }
 
@@ -95,7 +95,7 @@ where
 {
     #[inline(always)]
     fn run<W: Vectors<T>>(mut self) {
-        self.0.down::<W::Wide>();
+        self.0.down::<W::Long>();
     }
 }
 

@@ -4,6 +4,7 @@ use crate::scalar::{Lane, Lanes, Scalar};
 
 /// Several consecutive numbers of a slice of `T`, computed in step; a plain
 /// number is a vector of one.
+#[allow(unsafe_code)]
 pub trait Vector<T>: Scalar {
     /// How many numbers it holds.
     const LANES: usize;
@@ -13,6 +14,18 @@ pub trait Vector<T>: Scalar {
 
     /// Writes the numbers from `slice[at]` on, as many as it has places.
     fn store(self, slice: &mut [T], at: usize);
+
+    /// The numbers at `start`.
+    ///
+    /// # Safety
+    /// So many numbers may be read there.
+    unsafe fn read(start: *const T) -> Self;
+
+    /// Writes the numbers to `start`.
+    ///
+    /// # Safety
+    /// So many numbers may be written there.
+    unsafe fn write(self, start: *mut T);
 
     /// The same number in every lane.
     fn splat(value: T) -> Self;
@@ -73,6 +86,7 @@ pub(crate) fn store_last<T: Copy, const N: usize>(numbers: &[T; N], slice: &mut 
     }
 }
 
+#[allow(unsafe_code)]
 impl<T: Scalar> Vector<T> for T {
     const LANES: usize = 1;
 
@@ -92,6 +106,18 @@ impl<T: Scalar> Vector<T> for T {
     }
 
     #[inline(always)]
+    unsafe fn read(start: *const T) -> Self {
+        // SAFETY: the caller's.
+        unsafe { start.read() }
+    }
+
+    #[inline(always)]
+    unsafe fn write(self, start: *mut T) {
+        // SAFETY: likewise.
+        unsafe { start.write(self) }
+    }
+
+    #[inline(always)]
     fn splat(value: T) -> Self {
         value
     }
@@ -107,6 +133,7 @@ impl<T: Scalar> Vector<T> for T {
     }
 }
 
+#[allow(unsafe_code)]
 impl<T: Lane, const N: usize> Vector<T> for Lanes<T, N> {
     const LANES: usize = N;
 
@@ -124,6 +151,18 @@ impl<T: Lane, const N: usize> Vector<T> for Lanes<T, N> {
             Some(place) => *place = self.0,
             None => store_last(&self.0, slice, at),
         }
+    }
+
+    #[inline(always)]
+    unsafe fn read(start: *const T) -> Self {
+        // SAFETY: the caller's. Numbers need not lie where lanes would.
+        Lanes(unsafe { start.cast::<[T; N]>().read_unaligned() })
+    }
+
+    #[inline(always)]
+    unsafe fn write(self, start: *mut T) {
+        // SAFETY: likewise.
+        unsafe { start.cast::<[T; N]>().write_unaligned(self.0) }
     }
 
     #[inline(always)]
@@ -155,6 +194,9 @@ fn permuted<T: Lane, const N: usize>(numbers: Lanes<T, N>, lanes: &[u32; N]) -> 
 pub trait Vectors<T>: 'static {
     /// Neighbours.
     type Wide: Vector<T>;
+    /// Neighbours in equations, which are compiled for every model: one, where
+    /// more gain little.
+    type Long: Vector<T>;
     /// One number.
     type One: Vector<T>;
 }
@@ -165,6 +207,7 @@ pub struct Single;
 
 impl<T: Scalar> Vectors<T> for Single {
     type Wide = T;
+    type Long = T;
     type One = T;
 }
 

@@ -38,11 +38,13 @@ impl<T: Lane, K: SliceKernel<T>> RegisterKernel<T> for InRegisters<K, T> {
 
 impl<T: Lane, const N: usize> Vectors<T> for With<Lanes<T, N>> {
     type Wide = Lanes<T, N>;
+    type Long = Lanes<T, N>;
     type One = T;
 }
 
 macro_rules! vector {
     ($register:ident: $lane:ty, $words:literal) => {
+        #[allow(unsafe_code)]
         impl Vector<$lane> for $register {
             const LANES: usize = <Self as Register>::LANES;
 
@@ -66,6 +68,19 @@ macro_rules! vector {
             }
 
             #[inline(always)]
+            unsafe fn read(start: *const $lane) -> Self {
+                // SAFETY: the caller's. The type is transparent, and a register is
+                // made of its lanes. They need not lie where registers would.
+                unsafe { start.cast::<Self>().read_unaligned() }
+            }
+
+            #[inline(always)]
+            unsafe fn write(self, start: *mut $lane) {
+                // SAFETY: likewise.
+                unsafe { start.cast::<Self>().write_unaligned(self) }
+            }
+
+            #[inline(always)]
             fn splat(value: $lane) -> Self {
                 Register::splat(value)
             }
@@ -86,6 +101,7 @@ macro_rules! vector {
         }
     };
     (fused $lane:ty) => {
+        #[allow(unsafe_code)]
         impl Vector<$lane> for Fused<$lane> {
             const LANES: usize = 1;
 
@@ -97,6 +113,19 @@ macro_rules! vector {
             #[inline(always)]
             fn store(self, slice: &mut [$lane], at: usize) {
                 Vector::<$lane>::store(self.0, slice, at);
+            }
+
+            #[inline(always)]
+            unsafe fn read(start: *const $lane) -> Self {
+                // SAFETY: the caller's. The type is transparent, and a register is
+                // made of its lanes. They need not lie where registers would.
+                unsafe { start.cast::<Self>().read_unaligned() }
+            }
+
+            #[inline(always)]
+            unsafe fn write(self, start: *mut $lane) {
+                // SAFETY: likewise.
+                unsafe { start.cast::<Self>().write_unaligned(self) }
             }
 
             #[inline(always)]
@@ -122,25 +151,26 @@ vector!(fused f32);
 
 #[cfg(target_arch = "x86_64")]
 macro_rules! widest {
-    ($wide:ident: $lane:ty, $words:literal, $one:ty) => {
+    ($wide:ident: $lane:ty, $words:literal, $long:ty, $one:ty) => {
         vector!($wide: $lane, $words);
 
         impl Vectors<$lane> for With<$wide> {
             type Wide = $wide;
+            type Long = $long;
             type One = $one;
         }
     };
 }
 
 #[cfg(target_arch = "x86_64")]
-widest!(F64x8: f64, 16, Fused<f64>);
+widest!(F64x8: f64, 16, F64x8, Fused<f64>);
 #[cfg(target_arch = "x86_64")]
-widest!(F64x4: f64, 8, Fused<f64>);
+widest!(F64x4: f64, 8, F64x4, Fused<f64>);
 #[cfg(target_arch = "x86_64")]
-widest!(F64x2: f64, 4, f64);
+widest!(F64x2: f64, 4, f64, f64);
 #[cfg(target_arch = "x86_64")]
-widest!(F32x16: f32, 16, Fused<f32>);
+widest!(F32x16: f32, 16, F32x16, Fused<f32>);
 #[cfg(target_arch = "x86_64")]
-widest!(F32x8: f32, 8, Fused<f32>);
+widest!(F32x8: f32, 8, F32x8, Fused<f32>);
 #[cfg(target_arch = "x86_64")]
-widest!(F32x4: f32, 4, f32);
+widest!(F32x4: f32, 4, f32, f32);
