@@ -6,101 +6,105 @@ use core::marker::PhantomData;
 
 use super::vector::Vector;
 
-/// The front of a slice as `N` columns of equal length.
+/// Numbers of a slice as `N` columns, or some rows of these.
 ///
-/// As slices of their own, each would ask whether a place lies in it, every time:
-/// many questions with one answer, and more instructions than the mechanics.
+/// As slices of their own, each column would ask whether a place lies in it, every
+/// time: many questions with one answer, and more instructions than the mechanics.
+/// Copies are views of the same numbers, as of a slice of cells.
 #[derive(Debug)]
 pub(super) struct Columns<'a, T, const N: usize> {
     start: *mut T,
-    length: usize,
+    /// From one column to the next.
+    stride: usize,
+    rows: usize,
     slice: PhantomData<&'a mut [T]>,
 }
 
-/// A vector's place in columns.
-#[derive(Debug)]
-pub(super) struct Row<'a, T, V, const N: usize> {
-    columns: &'a Columns<'a, T, N>,
-    at: usize,
-    vector: PhantomData<V>,
+impl<T, const N: usize> Clone for Columns<'_, T, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
 }
 
-/// One to be written.
-#[derive(Debug)]
-pub(super) struct RowMut<'a, 'b, T, V, const N: usize> {
-    columns: &'a mut Columns<'b, T, N>,
-    at: usize,
-    vector: PhantomData<V>,
-}
+impl<T, const N: usize> Copy for Columns<'_, T, N> {}
 
 impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
-    /// Columns of `length` numbers; empty ones where the slice is too short.
+    /// The front of a slice as columns of `length` numbers, or of fewer where it is
+    /// too short.
     #[inline(always)]
     pub(super) fn new(slice: &'a mut [T], length: usize) -> Self {
+        let length = length.min(slice.len() / N.max(1));
         Self {
             start: slice.as_mut_ptr(),
-            length: length.min(slice.len() / N.max(1)),
+            stride: length,
+            rows: length,
             slice: PhantomData,
         }
     }
 
+    /// The rows from `at` on.
     #[inline(always)]
-    fn has(&self, at: usize, lanes: usize) -> bool {
-        lanes <= self.length && at <= self.length - lanes
-    }
-
-    /// The row of vectors that starts at `at`; none that crosses the end.
-    #[inline(always)]
-    pub(super) fn row<V: Vector<T>>(&self, at: usize) -> Option<Row<'_, T, V, N>> {
-        self.has(at, V::LANES).then_some(Row {
-            columns: self,
-            at,
-            vector: PhantomData,
+    pub(super) fn from(self, at: usize) -> Option<Self> {
+        let rows = self.rows.checked_sub(at)?;
+        Some(Self {
+            // SAFETY: `at` rows lie behind the start.
+            start: unsafe { self.start.add(at) },
+            rows,
+            ..self
         })
     }
 
-    /// The same, to be written.
+    /// The rows from `at` on, as many as said: where one number is the length of
+    /// several windows, one question is enough for all.
     #[inline(always)]
-    pub(super) fn row_mut<V: Vector<T>>(&mut self, at: usize) -> Option<RowMut<'_, 'a, T, V, N>> {
-        self.has(at, V::LANES).then_some(RowMut {
-            columns: self,
-            at,
-            vector: PhantomData,
-        })
+    pub(super) fn window(self, at: usize, rows: usize) -> Option<Self> {
+        let rest = self.from(at)?;
+        (rows <= rest.rows).then_some(Self { rows, ..rest })
     }
-}
 
-impl<T: Copy, V: Vector<T>, const N: usize> Row<'_, T, V, N> {
-    /// The first `M` of its vectors.
     #[inline(always)]
-    pub(super) fn load<const M: usize>(&self) -> [V; M] {
+    fn has<V: Vector<T>>(self, at: usize) -> bool {
+        V::LANES <= self.rows && at <= self.rows - V::LANES
+    }
+
+    /// The vectors at `at` of the first `M` columns; none where they would cross the
+    /// end.
+    #[inline(always)]
+    pub(super) fn load<V: Vector<T>, const M: usize>(self, at: usize) -> Option<[V; M]> {
         const { assert!(M <= N, "there are not so many columns") };
+        if !self.has::<V>(at) {
+            return None;
+        }
         let mut vectors = [V::from_f64(0.0); M];
         for i in 0..M {
-            // SAFETY: there are `N` columns of `length` numbers in the slice, by
-            // `Columns::new`, and `row` has seen that `LANES` from `at` on lie in
-            // each. The slice is borrowed for as long as the columns live. Nothing
-            // writes to it meanwhile: that takes `&mut Columns`.
-            vectors[i] = unsafe {
-                let start = self.columns.start.add(i * self.columns.length + self.at);
-                V::read(start)
+            // SAFETY: in the slice there are `N` columns, `stride` apart, of which
+            // each has `rows` numbers from `start` on; by `new`, and kept by `from`
+            // and `window`. `has` has seen that `LANES` from `at` on are among them.
+            // The slice is borrowed mutably for as long as the views live, which are
+            // all in one thread, and no other reference is there now.
+            let numbers = unsafe {
+                core::slice::from_raw_parts(self.start.add(i * self.stride + at), V::LANES)
             };
         }
-        vectors
+        Some(vectors)
     }
-}
 
-impl<T: Copy, V: Vector<T>, const N: usize> RowMut<'_, '_, T, V, N> {
-    /// Writes to the first `M` columns.
+    /// Writes the vectors at `at` of the first `M` columns; none where they would
+    /// cross the end.
     #[inline(always)]
-    pub(super) fn store<const M: usize>(&mut self, vectors: [V; M]) {
+    pub(super) fn store<V: Vector<T>, const M: usize>(
+        self,
+        at: usize,
+        vectors: [V; M],
+    ) -> Option<()> {
         const { assert!(M <= N, "there are not so many columns") };
-        for i in 0..M {
-            // SAFETY: as for `Row::load`, and the columns are borrowed mutably.
-            unsafe {
-                let start = self.columns.start.add(i * self.columns.length + self.at);
-                vectors[i].write(start);
-            }
+        if !self.has::<V>(at) {
+            return None;
         }
+        for i in 0..M {
+            // SAFETY: as for `load`.
+            unsafe { vectors[i].write(self.start.add(i * self.stride + at)) };
+        }
+        Some(())
     }
 }

@@ -56,11 +56,13 @@ impl Layout {
     pub(super) fn room<T>(&self, plan: &Plan, threads: usize) -> usize {
         let parts = match (&self.part, plan.cut) {
             (Some(part), Some(cut)) => {
-                self.boundary::<T>(plan.count(cut)) + threads * worker::<T>(part)
+                let each = plan.each(cut, threads);
+                let jobs = plan.count(cut).div_ceil(each);
+                self.boundary::<T>(plan.count(cut)) + jobs * worker::<T>(plan, part, each)
             }
             _ => 0,
         };
-        line::<T>() + self.top.room() + parts
+        line::<T>() + self.top.lasting() + self.top.passing() + parts
     }
 
     /// Answers of all parts.
@@ -69,10 +71,17 @@ impl Layout {
     }
 }
 
-/// Room for one thread's parts: a line more, so that two threads never write to
-/// one.
-fn worker<T>(part: &Extent) -> usize {
-    part.room() + line::<T>()
+/// Room for the parts of so many links of the cut, which one thread computes.
+fn worker<T>(plan: &Plan, part: &Extent, each: usize) -> usize {
+    // A line more, so that two threads never write to one.
+    part.passing() + lasting(plan, part, each) + line::<T>()
+}
+
+/// Of that, what is read on the way down: of all these parts, or of the one at
+/// hand.
+fn lasting(plan: &Plan, part: &Extent, each: usize) -> usize {
+    let parts = if plan.keeps { each.div_ceil(WIDTH) } else { 1 };
+    parts * part.lasting()
 }
 
 /// One evaluation.
@@ -88,7 +97,7 @@ impl<T: Scalar> Evaluation<'_, T> {
         &'a self,
         part: Part<'a>,
         extent: &Extent,
-        buffer: &'a mut [T],
+        [lasting, passing]: [&'a mut [T]; 2],
         alpha: Shared<'a, T>,
     ) -> Sweep<'a, T> {
         Sweep {
@@ -96,7 +105,8 @@ impl<T: Scalar> Evaluation<'_, T> {
             constants: &self.tree.constants,
             theta: self.theta,
             omega: self.omega,
-            storage: extent.storage(buffer),
+            storage: extent.storage(lasting, passing),
+            root: None,
             alpha,
         }
     }
@@ -112,22 +122,21 @@ impl<T: Scalar> Evaluation<'_, T> {
 
     /// Up and down again: the whole tree, or what is above the parts, whose
     /// answers are in memory.
-    fn top(&self, buffer: &mut [T], alpha: Shared<'_, T>) {
-        let mut sweep = self.sweep(self.tree.plan.top(), &self.tree.layout.top, buffer, alpha);
+    fn top(&self, memory: [&mut [T]; 2], alpha: Shared<'_, T>) {
+        let mut sweep = self.sweep(self.tree.plan.top(), &self.tree.layout.top, memory, alpha);
         self.up(&mut sweep);
-        for (column, root) in self.tree.root.into_iter().enumerate() {
-            sweep.storage.answers_mut(column, 0, 1).fill(root);
-        }
+        sweep.root = Some(self.tree.root);
         (self.kernels.down)(&mut sweep);
     }
 
     /// Up through the parts that start with these links of generation `cut`. A
     /// part's answers stand together.
-    fn parts_up(&self, parts: Parts<'_, T>, mut answers: &mut [T]) {
+    fn parts_up(&self, mut parts: Parts<'_, T>, mut answers: &mut [T]) {
         let count = self.tree.layout.sizes.answers;
-        for start in parts.links.step_by(WIDTH) {
+        for start in parts.links.clone().step_by(WIDTH) {
             let part = self.tree.plan.window(parts.cut, start);
-            let mut sweep = self.sweep(part, parts.extent, parts.buffer, parts.alpha);
+            let (extent, alpha) = (parts.extent, parts.alpha);
+            let mut sweep = self.sweep(part, extent, parts.memory(self.tree), alpha);
             self.up(&mut sweep);
             for column in 0..count {
                 let own = sweep.storage.answers_mut(column, 0, part.width);
@@ -136,14 +145,17 @@ impl<T: Scalar> Evaluation<'_, T> {
         }
     }
 
-    /// Up again and down through them, from the accelerations of their pivots.
-    /// What was formed on the first way up is formed again: that takes less time
-    /// than writing it to memory and reading it back.
-    fn parts_down(&self, parts: Parts<'_, T>, pivots: [&[T]; 2]) {
-        for start in parts.links.step_by(WIDTH) {
+    /// Down through them, from the accelerations of their pivots. Where nothing was
+    /// kept of the way up, it is taken again: that takes less time than writing what
+    /// is formed to memory and reading it back.
+    fn parts_down(&self, mut parts: Parts<'_, T>, pivots: [&[T]; 2]) {
+        for start in parts.links.clone().step_by(WIDTH) {
             let part = self.tree.plan.window(parts.cut, start);
-            let mut sweep = self.sweep(part, parts.extent, parts.buffer, parts.alpha);
-            self.up(&mut sweep);
+            let (extent, alpha) = (parts.extent, parts.alpha);
+            let mut sweep = self.sweep(part, extent, parts.memory(self.tree), alpha);
+            if !self.tree.plan.keeps {
+                self.up(&mut sweep);
+            }
             for (column, all) in pivots.into_iter().enumerate() {
                 let own = sweep.storage.answers_mut(column, 0, part.width);
                 copy(own, all.get(start..).unwrap_or_default());
@@ -159,26 +171,42 @@ struct Parts<'a, T> {
     extent: &'a Extent,
     /// Of this generation, from a part's first link on.
     links: Range<usize>,
-    buffer: &'a mut [T],
+    lasting: &'a mut [T],
+    passing: &'a mut [T],
     alpha: Shared<'a, T>,
+}
+
+impl<T> Parts<'_, T> {
+    /// Memory for the next part.
+    fn memory(&mut self, tree: &Tree<T>) -> [&mut [T]; 2] {
+        let lasting = match tree.plan.keeps {
+            true => take(&mut self.lasting, self.extent.lasting()),
+            false => &mut *self.lasting,
+        };
+        [lasting, &mut *self.passing]
+    }
 }
 
 /// The parts of each thread.
 fn jobs<'a, T>(
-    tree: &Tree<T>,
+    tree: &'a Tree<T>,
     cut: usize,
     extent: &'a Extent,
     mut buffer: &'a mut [T],
     alpha: Shared<'a, T>,
 ) -> impl Iterator<Item = Parts<'a, T>> {
-    let count = tree.plan.count(cut);
-    let each = count.div_ceil(WIDTH).div_ceil(tree.threads.max(1)) * WIDTH;
-    (0..count).step_by(each).map(move |start| Parts {
-        cut,
-        extent,
-        links: start..(start + each).min(count),
-        buffer: take(&mut buffer, worker::<T>(extent)),
-        alpha,
+    let plan = &tree.plan;
+    let (count, each) = (plan.count(cut), plan.each(cut, tree.threads));
+    (0..count).step_by(each).map(move |start| {
+        let mut own = take(&mut buffer, worker::<T>(plan, extent, each));
+        Parts {
+            cut,
+            extent,
+            links: start..(start + each).min(count),
+            lasting: take(&mut own, lasting(plan, extent, each)),
+            passing: own,
+            alpha,
+        }
     })
 }
 
@@ -209,9 +237,10 @@ pub(super) fn accelerations<T: Scalar>(
     let alpha = Shared::new(alpha);
     let unaligned = buffer.as_ptr().align_offset(LINE).min(line::<T>());
     let mut buffer = buffer.get_mut(unaligned..).unwrap_or_default();
-    let above = take(&mut buffer, layout.top.room());
+    let kept = take(&mut buffer, layout.top.lasting());
+    let above = take(&mut buffer, layout.top.passing());
     let (Some(cut), Some(extent)) = (plan.cut, &layout.part) else {
-        evaluation.top(above, alpha);
+        evaluation.top([kept, above], alpha);
         return;
     };
     let count = plan.count(cut);
@@ -226,8 +255,8 @@ pub(super) fn accelerations<T: Scalar>(
             evaluation.parts_up(parts, answers);
         });
     }
-    let slot = plan.top().slot(cut);
-    let mut storage = layout.top.storage(&mut *above);
+    let slot = plan.top().stages.last().map_or(0, |stage| stage.slot);
+    let mut storage = layout.top.storage(&mut *kept, &mut *above);
     let mut rest = &*answers;
     for start in (0..count).step_by(WIDTH) {
         let width = WIDTH.min(count - start);
@@ -237,12 +266,17 @@ pub(super) fn accelerations<T: Scalar>(
             copy(storage.answers_mut(column, slot + start, width), own);
         }
     }
-    evaluation.top(&mut *above, alpha);
-    let storage = layout.top.storage(above);
+    evaluation.top([&mut *kept, &mut *above], alpha);
+    let storage = layout.top.storage(kept, above);
     let column = |column: usize| {
         let start = column * storage.slots + slot;
-        storage.answers.get(start..start + count).unwrap_or_default()
+        storage
+            .answers
+            .get(start..start + count)
+            .unwrap_or_default()
     };
     let pivots = [column(0), column(1)];
-    super::threads::all(jobs(tree, cut, extent, buffer, alpha), |parts| evaluation.parts_down(parts, pivots));
+    super::threads::all(jobs(tree, cut, extent, buffer, alpha), |parts| {
+        evaluation.parts_down(parts, pivots)
+    });
 }

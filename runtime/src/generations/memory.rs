@@ -44,27 +44,35 @@ pub(super) struct Extent {
 
 impl Extent {
     pub(super) fn new<T>(part: &Part<'_>, sizes: Sizes) -> Self {
-        let leaf = part.shape.counts.len().saturating_sub(1);
-        let last = part.own(part.end.saturating_sub(1));
+        let last = part.own_stages().last().map_or(0, |last| last.own);
         let lead = last.next_multiple_of(line::<T>()) - last;
         // A register more: the last numbers are read with what is behind them.
         Self {
             sizes,
             lead,
-            links: odd_lines::<T>(lead + part.own(part.end) + SLOTS),
-            slots: odd_lines::<T>(part.slot((part.end + 1).min(leaf)) + SLOTS),
+            links: odd_lines::<T>(lead + part.links() + SLOTS),
+            slots: odd_lines::<T>(part.slots() + SLOTS),
         }
     }
 
-    /// How many numbers there are.
-    pub(super) fn room(&self) -> usize {
+    /// How many numbers are read on the way down that were formed on the way up.
+    pub(super) fn lasting(&self) -> usize {
         let turns = if self.sizes.joints { 5 } else { 3 };
-        turns * self.links + (self.sizes.answers + self.sizes.kept) * self.slots
+        turns * self.links + self.sizes.kept * self.slots
     }
 
-    /// The front of a buffer as memory for a part.
-    pub(super) fn storage<'a, T: Copy>(&self, mut buffer: &'a mut [T]) -> Storage<'a, T> {
-        let buffer = &mut buffer;
+    /// How many others there are.
+    pub(super) fn passing(&self) -> usize {
+        self.sizes.answers * self.slots
+    }
+
+    /// The fronts of two buffers as memory for a part.
+    pub(super) fn storage<'a, T: Copy>(
+        &self,
+        mut lasting: &'a mut [T],
+        mut passing: &'a mut [T],
+    ) -> Storage<'a, T> {
+        let lasting = &mut lasting;
         let &Self {
             sizes,
             lead,
@@ -72,14 +80,14 @@ impl Extent {
             slots,
         } = self;
         Storage {
-            turns: Columns::new(take(buffer, 3 * links), links),
+            turns: Columns::new(take(lasting, 3 * links), links),
             bends: match sizes.joints {
-                true => Columns::new(take(buffer, 2 * links), links),
+                true => Columns::new(take(lasting, 2 * links), links),
                 false => Columns::new(&mut [], 0),
             },
             lead,
-            answers: take(buffer, sizes.answers * slots),
-            kept: take(buffer, sizes.kept * slots),
+            answers: take(&mut passing, sizes.answers * slots),
+            kept: take(lasting, sizes.kept * slots),
             slots,
         }
     }

@@ -239,4 +239,3 @@ impl<P, T: fmt::Debug, const C: usize, const L: usize, const R: usize, const K: 
             .finish_non_exhaustive()
     }
 }
-

@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::columns::Columns;
 use super::memory::Storage;
-use super::part::{Part, Run};
+use super::part::{Part, Place};
 use super::recursion::{Motion, Recursion};
 use super::shared::Shared;
 use super::vector::{SliceKernel, Step, Vector, Vectors, each};
@@ -19,6 +19,8 @@ pub(super) struct Sweep<'a, T> {
     pub(super) theta: &'a [T],
     pub(super) omega: &'a [T],
     pub(super) storage: Storage<'a, T>,
+    /// Acceleration of the root's pivot, where the root is in the part.
+    pub(super) root: Option<[T; 2]>,
     pub(super) alpha: Shared<'a, T>,
 }
 
@@ -26,24 +28,24 @@ impl<T: Scalar> Sweep<'_, T> {
     /// Angles and velocities relative to the parents.
     pub(super) fn bend(&mut self) {
         let part = self.part;
-        for generation in part.first..part.end {
-            let above = generation.checked_sub(1);
-            let above = above.map(|g| (part.shape.start(g), part.shape.count(g)));
-            let first = part.shape.start(generation);
-            for run in part.runs(generation) {
-                for i in 0..run.length {
-                    let index = run.first.whole + i;
+        for stage in part.own_stages() {
+            let parents = stage.above.map(|start| {
+                let count = stage.whole_count / stage.copies.max(1);
+                (start, count.max(1))
+            });
+            for run in 0..stage.runs {
+                let place = part.place(stage, run);
+                for i in 0..stage.length {
+                    let index = place.whole + i;
                     let (mut bend, mut rate) =
                         (T::load(self.theta, index), T::load(self.omega, index));
-                    if let Some((start, count)) = above {
-                        let parent = start + (index - first) % count.max(1);
+                    if let Some((start, count)) = parents {
+                        let parent = start + (index - stage.whole) % count;
                         bend = bend - T::load(self.theta, parent);
                         rate = rate - T::load(self.omega, parent);
                     }
-                    let own = self.storage.lead + run.first.own + i;
-                    if let Some(mut row) = self.storage.bends.row_mut::<T>(own) {
-                        row.store([bend, rate]);
-                    }
+                    let own = self.storage.lead + place.own + i;
+                    let _ = self.storage.bends.store(own, [bend, rate]);
                 }
             }
         }
@@ -57,7 +59,9 @@ pub(super) fn up<P, T, const C: usize, const L: usize, const R: usize, const K: 
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
-    T::over_slices(Up(Typed::<P, T, C, L, R, K>::of(sweep)));
+    if let Some(sweep) = Typed::<P, T, C, L, R, K>::of(sweep) {
+        T::over_slices(Up(sweep));
+    }
 }
 
 /// From the first generation of a part, the accelerations of whose pivots are in
@@ -68,7 +72,9 @@ pub(super) fn down<P, T, const C: usize, const L: usize, const R: usize, const K
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
-    T::over_slices(Down(Typed::<P, T, C, L, R, K>::of(sweep)));
+    if let Some(sweep) = Typed::<P, T, C, L, R, K>::of(sweep) {
+        T::over_slices(Down(sweep));
+    }
 }
 
 struct Up<S>(S);
@@ -83,7 +89,7 @@ where
 {
     #[inline(always)]
     fn run<W: Vectors<T>>(mut self) {
-        self.0.up::<W::Long>();
+        let _ = self.0.up::<W::Long>();
     }
 }
 
@@ -95,7 +101,7 @@ where
 {
     #[inline(always)]
     fn run<W: Vectors<T>>(mut self) {
-        self.0.down::<W::Long>();
+        let _ = self.0.down::<W::Long>();
     }
 }
 
@@ -103,11 +109,10 @@ where
 struct Typed<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
     part: Part<'a>,
     constants: &'a [[T; C]],
-    turns: &'a Columns<'a, T, 3>,
-    bends: &'a Columns<'a, T, 2>,
-    lead: usize,
+    links: Links<'a, T>,
     answers: Columns<'a, T, R>,
     kept: Columns<'a, T, K>,
+    root: Option<[T; 2]>,
     alpha: Shared<'a, T>,
     recursion: PhantomData<P>,
 }
@@ -118,25 +123,34 @@ where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
-    fn of(sweep: &'a mut Sweep<'_, T>) -> Self {
+    fn of(sweep: &'a mut Sweep<'_, T>) -> Option<Self> {
         let Sweep {
             part,
             constants,
             storage,
+            root,
             alpha,
             ..
         } = sweep;
-        Self {
+        let lead = storage.lead;
+        let links = Links {
+            turns: storage.turns.from(lead)?,
+            bends: match P::JOINTS {
+                true => storage.bends.from(lead)?,
+                false => storage.bends,
+            },
+            joints: P::JOINTS,
+        };
+        Some(Self {
             part: *part,
             constants: constants.as_chunks().0,
-            turns: &storage.turns,
-            bends: &storage.bends,
-            lead: storage.lead,
+            links,
             answers: Columns::new(storage.answers, storage.slots),
             kept: Columns::new(storage.kept, storage.slots),
+            root: *root,
             alpha: *alpha,
             recursion: PhantomData,
-        }
+        })
     }
 
     fn constants(&self, generation: usize) -> [T; C] {
@@ -146,129 +160,130 @@ where
         }
     }
 
-    /// Copies of children under a link of a generation.
-    fn copies(generation: usize) -> usize {
-        P::COPIES.get(generation + 1).copied().unwrap_or(0)
-    }
-
-    /// The generations of the part that have children.
-    fn inner(&self) -> core::ops::Range<usize> {
-        self.part.first..self.part.end.min(P::COPIES.len().saturating_sub(1))
-    }
-
     /// The last generation with children that fits a vector, if this is the top of
     /// the tree: those above it go from one to the next in registers.
     #[inline(always)]
     fn crown<V: Vector<T>>(&self) -> usize {
-        let narrow = |&generation: &usize| self.part.count(generation) <= V::LANES;
-        let last = self.inner().take_while(narrow).last();
-        last.unwrap_or(self.part.first)
+        let inner = self.part.stages.iter().take(self.part.inner);
+        let narrow = inner.take_while(|stage| stage.count <= V::LANES).count();
+        narrow.saturating_sub(1)
     }
 
+    /// What neighbours are computed from.
     #[inline(always)]
-    fn motion<V: Vector<T>>(&self, own: usize) -> Option<Motion<V>> {
-        let own = self.lead + own;
-        let [sine, cosine, omega] = self.turns.row(own)?.load();
-        let [bend, bend_rate] = match P::JOINTS {
-            true => self.bends.row(own)?.load(),
-            false => [omega; 2],
-        };
-        Some(Motion {
-            sine,
-            cosine,
-            omega,
-            bend,
-            bend_rate,
+    fn level<V: Vector<T>>(&self, stage: usize, run: usize) -> Option<Level<'a, T, C, R, K>> {
+        let constants = *self.constants.get(self.part.first + stage)?;
+        let (stage, below) = (
+            self.part.stages.get(stage)?,
+            self.part.stages.get(stage + 1)?,
+        );
+        let (first, rows) = (self.part.place(stage, run), stage.length.max(V::LANES));
+        Some(Level {
+            constants,
+            copies: below.copies,
+            length: stage.length,
+            rows,
+            own: self.links.window(first.own, rows)?,
+            answers: self.answers.window(first.slot, rows)?,
+            kept: self.kept.window(first.slot, rows)?,
+            alpha: self.alpha.from(first.whole)?,
+            child: Place {
+                own: below.own + run * stage.length,
+                slot: below.slot + run * stage.length,
+                whole: below.whole + self.part.start + run * stage.stride,
+            },
+            next_own: stage.count,
+            next_whole: stage.whole_count,
+            links: self.links,
+            all_answers: self.answers,
+            all_alpha: self.alpha,
         })
     }
 
     /// From the last generation to the first.
     #[inline(always)]
-    fn up<V: Vector<T>>(&mut self) {
-        let (part, leaf) = (self.part, P::COPIES.len() - 1);
+    fn up<V: Vector<T>>(&self) -> Option<()> {
         let crown = self.crown::<V>();
-        for generation in (crown..self.inner().end).rev() {
-            let (constants, copies) = (self.constants(generation), Self::copies(generation));
-            let leaf_constants = self.constants(leaf);
-            for run in part.runs(generation) {
-                let step = Level {
-                    constants,
-                    leaf_constants,
-                    copies,
-                    run,
-                    sweep: self,
-                };
-                match generation + 1 == leaf {
-                    true => each::<T, V>(run.length, &mut Stems(step)),
-                    false => each::<T, V>(run.length, &mut Inners(step)),
+        for stage in (crown..self.part.inner).rev() {
+            for run in 0..self.part.stages.get(stage)?.runs {
+                let level = self.level::<V>(stage, run)?;
+                let length = level.length;
+                if self.part.has_leaves && stage + 1 == self.part.inner {
+                    let leaf_constants = *self.constants.last()?;
+                    let mut step = Stems::<P, T, C, L, R, K>(level, leaf_constants, PhantomData);
+                    each::<T, V>(length, &mut step)?;
+                } else {
+                    let mut step = Inners::<P, T, C, L, R, K>(level, PhantomData);
+                    each::<T, V>(length, &mut step)?;
                 }
             }
         }
-        let _ = self.crown_up::<V>(crown);
+        self.crown_up::<V>(crown)
     }
 
-    /// The generations above `crown`. There is room for all of it: none is missing.
+    /// The generations above `crown`.
     #[inline(always)]
-    fn crown_up<V: Vector<T>>(&mut self, crown: usize) -> Option<()> {
+    fn crown_up<V: Vector<T>>(&self, crown: usize) -> Option<()> {
         let part = self.part;
-        let mut answers: [V; R] = self.answers.row(part.slot(crown))?.load();
-        for generation in (part.first..crown).rev() {
-            let (place, count) = (part.place(generation), part.count(generation));
-            let mut below = answers;
-            for copy in 1..Self::copies(generation) {
+        let mut below = part.stages.get(crown)?;
+        let mut answers: [V; R] = self.answers.load(below.slot)?;
+        for generation in (0..crown).rev() {
+            let stage = part.stages.get(generation)?;
+            let mut sums = answers;
+            for copy in 1..below.copies {
                 for i in 0..R {
-                    below[i] = below[i] + answers[i].behind(copy * count);
+                    sums[i] = sums[i] + answers[i].behind(copy * stage.count);
                 }
             }
-            let constants = splat(&self.constants(generation));
+            let constants = splat(self.constants.get(part.first + generation)?);
             let kept;
-            (answers, kept) = P::inner(&constants, self.motion(place.own)?, below);
-            self.kept.row_mut(place.slot)?.store(kept);
+            (answers, kept) = P::inner(&constants, self.links.motion(stage.own)?, sums);
+            self.kept.store(stage.slot, kept)?;
+            below = stage;
         }
-        self.answers.row_mut(part.slot(part.first))?.store(answers);
-        Some(())
+        self.answers.store(below.slot, answers)
     }
 
     /// From the first generation, the acceleration of whose pivots is in memory, to
     /// the last.
     #[inline(always)]
-    fn down<V: Vector<T>>(&mut self) {
-        let (part, leaf) = (self.part, P::COPIES.len() - 1);
+    fn down<V: Vector<T>>(&mut self) -> Option<()> {
         let crown = self.crown::<V>();
-        let _ = self.crown_down::<V>(crown);
-        for generation in crown..self.inner().end {
-            let (constants, copies) = (self.constants(generation), Self::copies(generation));
-            let leaf_constants = self.constants(leaf);
-            for run in part.runs(generation) {
-                let step = Level {
-                    constants,
-                    leaf_constants,
-                    copies,
-                    run,
-                    sweep: self,
-                };
-                match generation + 1 == leaf {
-                    true => each::<T, V>(run.length, &mut TurnStems(step)),
-                    false => each::<T, V>(run.length, &mut TurnInners(step)),
+        self.crown_down::<V>(crown)?;
+        for stage in crown..self.part.inner {
+            for run in 0..self.part.stages.get(stage)?.runs {
+                let level = self.level::<V>(stage, run)?;
+                let length = level.length;
+                if self.part.has_leaves && stage + 1 == self.part.inner {
+                    let constants = *self.constants.last()?;
+                    let mut step = TurnStems::<P, T, C, L, R, K>(level, constants, PhantomData);
+                    each::<T, V>(length, &mut step)?;
+                } else {
+                    let mut step = TurnInners::<P, T, C, L, R, K>(level, PhantomData);
+                    each::<T, V>(length, &mut step)?;
                 }
             }
         }
+        Some(())
     }
 
     #[inline(always)]
     fn crown_down<V: Vector<T>>(&mut self, crown: usize) -> Option<()> {
         let part = self.part;
-        let mut pivot: [V; 2] = self.answers.row(part.slot(part.first))?.load();
-        for generation in part.first..crown {
-            let (place, count) = (part.place(generation), part.count(generation));
-            let constants = splat(&self.constants(generation));
-            let kept: [V; K] = self.kept.row(place.slot)?.load();
-            let (acceleration, [x, y]) = P::turn(&constants, self.motion(place.own)?, kept, pivot);
-            self.alpha.store(place.whole, acceleration, count);
-            pivot = [x.repeat(count), y.repeat(count)];
+        let mut pivot = match &self.root {
+            Some(root) => splat::<T, V, 2>(root),
+            None => self.answers.load(part.stages.first()?.slot)?,
+        };
+        for generation in 0..crown {
+            let stage = part.stages.get(generation)?;
+            let constants = splat(self.constants.get(part.first + generation)?);
+            let kept: [V; K] = self.kept.load(stage.slot)?;
+            let link = self.links.motion(stage.own)?;
+            let (acceleration, [x, y]) = P::turn(&constants, link, kept, pivot);
+            self.alpha.store(stage.whole, acceleration, stage.count);
+            pivot = [x.repeat(stage.count), y.repeat(stage.count)];
         }
-        self.answers.row_mut(part.slot(crown))?.store(pivot);
-        Some(())
+        self.answers.store(part.stages.get(crown)?.slot, pivot)
     }
 }
 
@@ -290,20 +305,87 @@ fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
     a
 }
 
+/// What is known of links before the recursion.
+#[derive(Clone, Copy)]
+struct Links<'a, T> {
+    turns: Columns<'a, T, 3>,
+    bends: Columns<'a, T, 2>,
+    joints: bool,
+}
+
+impl<T: Scalar> Links<'_, T> {
+    #[inline(always)]
+    fn window(self, at: usize, rows: usize) -> Option<Self> {
+        let bends = match self.joints {
+            true => self.bends.window(at, rows)?,
+            false => self.bends,
+        };
+        Some(Self {
+            turns: self.turns.window(at, rows)?,
+            bends,
+            ..self
+        })
+    }
+
+    #[inline(always)]
+    fn motion<V: Vector<T>>(self, at: usize) -> Option<Motion<V>> {
+        let [sine, cosine, omega] = self.turns.load(at)?;
+        let [bend, bend_rate] = match self.joints {
+            true => self.bends.load(at)?,
+            false => [omega; 2],
+        };
+        Some(Motion {
+            sine,
+            cosine,
+            omega,
+            bend,
+            bend_rate,
+        })
+    }
+}
+
 /// Neighbours of one generation, on the way up or down.
-struct Level<'a, S, T, const C: usize> {
-    sweep: &'a mut S,
+struct Level<'a, T, const C: usize, const R: usize, const K: usize> {
     constants: [T; C],
-    leaf_constants: [T; C],
     copies: usize,
-    run: Run,
+    length: usize,
+    /// The length, or the number of a vector's lanes where that is more.
+    rows: usize,
+    /// The first copy of the first one's children, and how far the next copies are.
+    child: Place,
+    next_own: usize,
+    next_whole: usize,
+    own: Links<'a, T>,
+    answers: Columns<'a, T, R>,
+    kept: Columns<'a, T, K>,
+    alpha: Shared<'a, T>,
+    /// Of all links.
+    links: Links<'a, T>,
+    all_answers: Columns<'a, T, R>,
+    all_alpha: Shared<'a, T>,
+}
+
+impl<T: Scalar, const C: usize, const R: usize, const K: usize> Level<'_, T, C, R, K> {
+    /// The first link of a copy of the children.
+    #[inline(always)]
+    fn child(&self, copy: usize) -> Place {
+        Place {
+            own: self.child.own + copy * self.next_own,
+            slot: self.child.slot + copy * self.next_own,
+            whole: self.child.whole + copy * self.next_whole,
+        }
+    }
 }
 
 /// Links above leaves, and these, on the way up.
-struct Stems<'a, S, T, const C: usize>(Level<'a, S, T, C>);
+struct Stems<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    Level<'a, T, C, R, K>,
+    [T; C],
+    PhantomData<P>,
+);
 
 impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for Stems<'_, Typed<'_, P, T, C, L, R, K>, T, C>
+    for Stems<'_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
@@ -311,34 +393,32 @@ where
 {
     #[inline(always)]
     fn at(&mut self, index: usize) -> Option<()> {
-        let Level {
-            sweep,
-            run,
-            copies,
-            constants,
-            leaf_constants,
-        } = &mut self.0;
-        let leaf_constants = splat::<T, V, C>(leaf_constants);
-        let mut child = run.child.plus(index, index);
-        let mut below = P::leaf(&leaf_constants, sweep.motion(child.own)?);
-        for _ in 1..*copies {
-            child = child.plus(run.next_own, run.next_whole);
-            below = sum(below, P::leaf(&leaf_constants, sweep.motion(child.own)?));
+        let Self(level, leaf_constants, _) = self;
+        let constants = splat::<T, V, C>(leaf_constants);
+        let mut below = None;
+        for copy in 0..level.copies {
+            let leaves = level.links.window(level.child(copy).own, level.rows)?;
+            let answers = P::leaf(&constants, leaves.motion(index)?);
+            below = Some(match below {
+                Some(below) => sum(below, answers),
+                None => answers,
+            });
         }
-        let place = run.first.plus(index, index);
-        let constants = splat(constants);
-        let (answers, kept) = P::stem(&constants, sweep.motion(place.own)?, below);
-        sweep.answers.row_mut(place.slot)?.store(answers);
-        sweep.kept.row_mut(place.slot)?.store(kept);
-        Some(())
+        let constants = splat(&level.constants);
+        let (answers, kept) = P::stem(&constants, level.own.motion(index)?, below?);
+        level.answers.store(index, answers)?;
+        level.kept.store(index, kept)
     }
 }
 
 /// Links above inner links, on the way up.
-struct Inners<'a, S, T, const C: usize>(Level<'a, S, T, C>);
+struct Inners<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    Level<'a, T, C, R, K>,
+    PhantomData<P>,
+);
 
 impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for Inners<'_, Typed<'_, P, T, C, L, R, K>, T, C>
+    for Inners<'_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
@@ -346,33 +426,28 @@ where
 {
     #[inline(always)]
     fn at(&mut self, index: usize) -> Option<()> {
-        let Level {
-            sweep,
-            run,
-            copies,
-            constants,
-            ..
-        } = &mut self.0;
-        let mut child = run.child.slot + index;
-        let mut below: [V; R] = sweep.answers.row(child)?.load();
-        for _ in 1..*copies {
-            child += run.next_own;
-            below = sum(below, sweep.answers.row(child)?.load());
+        let Self(level, _) = self;
+        let child = |copy| level.all_answers.window(level.child(copy).slot, level.rows);
+        let mut below: [V; R] = child(0)?.load(index)?;
+        for copy in 1..level.copies {
+            below = sum(below, child(copy)?.load(index)?);
         }
-        let place = run.first.plus(index, index);
-        let constants = splat(constants);
-        let (answers, kept) = P::inner(&constants, sweep.motion(place.own)?, below);
-        sweep.answers.row_mut(place.slot)?.store(answers);
-        sweep.kept.row_mut(place.slot)?.store(kept);
-        Some(())
+        let constants = splat(&level.constants);
+        let (answers, kept) = P::inner(&constants, level.own.motion(index)?, below);
+        level.answers.store(index, answers)?;
+        level.kept.store(index, kept)
     }
 }
 
 /// Links above leaves, and these, on the way down.
-struct TurnStems<'a, S, T, const C: usize>(Level<'a, S, T, C>);
+struct TurnStems<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    Level<'a, T, C, R, K>,
+    [T; C],
+    PhantomData<P>,
+);
 
 impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for TurnStems<'_, Typed<'_, P, T, C, L, R, K>, T, C>
+    for TurnStems<'_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
@@ -380,35 +455,33 @@ where
 {
     #[inline(always)]
     fn at(&mut self, index: usize) -> Option<()> {
-        let Level {
-            sweep,
-            run,
-            copies,
-            constants,
-            leaf_constants,
-        } = &mut self.0;
-        let place = run.first.plus(index, index);
-        let kept = sweep.kept.row(place.slot)?.load();
-        let pivot = sweep.answers.row(place.slot)?.load();
-        let constants = splat::<T, V, C>(constants);
-        let (acceleration, below) = P::turn(&constants, sweep.motion(place.own)?, kept, pivot);
-        sweep.alpha.store(place.whole, acceleration, run.length);
-        let mut child = run.child.plus(index, index);
+        let Self(level, leaf_constants, _) = self;
+        let (kept, pivot) = (level.kept.load(index)?, level.answers.load(index)?);
+        let constants = splat::<T, V, C>(&level.constants);
+        let (acceleration, below) = P::turn(&constants, level.own.motion(index)?, kept, pivot);
+        let length = level.length;
+        level.alpha.store(index, acceleration, length);
         let constants = splat(leaf_constants);
-        for _ in 0..*copies {
-            let acceleration = P::turn_leaf(&constants, sweep.motion(child.own)?, below);
-            sweep.alpha.store(child.whole, acceleration, run.length);
-            child = child.plus(run.next_own, run.next_whole);
+        for copy in 0..level.copies {
+            let child = level.child(copy);
+            let leaves = level.links.window(child.own, level.rows)?;
+            let acceleration = P::turn_leaf(&constants, leaves.motion(index)?, below);
+            level
+                .all_alpha
+                .store(child.whole + index, acceleration, length);
         }
         Some(())
     }
 }
 
 /// Links above inner links, on the way down.
-struct TurnInners<'a, S, T, const C: usize>(Level<'a, S, T, C>);
+struct TurnInners<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    Level<'a, T, C, R, K>,
+    PhantomData<P>,
+);
 
 impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for TurnInners<'_, Typed<'_, P, T, C, L, R, K>, T, C>
+    for TurnInners<'_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
@@ -416,23 +489,15 @@ where
 {
     #[inline(always)]
     fn at(&mut self, index: usize) -> Option<()> {
-        let Level {
-            sweep,
-            run,
-            copies,
-            constants,
-            ..
-        } = &mut self.0;
-        let place = run.first.plus(index, index);
-        let kept = sweep.kept.row(place.slot)?.load();
-        let pivot = sweep.answers.row(place.slot)?.load();
-        let constants = splat::<T, V, C>(constants);
-        let (acceleration, below) = P::turn(&constants, sweep.motion(place.own)?, kept, pivot);
-        sweep.alpha.store(place.whole, acceleration, run.length);
-        let mut child = run.child.slot + index;
-        for _ in 0..*copies {
-            sweep.answers.row_mut(child)?.store(below);
-            child += run.next_own;
+        let Self(level, _) = self;
+        let (kept, pivot) = (level.kept.load(index)?, level.answers.load(index)?);
+        let constants = splat::<T, V, C>(&level.constants);
+        let (acceleration, below) = P::turn(&constants, level.own.motion(index)?, kept, pivot);
+        level.alpha.store(index, acceleration, level.length);
+        for copy in 0..level.copies {
+            let child = level.child(copy).slot;
+            let pivots = level.all_answers.window(child, level.rows)?;
+            pivots.store(index, below)?;
         }
         Some(())
     }

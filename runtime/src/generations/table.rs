@@ -254,7 +254,7 @@ where
         let (below, buffer) = buffer.split_at_mut(R * n);
         let kept = buffer.get_mut(..K * n).unwrap_or_default();
         let (theta, omega) = (self.theta, self.omega);
-        each::<T, W::Wide>(
+        let _ = each::<T, W::Wide>(
             n,
             &mut Turns {
                 theta,

@@ -19,49 +19,49 @@ impl<T: Scalar> SliceKernel<T> for Turns<'_, '_, T> {
             storage,
             ..
         } = self.0;
+        let turns = storage.turns;
         for (own, whole, length) in part.spans() {
-            let mut span = Span {
-                theta,
-                omega,
-                turns: &mut storage.turns,
-                own: storage.lead + own,
-                whole,
+            let span = Span {
+                theta: theta.get(whole..whole + length).unwrap_or_default(),
+                omega: omega.get(whole..whole + length).unwrap_or_default(),
+                turns: turns.window(storage.lead + own, length.max(W::Wide::LANES)),
                 ahead: part.ahead(),
             };
-            let _ = span.turn::<W::Wide>(length);
+            let _ = span.turn::<W::Wide>();
         }
     }
 }
 
-/// Neighbours, and where they stand.
-struct Span<'a, 'b, T> {
+/// Neighbours.
+struct Span<'a, T> {
     theta: &'a [T],
     omega: &'a [T],
-    turns: &'a mut Columns<'b, T, 3>,
-    own: usize,
-    whole: usize,
+    turns: Option<Columns<'a, T, 3>>,
+    /// How far the links are that come next.
     ahead: Option<usize>,
 }
 
-impl<T: Scalar> Span<'_, '_, T> {
+impl<T: Scalar> Span<'_, T> {
     /// Two vectors at a time, for while the result of one operation is awaited the
     /// other keeps the processor busy. The last ones overlap those before.
     #[inline(always)]
-    fn turn<V: Vector<T>>(&mut self, count: usize) -> Option<()> {
+    fn turn<V: Vector<T>>(self) -> Option<()> {
+        let (turns, count) = (self.turns?, self.theta.len());
         let last = count.saturating_sub(V::LANES);
         let mut index = 0;
         while index < count {
             let places = [index.min(last), (index + V::LANES).min(last)];
-            let whole = [self.whole + places[0], self.whole + places[1]];
-            let angles = [V::load(self.theta, whole[0]), V::load(self.theta, whole[1])];
+            let angles = [
+                V::load(self.theta, places[0]),
+                V::load(self.theta, places[1]),
+            ];
             let (sines, cosines) = V::sin_cos_each(&angles);
             for i in 0..2 {
-                let velocity = V::load(self.omega, whole[i]);
-                let mut row = self.turns.row_mut(self.own + places[i])?;
-                row.store([sines[i], cosines[i], velocity]);
+                let velocity = V::load(self.omega, places[i]);
+                turns.store(places[i], [sines[i], cosines[i], velocity])?;
                 if let Some(ahead) = self.ahead {
-                    prefetch(self.theta, whole[i] + ahead);
-                    prefetch(self.omega, whole[i] + ahead);
+                    prefetch(self.theta, places[i] + ahead);
+                    prefetch(self.omega, places[i] + ahead);
                 }
             }
             index += 2 * V::LANES;

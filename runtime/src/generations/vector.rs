@@ -177,7 +177,10 @@ impl<T: Lane, const N: usize> Vector<T> for Lanes<T, N> {
 
     #[inline(always)]
     fn repeat(self, count: usize) -> Self {
-        permuted(self, &const { words_repeated::<N, N>() }[count.clamp(1, N) - 1])
+        permuted(
+            self,
+            &const { words_repeated::<N, N>() }[count.clamp(1, N) - 1],
+        )
     }
 }
 
@@ -228,10 +231,12 @@ pub(super) trait Step<V> {
 /// result when it is taken twice. Fewer than a vector holds are one step, whose
 /// other lanes mean nothing.
 #[inline(always)]
-pub(super) fn each<T, V: Vector<T>>(count: usize, step: &mut impl Step<V>) {
+pub(super) fn each<T, V: Vector<T>>(count: usize, step: &mut impl Step<V>) -> Option<()> {
     let last = count.saturating_sub(V::LANES);
     let mut index = 0;
-    while index < count && step.at(index.min(last)).is_some() {
+    while index < count {
+        step.at(index.min(last))?;
         index += V::LANES;
     }
+    Some(())
 }

@@ -2,9 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::vector::{
-    SliceKernel, Vector, Vectors, last, words_behind, words_repeated,
-};
+use super::vector::{SliceKernel, Vector, Vectors, last, words_behind, words_repeated};
 use crate::scalar::dispatch::{RegisterKernel, run_in_registers};
 #[cfg(target_arch = "x86_64")]
 use crate::scalar::register::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
