@@ -82,9 +82,7 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
             // and `window`. `has` has seen that `LANES` from `at` on are among them.
             // The slice is borrowed mutably for as long as the views live, which are
             // all in one thread, and no other reference is there now.
-            let numbers = unsafe {
-                core::slice::from_raw_parts(self.start.add(i * self.stride + at), V::LANES)
-            };
+            vectors[i] = unsafe { V::read(self.start.add(i * self.stride + at)) };
         }
         Some(vectors)
     }
