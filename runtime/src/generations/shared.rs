@@ -51,12 +51,15 @@ impl<'a, T: Copy> Shared<'a, T> {
     /// are not so many; none where they do not fit. Of two threads that write at one
     /// time, each must write elsewhere: the parts of a tree have no link in common.
     #[inline(always)]
-    pub(super) fn store<V: Vector<T>>(&mut self, at: usize, vector: V, count: usize) {
-        let count = count.min(V::LANES);
-        if at <= self.length && count <= self.length - at {
-            // SAFETY: the elements lie in the slice, which is borrowed mutably for
-            // as long as this lives. No other thread writes there, and none reads
-            // before all are done.
+    pub(super) fn store<V: Vector<T>>(self, at: usize, vector: V, count: usize) {
+        // SAFETY, for both: the elements lie in the slice, which is borrowed mutably
+        // for as long as this lives. No other thread writes there, and none reads
+        // before all are done.
+        if count >= V::LANES {
+            if V::LANES <= self.length && at <= self.length - V::LANES {
+                unsafe { vector.write(self.start.add(at)) };
+            }
+        } else if at <= self.length && count <= self.length - at {
             let places = unsafe { core::slice::from_raw_parts_mut(self.start.add(at), count) };
             vector.store(places, 0);
         }
