@@ -52,7 +52,6 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::num::NonZeroUsize;
 
-pub use energy::EnergyConstants;
 #[doc(hidden)]
 pub use evaluate::Kernels;
 pub use name::LinkName;
@@ -92,20 +91,23 @@ where
     /// A tree with the constants of each generation, what its root takes from
     /// above, and the constants of the energies, none where these are not asked
     /// for.
+    ///
+    /// A row of `motion` is what the equations read. One of `energies` has, in SI
+    /// units, half of the mass, the first moment m d and half of the moment of
+    /// inertia I + m d² about the pivot, the distance ℓ of the children's pivots,
+    /// g h, and half of the stiffness of the torsion spring; h is the first moment
+    /// about the pivot of what hangs on it, the subtrees of the children as masses
+    /// in their pivots.
     #[must_use]
-    pub fn new(constants: &[[T; C]], root: [T; 2], energies: &[EnergyConstants<T>]) -> Self {
+    pub fn new(motion: Vec<[T; C]>, root: [T; 2], energies: &[[T; 6]]) -> Self {
+        let sizes = memory::Sizes {
+            answers: R,
+            kept: K,
+            joints: P::JOINTS,
+        };
+        let tree = T::loops().tree;
         Self {
-            tree: Tree::new(
-                P::COPIES,
-                memory::Sizes {
-                    answers: R,
-                    kept: K,
-                    joints: P::JOINTS,
-                },
-                constants.as_flattened().to_vec(),
-                root,
-                energies.to_vec(),
-            ),
+            tree: tree(P::COPIES, sizes, motion.into_flattened(), root, energies),
             recursion: PhantomData,
         }
     }

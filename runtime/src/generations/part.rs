@@ -114,6 +114,14 @@ impl Part<'_> {
         last.map_or(0, |last| last.slot + last.count.next_multiple_of(SLOTS))
     }
 
+    /// The last generation with children that fits a vector, if this is the top of
+    /// the tree: those above it go from one to the next in registers.
+    pub(super) fn crown(&self, lanes: usize) -> usize {
+        let inner = self.stages.iter().take(self.inner);
+        let narrow = inner.take_while(|stage| stage.count <= lanes).count();
+        narrow.saturating_sub(1)
+    }
+
     /// How far the links of the next part are, where this one is not the whole.
     #[inline(always)]
     pub(super) fn ahead(&self) -> Option<usize> {

@@ -88,7 +88,7 @@ where
     T: Scalar,
 {
     #[inline(always)]
-    fn run<W: Vectors<T>>(mut self) {
+    fn run<W: Vectors<T>>(self) {
         let _ = self.0.up::<W::Long>();
     }
 }
@@ -153,22 +153,6 @@ where
         })
     }
 
-    fn constants(&self, generation: usize) -> [T; C] {
-        match self.constants.get(generation) {
-            Some(row) => *row,
-            None => [T::from_f64(f64::NAN); C],
-        }
-    }
-
-    /// The last generation with children that fits a vector, if this is the top of
-    /// the tree: those above it go from one to the next in registers.
-    #[inline(always)]
-    fn crown<V: Vector<T>>(&self) -> usize {
-        let inner = self.part.stages.iter().take(self.part.inner);
-        let narrow = inner.take_while(|stage| stage.count <= V::LANES).count();
-        narrow.saturating_sub(1)
-    }
-
     /// What neighbours are computed from.
     #[inline(always)]
     fn level<V: Vector<T>>(&self, stage: usize, run: usize) -> Option<Level<'a, T, C, R, K>> {
@@ -203,7 +187,7 @@ where
     /// From the last generation to the first.
     #[inline(always)]
     fn up<V: Vector<T>>(&self) -> Option<()> {
-        let crown = self.crown::<V>();
+        let crown = self.part.crown(V::LANES);
         for stage in (crown..self.part.inner).rev() {
             for run in 0..self.part.stages.get(stage)?.runs {
                 let level = self.level::<V>(stage, run)?;
@@ -248,7 +232,7 @@ where
     /// the last.
     #[inline(always)]
     fn down<V: Vector<T>>(&mut self) -> Option<()> {
-        let crown = self.crown::<V>();
+        let crown = self.part.crown(V::LANES);
         self.crown_down::<V>(crown)?;
         for stage in crown..self.part.inner {
             for run in 0..self.part.stages.get(stage)?.runs {

@@ -64,8 +64,16 @@ fn by_depth(parents: &[u32]) -> Vec<u32> {
 /// to it and the `f64` nearest to the rest.
 #[must_use]
 pub fn rows<T: Scalar, const N: usize>(exact: &[[[f64; 2]; N]]) -> Vec<[T; N]> {
-    let row = |row: &[[f64; 2]; N]| row.map(|[high, low]| T::from_parts(high, low));
-    exact.iter().map(row).collect()
+    let mut rows = Vec::with_capacity(exact.len());
+    for exact in exact {
+        let mut row = [T::from_f64(0.0); N];
+        for i in 0..N {
+            let [high, low] = exact[i];
+            row[i] = T::from_parts(high, low);
+        }
+        rows.push(row);
+    }
+    rows
 }
 
 impl<P, T, const C: usize, const R: usize, const K: usize> Table<P, T, C, R, K>

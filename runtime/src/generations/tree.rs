@@ -26,29 +26,30 @@ pub struct Tree<T> {
     pool: Pool<T>,
 }
 
-impl<T> Tree<T> {
-    pub(super) fn new(
-        copies: &[usize],
-        sizes: Sizes,
-        constants: Vec<T>,
-        root: [T; 2],
-        energies: Vec<EnergyConstants<T>>,
-    ) -> Self {
-        let plan = Plan::new(copies);
-        let threads = threads::default(plan.links());
-        let layout = Layout::new::<T>(&plan, sizes);
-        Self {
-            threads,
-            room: layout.room::<T>(&plan, threads),
-            layout,
-            plan,
-            constants,
-            root,
-            energies,
-            pool: Pool::new(),
-        }
+/// A tree with rows of constants, those of the energies as in [`EnergyConstants`].
+fn tree<T: Scalar>(
+    copies: &[usize],
+    sizes: Sizes,
+    constants: Vec<T>,
+    root: [T; 2],
+    energies: &[[T; 6]],
+) -> Tree<T> {
+    let plan = Plan::new(copies);
+    let threads = threads::default(plan.links());
+    let layout = Layout::new::<T>(&plan, sizes);
+    Tree {
+        threads,
+        room: layout.room::<T>(&plan, threads),
+        layout,
+        plan,
+        constants,
+        root,
+        energies: energies.iter().map(EnergyConstants::of).collect(),
+        pool: Pool::new(),
     }
+}
 
+impl<T> Tree<T> {
     /// Room that is there is for another number of threads.
     pub(super) fn set_threads(&mut self, threads: usize) {
         self.threads = threads;
@@ -95,6 +96,7 @@ fn potential_energy<T: Scalar>(tree: &Tree<T>, theta: &[T]) -> T {
 /// are compiled with this crate, once, and not with every model.
 #[derive(Debug)]
 pub struct Loops<T: 'static> {
+    pub(super) tree: fn(&[usize], Sizes, Vec<T>, [T; 2], &[[T; 6]]) -> Tree<T>,
     pub(super) accelerations_into: fn(&Tree<T>, &Kernels<T>, &[T], &[T], &mut [T]),
     pub(super) kinetic_energy: fn(&Tree<T>, &[T], &[T]) -> T,
     pub(super) potential_energy: fn(&Tree<T>, &[T]) -> T,
@@ -104,6 +106,7 @@ impl<T: Scalar> Loops<T> {
     /// Those for `T`, compiled where this is called.
     pub(crate) const fn new() -> Self {
         Self {
+            tree,
             accelerations_into,
             kinetic_energy,
             potential_energy,
