@@ -44,7 +44,7 @@ pub(super) struct Layout {
 
 impl Layout {
     pub(super) fn new<T>(plan: &Plan, sizes: Sizes) -> Self {
-        let part = plan.cut.map(|cut| plan.window(cut, 0));
+        let part = plan.cut.map(|cut| plan.largest(cut));
         Self {
             top: Extent::new::<T>(&plan.top(), sizes),
             part: part.map(|part| Extent::new::<T>(&part, sizes)),
@@ -57,7 +57,7 @@ impl Layout {
         let parts = match (&self.part, plan.cut) {
             (Some(part), Some(cut)) => {
                 let each = plan.each(cut, threads);
-                let jobs = plan.count(cut).div_ceil(each);
+                let jobs = plan.jobs(cut, threads).count();
                 self.boundary::<T>(plan.count(cut)) + jobs * worker::<T>(plan, part, each)
             }
             _ => 0,
@@ -133,8 +133,7 @@ impl<T: Scalar> Evaluation<'_, T> {
     /// part's answers stand together.
     fn parts_up(&self, mut parts: Parts<'_, T>, mut answers: &mut [T]) {
         let count = self.tree.layout.sizes.answers;
-        for start in parts.links.clone().step_by(WIDTH) {
-            let part = self.tree.plan.window(parts.cut, start);
+        for part in self.tree.plan.windows(parts.cut, parts.links.clone()) {
             let (extent, alpha) = (parts.extent, parts.alpha);
             let mut sweep = self.sweep(part, extent, parts.memory(self.tree), alpha);
             self.up(&mut sweep);
@@ -149,8 +148,7 @@ impl<T: Scalar> Evaluation<'_, T> {
     /// kept of the way up, it is taken again: that takes less time than writing what
     /// is formed to memory and reading it back.
     fn parts_down(&self, mut parts: Parts<'_, T>, pivots: [&[T]; 2]) {
-        for start in parts.links.clone().step_by(WIDTH) {
-            let part = self.tree.plan.window(parts.cut, start);
+        for part in self.tree.plan.windows(parts.cut, parts.links.clone()) {
             let (extent, alpha) = (parts.extent, parts.alpha);
             let mut sweep = self.sweep(part, extent, parts.memory(self.tree), alpha);
             if !self.tree.plan.keeps {
@@ -158,7 +156,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             }
             for (column, all) in pivots.into_iter().enumerate() {
                 let own = sweep.storage.answers_mut(column, 0, part.width);
-                copy(own, all.get(start..).unwrap_or_default());
+                copy(own, all.get(part.start..).unwrap_or_default());
             }
             (self.kernels.down)(&mut sweep);
         }
@@ -196,13 +194,13 @@ fn jobs<'a, T>(
     alpha: Shared<'a, T>,
 ) -> impl Iterator<Item = Parts<'a, T>> {
     let plan = &tree.plan;
-    let (count, each) = (plan.count(cut), plan.each(cut, tree.threads));
-    (0..count).step_by(each).map(move |start| {
+    let each = plan.each(cut, tree.threads);
+    plan.jobs(cut, tree.threads).map(move |links| {
         let mut own = take(&mut buffer, worker::<T>(plan, extent, each));
         Parts {
             cut,
             extent,
-            links: start..(start + each).min(count),
+            links,
             lasting: take(&mut own, lasting(plan, extent, each)),
             passing: own,
             alpha,
@@ -258,8 +256,7 @@ pub(super) fn accelerations<T: Scalar>(
     let slot = plan.top().stages.last().map_or(0, |stage| stage.slot);
     let mut storage = layout.top.storage(&mut *kept, &mut *above);
     let mut rest = &*answers;
-    for start in (0..count).step_by(WIDTH) {
-        let width = WIDTH.min(count - start);
+    for Part { start, width, .. } in plan.windows(cut, 0..count) {
         for column in 0..layout.sizes.answers {
             let (own, others) = rest.split_at(width.min(rest.len()));
             rest = others;

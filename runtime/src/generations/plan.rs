@@ -2,7 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::part::{Part, Stage, stages};
+use core::ops::Range;
+
+use super::part::{Part, SLOTS, Stage, stages};
 
 /// Trees of up to so many links are computed in one piece: their numbers fit
 /// into the second cache.
@@ -25,7 +27,7 @@ pub(super) struct Plan {
     pub(super) cut: Option<usize>,
     /// Whether parts keep what is formed on the way up.
     pub(super) keeps: bool,
-    /// Those of a part, and of the last one, which may be narrower.
+    /// Those of a part, and of the last one, which has another width.
     part: Vec<Stage>,
     last: Vec<Stage>,
 }
@@ -61,7 +63,8 @@ impl Plan {
             keeps: start <= KEPT,
             part: parts.map_or_else(Vec::new, |(cut, count)| stages(cut, count.min(WIDTH))),
             last: parts.map_or_else(Vec::new, |(cut, count)| {
-                stages(cut, (count - 1) % WIDTH + 1)
+                let start = count.saturating_sub(SLOTS) / WIDTH * WIDTH;
+                stages(cut, count - start)
             }),
         }
     }
@@ -110,13 +113,27 @@ impl Plan {
         parts.div_ceil(threads.max(1)).max(1) * WIDTH
     }
 
-    /// The subtrees of the cut's links from `start` on.
-    pub(super) fn window(&self, cut: usize, start: usize) -> Part<'_> {
-        let width = WIDTH.min(self.count(cut) - start);
-        let stages = if width == WIDTH {
-            &self.part
-        } else {
-            &self.last
+    /// The parts of the subtrees of these links of the cut.
+    pub(super) fn windows(
+        &self,
+        cut: usize,
+        links: Range<usize>,
+    ) -> impl Iterator<Item = Part<'_>> {
+        let mut start = links.start;
+        core::iter::from_fn(move || {
+            let part = (start < links.end).then(|| self.window(cut, start))?;
+            start += part.width;
+            Some(part)
+        })
+    }
+
+    /// The one that starts with a link. The last one also takes links that would be
+    /// too few for a register.
+    fn window(&self, cut: usize, start: usize) -> Part<'_> {
+        let rest = self.count(cut) - start;
+        let (width, stages) = match rest < WIDTH + SLOTS {
+            true => (rest, &self.last),
+            false => (WIDTH, &self.part),
         };
         Part {
             stages,
@@ -126,5 +143,26 @@ impl Plan {
             start,
             width,
         }
+    }
+
+    /// The largest part.
+    pub(super) fn largest(&self, cut: usize) -> Part<'_> {
+        let (first, last) = (self.window(cut, 0), self.count(cut));
+        let last = self.window(cut, last.saturating_sub(SLOTS) / WIDTH * WIDTH);
+        if first.width < last.width {
+            last
+        } else {
+            first
+        }
+    }
+
+    /// The links of the cut that each of so many threads computes.
+    pub(super) fn jobs(&self, cut: usize, threads: usize) -> impl Iterator<Item = Range<usize>> {
+        let (count, each) = (self.count(cut), self.each(cut, threads));
+        let starts = (0..count.saturating_sub(SLOTS - 1).max(1)).step_by(each);
+        starts.map(move |start| match count - start < each + SLOTS {
+            true => start..count,
+            false => start..start + each,
+        })
     }
 }
