@@ -76,13 +76,13 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
             return None;
         }
         let mut vectors = [V::from_f64(0.0); M];
-        for i in 0..M {
+        for (i, vector) in vectors.iter_mut().enumerate() {
             // SAFETY: in the slice there are `N` columns, `stride` apart, of which
             // each has `rows` numbers from `start` on; by `new`, and kept by `from`
             // and `window`. `has` has seen that `LANES` from `at` on are among them.
             // The slice is borrowed mutably for as long as the views live, which are
             // all in one thread, and no other reference is there now.
-            vectors[i] = unsafe { V::read(self.start.add(i * self.stride + at)) };
+            *vector = unsafe { V::read(self.start.add(i * self.stride + at)) };
         }
         Some(vectors)
     }
@@ -99,9 +99,9 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         if !self.has::<V>(at) {
             return None;
         }
-        for i in 0..M {
+        for (i, vector) in vectors.into_iter().enumerate() {
             // SAFETY: as for `load`.
-            unsafe { vectors[i].write(self.start.add(i * self.stride + at)) };
+            unsafe { vector.write(self.start.add(i * self.stride + at)) };
         }
         Some(())
     }

@@ -16,8 +16,8 @@ use crate::scalar::Scalar;
 /// The ways through a part, compiled for one recursion.
 #[derive(Debug)]
 pub struct Kernels<T: 'static> {
-    up: fn(&mut Sweep<'_, T>),
-    down: fn(&mut Sweep<'_, T>),
+    pub(super) up: fn(&mut Sweep<'_, T>),
+    pub(super) down: fn(&mut Sweep<'_, T>),
 }
 
 impl<T: Scalar> Kernels<T> {

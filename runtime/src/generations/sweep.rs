@@ -486,3 +486,6 @@ where
         Some(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -92,12 +92,18 @@ fn potential_energy<T: Scalar>(tree: &Tree<T>, theta: &[T]) -> T {
     energy::potential(&tree.plan, &tree.energies, theta)
 }
 
+/// Makes a tree of its copies and constants.
+type Grow<T> = fn(&[usize], Sizes, Vec<T>, [T; 2], &[[T; 6]]) -> Tree<T>;
+
+/// Computes accelerations from angles and velocities.
+type Accelerate<T> = fn(&Tree<T>, &Kernels<T>, &[T], &[T], &mut [T]);
+
 /// What is done to a tree of any equations. For `f64` and `f32` these functions
 /// are compiled with this crate, once, and not with every model.
 #[derive(Debug)]
 pub struct Loops<T: 'static> {
-    pub(super) tree: fn(&[usize], Sizes, Vec<T>, [T; 2], &[[T; 6]]) -> Tree<T>,
-    pub(super) accelerations_into: fn(&Tree<T>, &Kernels<T>, &[T], &[T], &mut [T]),
+    pub(super) tree: Grow<T>,
+    pub(super) accelerations_into: Accelerate<T>,
     pub(super) kinetic_energy: fn(&Tree<T>, &[T], &[T]) -> T,
     pub(super) potential_energy: fn(&Tree<T>, &[T]) -> T,
 }

@@ -23,6 +23,13 @@ pub(crate) fn run<T: Lane, K: SliceKernel<T>>(kernel: K) {
     );
 }
 
+/// The same in the registers of one instruction set, or of the widest that there
+/// is.
+#[cfg(test)]
+pub(super) fn run_in<T: Lane, K: SliceKernel<T>>(set: InstructionSet, kernel: K) {
+    run_in_registers(set, InRegisters(kernel, PhantomData::<T>));
+}
+
 struct InRegisters<K, T>(K, PhantomData<T>);
 
 impl<T: Lane, K: SliceKernel<T>> RegisterKernel<T> for InRegisters<K, T> {
