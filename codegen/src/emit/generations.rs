@@ -71,34 +71,23 @@ impl Emission<'_> {
         quote!(#runtime::generations::Generations<#equations, T, #(#sizes),*>)
     }
 
-    /// `Self { … }`, the constants in place.
+    /// `Self { … }`, the constants in place: one row a generation.
     pub(super) fn generations_value(&self, constants: &Constants) -> TokenStream {
         let runtime = self.runtime();
-        let rows = constants.motion.iter().map(|row| {
-            let row = row.iter().map(|value| self.scalar(value));
-            quote!([#(#row),*])
-        });
+        let [motion, motion_value] = self.constant_rows("motion", &constants.motion);
+        let [energy, energy_value] = match self.scene.requests.energies {
+            true => self.constant_rows("energy", &constants.energy),
+            false => [TokenStream::new(), quote!([])],
+        };
         let root = self.scalar(&constants.root);
-        let energies = self.scene.requests.energies.then_some(&constants.energy);
-        let energies = energies.into_iter().flatten().map(|row| {
-            let names = [
-                "half_mass",
-                "moment",
-                "half_inertia",
-                "lever",
-                "gravity",
-                "half_spring",
-            ];
-            let names = names.map(|name| Ident::new(name, Span::call_site()));
-            let row = row.iter().map(|value| self.scalar(value));
-            quote!(#runtime::generations::EnergyConstants { #(#names: #row),* })
-        });
         quote! {
+            #motion
+            #energy
             Self {
                 generations: #runtime::generations::Generations::new(
-                    &[#(#rows),*],
+                    #motion_value,
                     [T::from_f64(0.0), #root],
-                    &[#(#energies),*],
+                    &#energy_value,
                 ),
             }
         }

@@ -82,7 +82,11 @@ impl Emission<'_> {
 
     /// A table of constants, and the vector of these in the model's scalar, in
     /// which values of parameters are put in place.
-    fn constant_rows<R: AsRef<[Quantity]>>(&self, name: &str, rows: &[R]) -> [TokenStream; 2] {
+    pub(super) fn constant_rows<R: AsRef<[Quantity]>>(
+        &self,
+        name: &str,
+        rows: &[R],
+    ) -> [TokenStream; 2] {
         let runtime = self.runtime();
         let constants = Ident::new(&name.to_uppercase(), Span::call_site());
         let name = Ident::new(name, Span::call_site());

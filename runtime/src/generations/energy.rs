@@ -6,20 +6,36 @@ use crate::scalar::Scalar;
 
 /// What the energies of a link are made of. SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EnergyConstants<T> {
+pub(super) struct EnergyConstants<T> {
     /// Half of the mass.
-    pub half_mass: T,
+    half_mass: T,
     /// First moment m d about the pivot.
-    pub moment: T,
+    moment: T,
     /// Half of the moment of inertia I + m d² about the pivot.
-    pub half_inertia: T,
+    half_inertia: T,
     /// Distance ℓ of the children's pivots.
-    pub lever: T,
+    lever: T,
     /// g h: h is the first moment about the link's pivot of what hangs on it,
     /// the subtrees of its children as masses in their pivots.
-    pub gravity: T,
+    gravity: T,
     /// Half of the stiffness of the torsion spring in the pivot.
-    pub half_spring: T,
+    half_spring: T,
+}
+
+impl<T: Copy> EnergyConstants<T> {
+    /// From a row, in their order.
+    pub(super) fn of(
+        &[half_mass, moment, half_inertia, lever, gravity, half_spring]: &[T; 6],
+    ) -> Self {
+        Self {
+            half_mass,
+            moment,
+            half_inertia,
+            lever,
+            gravity,
+            half_spring,
+        }
+    }
 }
 
 /// Sums, a few hundred terms at a time: the error of a long sum grows with its

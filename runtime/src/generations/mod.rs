@@ -27,18 +27,23 @@
 //! R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
 //! (articulated-body algorithm), in the plane; `docs/physics.md`, section 2.
 
+mod columns;
 mod energy;
 mod evaluate;
+mod memory;
 mod name;
 mod part;
 mod plan;
 mod pool;
+mod prefetch;
 mod recursion;
 mod shared;
 mod sweep;
 mod table;
 mod table_energy;
 mod threads;
+mod tree;
+mod turns;
 mod vector;
 pub(crate) mod vectors;
 
@@ -47,18 +52,19 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::num::NonZeroUsize;
 
-pub use energy::EnergyConstants;
+#[doc(hidden)]
+pub use evaluate::Kernels;
 pub use name::LinkName;
 pub use recursion::{Motion, Recursion};
 pub use table::{Table, rows};
+#[doc(hidden)]
+pub use tree::{Loops, Tree};
 #[doc(hidden)]
 pub use vector::{Single, SliceKernel, Vector, Vectors};
 #[doc(hidden)]
 pub use vectors::With;
 
 use crate::scalar::Scalar;
-use evaluate::{Given, accelerations, workspace};
-use plan::Plan;
 
 /// Trees of at least so many links are computed on all cores, unless
 /// [`Generations::set_threads`] says otherwise: below, threads cost more than
@@ -72,14 +78,7 @@ pub const THREADED: usize = 1 << 17;
 /// evaluations at the same time in other threads; nothing is allocated after
 /// that. (Without the feature `std` every evaluation allocates.)
 pub struct Generations<P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
-    plan: Plan,
-    constants: Vec<[T; C]>,
-    root: [T; 2],
-    energies: Vec<EnergyConstants<T>>,
-    threads: usize,
-    /// How many numbers an evaluation needs room for.
-    room: usize,
-    pool: pool::Pool<T>,
+    tree: Tree<T>,
     recursion: PhantomData<P>,
 }
 
@@ -92,18 +91,23 @@ where
     /// A tree with the constants of each generation, what its root takes from
     /// above, and the constants of the energies, none where these are not asked
     /// for.
+    ///
+    /// A row of `motion` is what the equations read. One of `energies` has, in SI
+    /// units, half of the mass, the first moment m d and half of the moment of
+    /// inertia I + m d² about the pivot, the distance ℓ of the children's pivots,
+    /// g h, and half of the stiffness of the torsion spring; h is the first moment
+    /// about the pivot of what hangs on it, the subtrees of the children as masses
+    /// in their pivots.
     #[must_use]
-    pub fn new(constants: &[[T; C]], root: [T; 2], energies: &[EnergyConstants<T>]) -> Self {
-        let plan = Plan::new(P::COPIES);
-        let threads = threads::default(P::LINKS);
+    pub fn new(motion: Vec<[T; C]>, root: [T; 2], energies: &[[T; 6]]) -> Self {
+        let sizes = memory::Sizes {
+            answers: R,
+            kept: K,
+            joints: P::JOINTS,
+        };
+        let tree = T::loops().tree;
         Self {
-            room: workspace::<T, R, K>(&plan, P::JOINTS, threads),
-            plan,
-            constants: constants.to_vec(),
-            root,
-            energies: energies.to_vec(),
-            threads,
-            pool: pool::Pool::new(),
+            tree: tree(P::COPIES, sizes, motion.into_flattened(), root, energies),
             recursion: PhantomData,
         }
     }
@@ -111,50 +115,27 @@ where
     /// Computes on so many threads, where the tree is large enough to be taken
     /// apart. Results do not depend on it.
     pub fn set_threads(&mut self, threads: NonZeroUsize) {
-        self.threads = threads.get();
-        self.room = workspace::<T, R, K>(&self.plan, P::JOINTS, self.threads);
-        self.pool = pool::Pool::new();
+        self.tree.set_threads(threads.get());
     }
 
     /// Writes the angular accelerations, as
     /// [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into).
     pub fn accelerations_into(&self, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        if [theta.len(), omega.len(), alpha.len()] != [P::LINKS; 3] {
-            alpha.fill(T::from_f64(f64::NAN));
-            return;
-        }
-        let given = Given {
-            plan: &self.plan,
-            constants: &self.constants,
-            root: self.root,
-            theta,
-            omega,
-        };
-        self.pool.lend(self.room, T::from_f64(0.0), |buffer| {
-            accelerations::<P, T, C, L, R, K>(&given, alpha, buffer, self.threads);
-        });
+        let kernels = Kernels::of::<P, C, L, R, K>();
+        (T::loops().accelerations_into)(&self.tree, &kernels, theta, omega, alpha);
     }
 
     /// Kinetic energy, J. NaN for slices of another length than there are links.
     #[must_use]
     pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
-        if [theta.len(), omega.len()] != [P::LINKS; 2] {
-            return T::from_f64(f64::NAN);
-        }
-        let room = energy::workspace(&self.plan);
-        self.pool.lend(room, T::from_f64(0.0), |buffer| {
-            energy::kinetic(&self.plan, &self.energies, theta, omega, buffer)
-        })
+        (T::loops().kinetic_energy)(&self.tree, theta, omega)
     }
 
     /// Potential energy, J, zero where every link hangs straight down. NaN for a
     /// slice of another length than there are links.
     #[must_use]
     pub fn potential_energy(&self, theta: &[T]) -> T {
-        if theta.len() != P::LINKS {
-            return T::from_f64(f64::NAN);
-        }
-        energy::potential(&self.plan, &self.energies, theta)
+        (T::loops().potential_energy)(&self.tree, theta)
     }
 }
 
@@ -230,24 +211,9 @@ impl<P, T: Clone, const C: usize, const L: usize, const R: usize, const K: usize
 {
     /// The copy has room of its own.
     fn clone(&self) -> Self {
-        let Self {
-            plan,
-            constants,
-            root,
-            energies,
-            threads,
-            room,
-            pool: _,
-            recursion,
-        } = self;
+        let Self { tree, recursion } = self;
         Self {
-            plan: plan.clone(),
-            constants: constants.clone(),
-            root: root.clone(),
-            energies: energies.clone(),
-            threads: *threads,
-            room: *room,
-            pool: pool::Pool::new(),
+            tree: tree.clone(),
             recursion: *recursion,
         }
     }
@@ -258,20 +224,7 @@ impl<P, T: PartialEq, const C: usize, const L: usize, const R: usize, const K: u
 {
     /// Whether they are the same tree, however it is computed.
     fn eq(&self, other: &Self) -> bool {
-        let Self {
-            plan,
-            constants,
-            root,
-            energies,
-            threads: _,
-            room: _,
-            pool: _,
-            recursion: _,
-        } = self;
-        *plan == other.plan
-            && *constants == other.constants
-            && *root == other.root
-            && *energies == other.energies
+        self.tree == other.tree
     }
 }
 
@@ -279,21 +232,12 @@ impl<P, T: fmt::Debug, const C: usize, const L: usize, const R: usize, const K: 
     for Generations<P, T, C, L, R, K>
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            plan: _,
-            constants,
-            root,
-            energies,
-            threads,
-            room: _,
-            pool: _,
-            recursion: _,
-        } = self;
+        let Self { tree, recursion: _ } = self;
         f.debug_struct("Generations")
-            .field("constants", constants)
-            .field("root", root)
-            .field("energies", energies)
-            .field("threads", threads)
+            .field("constants", &tree.constants)
+            .field("root", &tree.root)
+            .field("energies", &tree.energies)
+            .field("threads", &tree.threads)
             .finish_non_exhaustive()
     }
 }

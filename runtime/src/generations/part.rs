@@ -1,134 +1,160 @@
 //! Which links are computed together.
 
-/// The number of links of every generation, and where each one starts; last,
-/// where they end.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Shape<'a> {
-    pub(super) counts: &'a [usize],
-    pub(super) starts: &'a [usize],
+/// The neighbours of one generation in a part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stage {
+    /// Copies of this generation under each link of the one before.
+    pub(super) copies: usize,
+    /// How many links there are, and in the whole tree.
+    pub(super) count: usize,
+    pub(super) whole_count: usize,
+    /// Where the first one stands in the part's arrays of all links, and in those
+    /// of links with children.
+    pub(super) own: usize,
+    pub(super) slot: usize,
+    /// Where the generation starts in the whole tree.
+    pub(super) whole: usize,
+    /// There they are so many runs of neighbours of this length, ...
+    pub(super) runs: usize,
+    pub(super) length: usize,
+    /// ... so far apart.
+    pub(super) stride: usize,
+    /// Where the generation before starts in the whole tree; none for the root.
+    pub(super) above: Option<usize>,
 }
 
-impl Shape<'_> {
-    #[inline(always)]
-    pub(super) fn count(&self, generation: usize) -> usize {
-        self.counts.get(generation).copied().unwrap_or(0)
-    }
+/// In arrays of links with children, a generation starts where a register of any
+/// width would, and has room for a whole one.
+pub(super) const SLOTS: usize = 16;
 
-    pub(super) fn start(&self, generation: usize) -> usize {
-        self.starts.get(generation).copied().unwrap_or(0)
-    }
+/// The stages of `width` neighbours in the first of some generations, and of their
+/// children, copy by copy, and so on.
+///
+/// A part has arrays of its own, in which its links stand as if there were no
+/// others.
+pub(super) fn stages(
+    copies: &[usize],
+    starts: &[usize],
+    counts: &[usize],
+    first: usize,
+    width: usize,
+) -> impl Iterator<Item = Stage> {
+    let stride = counts.get(first).copied().unwrap_or(1).max(1);
+    let (mut own, mut slot) = (0, 0);
+    let rows = copies.iter().zip(starts).zip(counts).enumerate();
+    rows.skip(first)
+        .map(move |(generation, ((&copies, &whole), &whole_count))| {
+            let count = whole_count / stride * width;
+            let is_whole = width == stride;
+            let stage = Stage {
+                copies,
+                count,
+                whole_count,
+                own,
+                slot,
+                whole,
+                runs: if is_whole { 1 } else { count / width.max(1) },
+                length: if is_whole { count } else { width },
+                stride,
+                above: generation
+                    .checked_sub(1)
+                    .and_then(|above| starts.get(above).copied()),
+            };
+            own += count;
+            slot += count.next_multiple_of(SLOTS);
+            stage
+        })
 }
 
 /// Consecutive generations of the subtrees of neighbouring links.
-///
-/// A part has arrays of its own, in which its links stand as if there were no
-/// others: first `width` neighbours of the generation `first`, then their
-/// children, copy by copy, and so on. In every generation of the whole tree,
-/// they are runs of `width` neighbours, `stride` apart.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part<'a> {
-    pub(super) shape: Shape<'a>,
-    /// The generations from `first` to before `end`.
+    /// The generations, and where the last one's links have children, these.
+    pub(super) stages: &'a [Stage],
+    /// The first one's place among all.
     pub(super) first: usize,
-    pub(super) end: usize,
+    /// How many generations have children.
+    pub(super) inner: usize,
+    /// Whether there is one more, of leaves.
+    pub(super) has_leaves: bool,
     /// The first of the neighbours, counted in its generation.
     pub(super) start: usize,
     pub(super) width: usize,
 }
 
-/// Neighbours of a generation.
+/// Neighbours of a generation: where the first one stands.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
-    /// The first one in the part's own arrays.
+pub(super) struct Place {
+    /// In the part's own arrays of all links.
     pub(super) own: usize,
-    /// The first one in arrays of the whole tree.
+    /// In its arrays of links with children.
+    pub(super) slot: usize,
+    /// In arrays of the whole tree.
     pub(super) whole: usize,
-    /// How many there are.
-    pub(super) length: usize,
-    /// Their first copy of children, likewise, and how far the next copy is.
-    pub(super) child_own: usize,
-    pub(super) child_whole: usize,
-    pub(super) next_own: usize,
-    pub(super) next_whole: usize,
 }
 
 impl Part<'_> {
-    #[inline(always)]
-    fn stride(&self) -> usize {
-        self.shape.count(self.first).max(1)
+    /// The generations whose links are computed here.
+    pub(super) fn own_stages(&self) -> &[Stage] {
+        let count = self.inner + usize::from(self.has_leaves);
+        self.stages.get(..count).unwrap_or_default()
     }
 
-    #[inline(always)]
-    fn is_whole(&self) -> bool {
-        self.width == self.stride()
+    /// Number of links.
+    pub(super) fn links(&self) -> usize {
+        let last = self.own_stages().last();
+        last.map_or(0, |last| last.own + last.count)
     }
 
-    /// Of so many links of the whole tree, those of the part.
+    /// How many places links with children take, with those of children that are
+    /// not computed here.
+    pub(super) fn slots(&self) -> usize {
+        let count = self.stages.len() - usize::from(self.has_leaves);
+        let last = self.stages.get(..count).and_then(<[Stage]>::last);
+        last.map_or(0, |last| last.slot + last.count.next_multiple_of(SLOTS))
+    }
+
+    /// The last generation with children that fits a vector, if this is the top of
+    /// the tree: those above it go from one to the next in registers.
+    pub(super) fn crown(&self, lanes: usize) -> usize {
+        let inner = self.stages.iter().take(self.inner);
+        let narrow = inner.take_while(|stage| stage.count <= lanes).count();
+        narrow.saturating_sub(1)
+    }
+
+    /// How far the links of the next part are, where this one is not the whole.
     #[inline(always)]
-    fn share(&self, links: usize) -> usize {
-        match self.is_whole() {
-            true => links,
-            false => links / self.stride() * self.width,
+    pub(super) fn ahead(&self) -> Option<usize> {
+        let first = self.stages.first()?;
+        (first.stride != self.width).then_some(self.width)
+    }
+
+    /// Where the first link of a run stands.
+    #[inline(always)]
+    pub(super) fn place(&self, stage: &Stage, run: usize) -> Place {
+        let own = run * stage.length;
+        Place {
+            own: stage.own + own,
+            slot: stage.slot + own,
+            whole: stage.whole + self.start + run * stage.stride,
         }
     }
 
-    /// Number of the part's links in a generation.
-    #[inline]
-    pub(super) fn count(&self, generation: usize) -> usize {
-        self.share(self.shape.count(generation))
-    }
-
-    /// The first link of a generation in the part's own arrays; of the one
-    /// behind its last, their length.
+    /// All links in spans of neighbours: where one starts in the part's own arrays
+    /// and in the whole tree's, and how many there are. A whole tree is one.
     #[inline(always)]
-    pub(super) fn own(&self, generation: usize) -> usize {
-        self.share(
-            self.shape
-                .start(generation)
-                .saturating_sub(self.shape.start(self.first)),
-        )
-    }
-
-    /// Runs of neighbours in a generation, whose first link stands at `own`.
-    #[inline(always)]
-    pub(super) fn runs(&self, generation: usize, own: usize) -> impl Iterator<Item = Run> {
-        let count = self.count(generation);
-        let (length, runs) = match self.is_whole() {
-            true => (count, 1),
-            false => (self.width, count / self.width.max(1)),
+    pub(super) fn spans(&self) -> impl Iterator<Item = (usize, usize, usize)> {
+        let whole = self.ahead().is_none();
+        let stages = match whole {
+            true => self.stages.get(..1).unwrap_or_default(),
+            false => self.own_stages(),
         };
-        let (stride, start) = (self.stride(), self.start);
-        let whole = self.shape.start(generation);
-        let child = self.shape.start(generation + 1);
-        let next_whole = self.shape.count(generation);
-        (0..runs).map(move |run| Run {
-            own: own + run * length,
-            whole: whole + start + run * stride,
-            length,
-            child_own: own + count + run * length,
-            child_whole: child + start + run * stride,
-            next_own: count,
-            next_whole,
+        let links = self.links();
+        stages.iter().flat_map(move |stage| {
+            (0..stage.runs).map(move |run| {
+                let Place { own, whole: at, .. } = self.place(stage, run);
+                (own, at, if whole { links } else { stage.length })
+            })
         })
-    }
-
-    /// All links as runs. Those of a whole tree are neighbours.
-    #[inline(always)]
-    pub(super) fn all(&self) -> impl Iterator<Item = Run> {
-        let whole = self.is_whole().then(|| Run {
-            own: 0,
-            whole: self.shape.start(self.first),
-            length: self.own(self.end),
-            child_own: 0,
-            child_whole: 0,
-            next_own: 0,
-            next_whole: 0,
-        });
-        let parts = match whole {
-            Some(_) => self.end..self.end,
-            None => self.first..self.end,
-        };
-        let single = parts.flat_map(|generation| self.runs(generation, self.own(generation)));
-        whole.into_iter().chain(single)
     }
 }

@@ -2,7 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::part::{Part, Shape};
+use core::ops::Range;
+
+use super::part::{Part, SLOTS, Stage, stages};
 
 /// Trees of up to so many links are computed in one piece: their numbers fit
 /// into the second cache.
@@ -12,13 +14,22 @@ const WHOLE: usize = 8192;
 /// enough to be fetched ahead.
 pub(super) const WIDTH: usize = 256;
 
-/// The number of links of each generation, and where the tree is cut.
+/// Of so many links, what is formed on the way up is kept for the way down: it fits
+/// into the third cache.
+const KEPT: usize = 1 << 18;
+
+/// The generations of a tree, and where it is cut.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Plan {
-    counts: Vec<usize>,
-    starts: Vec<usize>,
+    /// Of the whole tree.
+    stages: Vec<Stage>,
     /// The generation in which the parts start; none where the tree is one.
     pub(super) cut: Option<usize>,
+    /// Whether parts keep what is formed on the way up.
+    pub(super) keeps: bool,
+    /// Those of a part, and of the last one, which has another width.
+    part: Vec<Stage>,
+    last: Vec<Stage>,
 }
 
 impl Plan {
@@ -33,65 +44,125 @@ impl Plan {
             starts.push(start);
             start += count;
         }
-        starts.push(start);
-        let mut plan = Self {
-            counts,
-            starts,
-            cut: None,
-        };
+        let mut cut = None;
         if start > WHOLE {
             // The longest subtrees that fit with their neighbours.
             let inner = 1..copies.len().saturating_sub(1);
             let fits = |&generation: &usize| {
-                let below: usize = plan.counts.iter().skip(generation).sum();
-                let count = plan.count(generation).max(1);
+                let below: usize = counts.iter().skip(generation).sum();
+                let count = counts[generation].max(1);
                 count >= WIDTH && (below / count).saturating_mul(WIDTH) <= WHOLE
             };
-            plan.cut = inner.clone().find(fits).or(inner.last());
+            cut = inner.clone().find(fits).or(inner.last());
         }
-        plan
+        let stages = |first, width| stages(copies, &starts, &counts, first, width).collect();
+        let parts = cut.map(|cut| (cut, counts[cut]));
+        Self {
+            stages: stages(0, 1),
+            cut,
+            keeps: start <= KEPT,
+            part: parts.map_or_else(Vec::new, |(cut, count)| stages(cut, count.min(WIDTH))),
+            last: parts.map_or_else(Vec::new, |(cut, count)| {
+                let start = count.saturating_sub(SLOTS) / WIDTH * WIDTH;
+                stages(cut, count - start)
+            }),
+        }
+    }
+
+    /// All of them.
+    pub(super) fn links(&self) -> usize {
+        self.start(self.generations())
     }
 
     pub(super) fn generations(&self) -> usize {
-        self.counts.len()
+        self.stages.len()
     }
 
     pub(super) fn count(&self, generation: usize) -> usize {
-        self.counts.get(generation).copied().unwrap_or(0)
+        let stage = self.stages.get(generation);
+        stage.map_or(0, |stage| stage.count)
     }
 
     /// The first link of a generation; of the one behind the last, the number of
     /// links.
     pub(super) fn start(&self, generation: usize) -> usize {
-        self.starts.get(generation).copied().unwrap_or(0)
-    }
-
-    fn shape(&self) -> Shape<'_> {
-        Shape {
-            counts: &self.counts,
-            starts: &self.starts,
+        match (self.stages.get(generation), self.stages.last()) {
+            (Some(stage), _) => stage.whole,
+            (None, Some(last)) => last.whole + last.count,
+            (None, None) => 0,
         }
     }
 
     /// The generations above the cut, or the whole tree.
     pub(super) fn top(&self) -> Part<'_> {
+        let leaf = self.stages.len().saturating_sub(1);
+        let inner = self.cut.unwrap_or(leaf);
         Part {
-            shape: self.shape(),
+            stages: self.stages.get(..=inner).unwrap_or_default(),
             first: 0,
-            end: self.cut.unwrap_or(self.generations()),
+            inner,
+            has_leaves: self.cut.is_none(),
             start: 0,
             width: 1,
         }
     }
 
-    /// The subtrees of the cut's links from `start` on.
-    pub(super) fn window(&self, cut: usize, start: usize) -> Part<'_> {
+    /// How many links of the cut one of so many threads computes.
+    pub(super) fn each(&self, cut: usize, threads: usize) -> usize {
+        let parts = self.count(cut).div_ceil(WIDTH);
+        parts.div_ceil(threads.max(1)).max(1) * WIDTH
+    }
+
+    /// The parts of the subtrees of these links of the cut.
+    pub(super) fn windows(
+        &self,
+        cut: usize,
+        links: Range<usize>,
+    ) -> impl Iterator<Item = Part<'_>> {
+        let mut start = links.start;
+        core::iter::from_fn(move || {
+            let part = (start < links.end).then(|| self.window(cut, start))?;
+            start += part.width;
+            Some(part)
+        })
+    }
+
+    /// The one that starts with a link. The last one also takes links that would be
+    /// too few for a register.
+    fn window(&self, cut: usize, start: usize) -> Part<'_> {
+        let rest = self.count(cut) - start;
+        let (width, stages) = match rest < WIDTH + SLOTS {
+            true => (rest, &self.last),
+            false => (WIDTH, &self.part),
+        };
         Part {
-            shape: self.shape(),
+            stages,
             first: cut,
-            end: self.generations(),
+            inner: stages.len().saturating_sub(1),
+            has_leaves: true,
             start,
-            width: WIDTH.min(self.count(cut) - start),
+            width,
         }
+    }
+
+    /// The largest part.
+    pub(super) fn largest(&self, cut: usize) -> Part<'_> {
+        let (first, last) = (self.window(cut, 0), self.count(cut));
+        let last = self.window(cut, last.saturating_sub(SLOTS) / WIDTH * WIDTH);
+        if first.width < last.width {
+            last
+        } else {
+            first
+        }
+    }
+
+    /// The links of the cut that each of so many threads computes.
+    pub(super) fn jobs(&self, cut: usize, threads: usize) -> impl Iterator<Item = Range<usize>> {
+        let (count, each) = (self.count(cut), self.each(cut, threads));
+        let starts = (0..count.saturating_sub(SLOTS - 1).max(1)).step_by(each);
+        starts.map(move |start| match count - start < each + SLOTS {
+            true => start..count,
+            false => start..start + each,
+        })
     }
 }

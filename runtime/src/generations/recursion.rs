@@ -9,8 +9,6 @@ pub struct Motion<V> {
     pub sine: V,
     /// cos θ.
     pub cosine: V,
-    /// θ, rad.
-    pub theta: V,
     /// ω, rad/s.
     pub omega: V,
     /// θ less the parent's angle, rad; θ for the root.

@@ -4,6 +4,8 @@
 
 use core::marker::PhantomData;
 
+use super::vector::Vector;
+
 /// A mutable slice whose elements are written from several places.
 #[derive(Debug)]
 pub(super) struct Shared<'a, T> {
@@ -20,7 +22,7 @@ impl<T> Clone for Shared<'_, T> {
 
 impl<T> Copy for Shared<'_, T> {}
 
-// SAFETY: it gives nothing but `write`, whose callers see to it that no element
+// SAFETY: it gives nothing but `store`, whose callers see to it that no element
 // is written from two threads.
 unsafe impl<T: Send> Send for Shared<'_, T> {}
 
@@ -33,18 +35,33 @@ impl<'a, T: Copy> Shared<'a, T> {
         }
     }
 
-    /// Writes `values` from `slice[at]` on; nothing where they do not fit. Of two
-    /// threads that write at one time, each must write elsewhere: the parts of a
-    /// tree have no link in common.
+    /// The numbers from `at` on.
     #[inline(always)]
-    pub(super) fn write(&mut self, at: usize, values: &[T]) {
-        if at <= self.length && values.len() <= self.length - at {
-            // SAFETY: the elements lie in the slice, which is borrowed mutably for
-            // as long as this lives; `values` is another one. No other thread
-            // writes there, and none reads before all are done.
-            unsafe {
-                core::ptr::copy_nonoverlapping(values.as_ptr(), self.start.add(at), values.len());
+    pub(super) fn from(self, at: usize) -> Option<Self> {
+        let length = self.length.checked_sub(at)?;
+        Some(Self {
+            // SAFETY: `at` elements lie behind the start.
+            start: unsafe { self.start.add(at) },
+            length,
+            ..self
+        })
+    }
+
+    /// Writes the first `count` numbers of a vector from `at` on, all where there
+    /// are not so many; none where they do not fit. Of two threads that write at one
+    /// time, each must write elsewhere: the parts of a tree have no link in common.
+    #[inline(always)]
+    pub(super) fn store<V: Vector<T>>(self, at: usize, vector: V, count: usize) {
+        // SAFETY, for both: the elements lie in the slice, which is borrowed mutably
+        // for as long as this lives. No other thread writes there, and none reads
+        // before all are done.
+        if count >= V::LANES {
+            if V::LANES <= self.length && at <= self.length - V::LANES {
+                unsafe { vector.write(self.start.add(at)) };
             }
+        } else if at <= self.length && count <= self.length - at {
+            let places = unsafe { core::slice::from_raw_parts_mut(self.start.add(at), count) };
+            vector.store(places, 0);
         }
     }
 }

@@ -2,264 +2,273 @@
 
 use core::marker::PhantomData;
 
-use super::part::{Part, Run};
+use super::columns::Columns;
+use super::memory::Storage;
+use super::part::{Part, Place};
 use super::recursion::{Motion, Recursion};
-use super::vector::{Step, Vector, Vectors, each};
+use super::shared::Shared;
+use super::vector::{SliceKernel, Step, Vector, Vectors, each};
 use crate::scalar::Scalar;
-
-/// Numbers of a part that are formed on the way up and read on the way down.
-/// Each array holds the part's links by generation.
-#[derive(Debug)]
-pub(super) struct Memory<'a, T, const R: usize, const K: usize> {
-    pub(super) sines: &'a mut [T],
-    pub(super) cosines: &'a mut [T],
-    /// Angles and velocities relative to the parents; empty where nothing acts
-    /// in joints.
-    pub(super) bends: &'a mut [T],
-    pub(super) bend_rates: &'a mut [T],
-    /// Answers of inner links on the way up; on the way down the first two hold
-    /// the accelerations of their pivots.
-    pub(super) answers: [&'a mut [T]; R],
-    pub(super) kept: [&'a mut [T]; K],
-}
-
-impl<T, const R: usize, const K: usize> Memory<'_, T, R, K> {
-    #[inline(always)]
-    pub(super) fn pivots_mut(&mut self) -> [&mut [T]; 2] {
-        const { assert!(R >= 2, "two numbers must have room") };
-        match &mut self.answers[..] {
-            [x, y, ..] => [x, y],
-            _ => [&mut [], &mut []],
-        }
-    }
-
-    #[inline(always)]
-    fn pivots<V: Vector<T>>(&self, own: usize) -> [V; 2] {
-        const { assert!(R >= 2, "two numbers must have room") };
-        [V::load(self.answers[0], own), V::load(self.answers[1], own)]
-    }
-}
 
 /// A part with its state.
 #[derive(Debug)]
-pub(super) struct Sweep<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
+pub(super) struct Sweep<'a, T> {
     pub(super) part: Part<'a>,
-    pub(super) constants: &'a [[T; C]],
+    /// Rows of all generations.
+    pub(super) constants: &'a [T],
     pub(super) theta: &'a [T],
     pub(super) omega: &'a [T],
-    pub(super) memory: Memory<'a, T, R, K>,
-    pub(super) recursion: PhantomData<P>,
+    pub(super) storage: Storage<'a, T>,
+    /// Acceleration of the root's pivot, where the root is in the part.
+    pub(super) root: Option<[T; 2]>,
+    pub(super) alpha: Shared<'a, T>,
 }
 
-impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize>
-    Sweep<'_, P, T, C, L, R, K>
+impl<T: Scalar> Sweep<'_, T> {
+    /// Angles and velocities relative to the parents.
+    pub(super) fn bend(&mut self) {
+        let part = self.part;
+        for stage in part.own_stages() {
+            let parents = stage.above.map(|start| {
+                let count = stage.whole_count / stage.copies.max(1);
+                (start, count.max(1))
+            });
+            for run in 0..stage.runs {
+                let place = part.place(stage, run);
+                for i in 0..stage.length {
+                    let index = place.whole + i;
+                    let (mut bend, mut rate) =
+                        (T::load(self.theta, index), T::load(self.omega, index));
+                    if let Some((start, count)) = parents {
+                        let parent = start + (index - stage.whole) % count;
+                        bend = bend - T::load(self.theta, parent);
+                        rate = rate - T::load(self.omega, parent);
+                    }
+                    let own = self.storage.lead + place.own + i;
+                    let _ = self.storage.bends.store(own, [bend, rate]);
+                }
+            }
+        }
+    }
+}
+
+/// From the leaves of a part to its first generation.
+pub(super) fn up<P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    sweep: &mut Sweep<'_, T>,
+) where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    if let Some(sweep) = Typed::<P, T, C, L, R, K>::of(sweep) {
+        T::over_slices(Up(sweep));
+    }
+}
+
+/// From the first generation of a part, the accelerations of whose pivots are in
+/// memory, to the leaves.
+pub(super) fn down<P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    sweep: &mut Sweep<'_, T>,
+) where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    if let Some(sweep) = Typed::<P, T, C, L, R, K>::of(sweep) {
+        T::over_slices(Down(sweep));
+    }
+}
+
+struct Up<S>(S);
+
+struct Down<S>(S);
+
+impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
+    for Up<Typed<'_, P, T, C, L, R, K>>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
-    fn constants(&self, generation: usize) -> [T; C] {
-        match self.constants.get(generation) {
-            Some(row) => *row,
-            None => [T::from_f64(f64::NAN); C],
-        }
-    }
-
-    /// Copies of children under a link of a generation.
-    fn copies(generation: usize) -> usize {
-        P::COPIES.get(generation + 1).copied().unwrap_or(0)
-    }
-
-    /// The generations of the part that have children.
-    fn inner(&self) -> core::ops::Range<usize> {
-        self.part.first..self.part.end.min(P::COPIES.len().saturating_sub(1))
-    }
-
-    /// Sines, cosines and relative motions.
     #[inline(always)]
-    pub(super) fn prepare<W: Vectors<T>>(&mut self) {
-        for run in self.part.all() {
-            each::<T, W>(
-                run.length,
-                &mut Turns {
-                    run,
-                    theta: self.theta,
-                    sines: self.memory.sines,
-                    cosines: self.memory.cosines,
-                },
-            );
-        }
-        if P::JOINTS {
-            self.bend();
-        }
+    fn run<W: Vectors<T>>(self) {
+        let _ = self.0.up::<W::Long>();
+    }
+}
+
+impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
+    for Down<Typed<'_, P, T, C, L, R, K>>
+where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    #[inline(always)]
+    fn run<W: Vectors<T>>(mut self) {
+        let _ = self.0.down::<W::Long>();
+    }
+}
+
+/// A sweep of a recursion.
+struct Typed<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
+    part: Part<'a>,
+    constants: &'a [[T; C]],
+    links: Links<'a, T>,
+    answers: Columns<'a, T, R>,
+    kept: Columns<'a, T, K>,
+    root: Option<[T; 2]>,
+    alpha: Shared<'a, T>,
+    recursion: PhantomData<P>,
+}
+
+impl<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>
+    Typed<'a, P, T, C, L, R, K>
+where
+    P: Recursion<C, L, R, K>,
+    T: Scalar,
+{
+    fn of(sweep: &'a mut Sweep<'_, T>) -> Option<Self> {
+        let Sweep {
+            part,
+            constants,
+            storage,
+            root,
+            alpha,
+            ..
+        } = sweep;
+        let lead = storage.lead;
+        let links = Links {
+            turns: storage.turns.from(lead)?,
+            bends: match P::JOINTS {
+                true => storage.bends.from(lead)?,
+                false => storage.bends,
+            },
+            joints: P::JOINTS,
+        };
+        Some(Self {
+            part: *part,
+            constants: constants.as_chunks().0,
+            links,
+            answers: Columns::new(storage.answers, storage.slots),
+            kept: Columns::new(storage.kept, storage.slots),
+            root: *root,
+            alpha: *alpha,
+            recursion: PhantomData,
+        })
     }
 
-    fn bend(&mut self) {
-        let mut own = 0;
-        for generation in self.part.first..self.part.end {
-            let above = generation.checked_sub(1);
-            let above = above.map(|g| (self.part.shape.start(g), self.part.shape.count(g)));
-            let first = self.part.shape.start(generation);
-            for run in self.part.runs(generation, own) {
-                for i in 0..run.length {
-                    let index = run.whole + i;
-                    let (mut bend, mut rate) =
-                        (T::load(self.theta, index), T::load(self.omega, index));
-                    if let Some((start, count)) = above {
-                        let parent = start + (index - first) % count.max(1);
-                        bend = bend - T::load(self.theta, parent);
-                        rate = rate - T::load(self.omega, parent);
-                    }
-                    bend.store(self.memory.bends, run.own + i);
-                    rate.store(self.memory.bend_rates, run.own + i);
-                }
-            }
-            own += self.part.count(generation);
-        }
+    /// What neighbours are computed from.
+    #[inline(always)]
+    fn level<V: Vector<T>>(&self, stage: usize, run: usize) -> Option<Level<'a, T, C, R, K>> {
+        let constants = *self.constants.get(self.part.first + stage)?;
+        let (stage, below) = (
+            self.part.stages.get(stage)?,
+            self.part.stages.get(stage + 1)?,
+        );
+        let (first, rows) = (self.part.place(stage, run), stage.length.max(V::LANES));
+        Some(Level {
+            constants,
+            copies: below.copies,
+            length: stage.length,
+            rows,
+            own: self.links.window(first.own, rows)?,
+            answers: self.answers.window(first.slot, rows)?,
+            kept: self.kept.window(first.slot, rows)?,
+            alpha: self.alpha.from(first.whole)?,
+            child: Place {
+                own: below.own + run * stage.length,
+                slot: below.slot + run * stage.length,
+                whole: below.whole + self.part.start + run * stage.stride,
+            },
+            next_own: stage.count,
+            next_whole: stage.whole_count,
+            links: self.links,
+            all_answers: self.answers,
+            all_alpha: self.alpha,
+        })
     }
 
     /// From the last generation to the first.
     #[inline(always)]
-    pub(super) fn up<W: Vectors<T>>(&mut self) {
-        let leaf = P::COPIES.len() - 1;
-        for generation in self.inner().rev() {
-            let own = self.part.own(generation);
-            let (constants, copies) = (self.constants(generation), Self::copies(generation));
-            if generation + 1 == leaf {
-                let leaf_constants = self.constants(leaf);
-                for run in self.part.runs(generation, own) {
-                    let step = &mut Stems::<P, T, C, L, R, K> {
-                        constants,
-                        leaf_constants,
-                        copies,
-                        run,
-                        theta: self.theta,
-                        omega: self.omega,
-                        memory: &mut self.memory,
-                        recursion: PhantomData,
-                    };
-                    each::<T, W>(run.length, step);
-                }
-            } else {
-                for run in self.part.runs(generation, own) {
-                    let step = &mut Inners::<P, T, C, L, R, K> {
-                        constants,
-                        copies,
-                        run,
-                        theta: self.theta,
-                        omega: self.omega,
-                        memory: &mut self.memory,
-                        recursion: PhantomData,
-                    };
-                    each::<T, W>(run.length, step);
-                }
-            }
-        }
-    }
-
-    /// From the first generation, whose pivots' accelerations are in memory, to
-    /// the last. `alpha` holds the part's links as memory does.
-    #[inline(always)]
-    pub(super) fn down<W: Vectors<T>>(&mut self, alpha: &mut [T]) {
-        let leaf = P::COPIES.len() - 1;
-        let mut own = 0;
-        for generation in self.inner() {
-            let (constants, copies) = (self.constants(generation), Self::copies(generation));
-            let stem = generation + 1 == leaf;
-            let leaf_constants = self.constants(leaf);
-            for run in self.part.runs(generation, own) {
-                if stem {
-                    let step = &mut TurnStems::<P, T, C, L, R, K> {
-                        constants,
-                        leaf_constants,
-                        copies,
-                        run,
-                        theta: self.theta,
-                        omega: self.omega,
-                        memory: &mut self.memory,
-                        alpha,
-                        recursion: PhantomData,
-                    };
-                    each::<T, W>(run.length, step);
+    fn up<V: Vector<T>>(&self) -> Option<()> {
+        let crown = self.part.crown(V::LANES);
+        for stage in (crown..self.part.inner).rev() {
+            for run in 0..self.part.stages.get(stage)?.runs {
+                let level = self.level::<V>(stage, run)?;
+                let length = level.length;
+                if self.part.has_leaves && stage + 1 == self.part.inner {
+                    let leaf_constants = *self.constants.last()?;
+                    let mut step = Stems::<P, T, C, L, R, K>(level, leaf_constants, PhantomData);
+                    each::<T, V>(length, &mut step)?;
                 } else {
-                    let step = &mut TurnInners::<P, T, C, L, R, K> {
-                        constants,
-                        copies,
-                        run,
-                        theta: self.theta,
-                        omega: self.omega,
-                        memory: &mut self.memory,
-                        alpha,
-                        recursion: PhantomData,
-                    };
-                    each::<T, W>(run.length, step);
+                    let mut step = Inners::<P, T, C, L, R, K>(level, PhantomData);
+                    each::<T, V>(length, &mut step)?;
                 }
             }
-            own += self.part.count(generation);
         }
+        self.crown_up::<V>(crown)
     }
-}
 
-/// Sines and cosines.
-struct Turns<'a, T> {
-    run: Run,
-    theta: &'a [T],
-    sines: &'a mut [T],
-    cosines: &'a mut [T],
-}
-
-impl<T: Scalar> Step<T> for Turns<'_, T> {
+    /// The generations above `crown`.
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let (sine, cosine) = V::load(self.theta, self.run.whole + index).sin_cos();
-        sine.store(self.sines, self.run.own + index);
-        cosine.store(self.cosines, self.run.own + index);
+    fn crown_up<V: Vector<T>>(&self, crown: usize) -> Option<()> {
+        let part = self.part;
+        let mut below = part.stages.get(crown)?;
+        let mut answers: [V; R] = self.answers.load(below.slot)?;
+        for generation in (0..crown).rev() {
+            let stage = part.stages.get(generation)?;
+            let mut sums = answers;
+            for copy in 1..below.copies {
+                for i in 0..R {
+                    sums[i] = sums[i] + answers[i].behind(copy * stage.count);
+                }
+            }
+            let constants = splat(self.constants.get(part.first + generation)?);
+            let kept;
+            (answers, kept) = P::inner(&constants, self.links.motion(stage.own)?, sums);
+            self.kept.store(stage.slot, kept)?;
+            below = stage;
+        }
+        self.answers.store(below.slot, answers)
     }
-}
 
-#[inline(always)]
-fn motion<T, V: Vector<T>, const R: usize, const K: usize>(
-    memory: &Memory<'_, T, R, K>,
-    theta: &[T],
-    omega: &[T],
-    own: usize,
-    whole: usize,
-) -> Motion<V> {
-    Motion {
-        sine: V::load(memory.sines, own),
-        cosine: V::load(memory.cosines, own),
-        theta: V::load(theta, whole),
-        omega: V::load(omega, whole),
-        bend: V::load(memory.bends, own),
-        bend_rate: V::load(memory.bend_rates, own),
+    /// From the first generation, the acceleration of whose pivots is in memory, to
+    /// the last.
+    #[inline(always)]
+    fn down<V: Vector<T>>(&mut self) -> Option<()> {
+        let crown = self.part.crown(V::LANES);
+        self.crown_down::<V>(crown)?;
+        for stage in crown..self.part.inner {
+            for run in 0..self.part.stages.get(stage)?.runs {
+                let level = self.level::<V>(stage, run)?;
+                let length = level.length;
+                if self.part.has_leaves && stage + 1 == self.part.inner {
+                    let constants = *self.constants.last()?;
+                    let mut step = TurnStems::<P, T, C, L, R, K>(level, constants, PhantomData);
+                    each::<T, V>(length, &mut step)?;
+                } else {
+                    let mut step = TurnInners::<P, T, C, L, R, K>(level, PhantomData);
+                    each::<T, V>(length, &mut step)?;
+                }
+            }
+        }
+        Some(())
     }
-}
 
-#[inline(always)]
-fn load_all<T, V: Vector<T>, const N: usize>(arrays: &[&mut [T]; N], at: usize) -> [V; N] {
-    let mut values = [V::from_f64(0.0); N];
-    for i in 0..N {
-        values[i] = V::load(arrays[i], at);
+    #[inline(always)]
+    fn crown_down<V: Vector<T>>(&mut self, crown: usize) -> Option<()> {
+        let part = self.part;
+        let mut pivot = match &self.root {
+            Some(root) => splat::<T, V, 2>(root),
+            None => self.answers.load(part.stages.first()?.slot)?,
+        };
+        for generation in 0..crown {
+            let stage = part.stages.get(generation)?;
+            let constants = splat(self.constants.get(part.first + generation)?);
+            let kept: [V; K] = self.kept.load(stage.slot)?;
+            let link = self.links.motion(stage.own)?;
+            let (acceleration, [x, y]) = P::turn(&constants, link, kept, pivot);
+            self.alpha.store(stage.whole, acceleration, stage.count);
+            pivot = [x.repeat(stage.count), y.repeat(stage.count)];
+        }
+        self.answers.store(part.stages.get(crown)?.slot, pivot)
     }
-    values
-}
-
-#[inline(always)]
-fn store_all<T, V: Vector<T>, const N: usize>(
-    values: [V; N],
-    arrays: &mut [&mut [T]; N],
-    at: usize,
-) {
-    for i in 0..N {
-        values[i].store(arrays[i], at);
-    }
-}
-
-#[inline(always)]
-fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
-    for i in 0..N {
-        a[i] = a[i] + b[i];
-    }
-    a
 }
 
 // Loops: `map` and `from_fn` are not always inlined, and must be.
@@ -272,153 +281,211 @@ pub(super) fn splat<T: Copy, V: Vector<T>, const N: usize>(numbers: &[T; N]) -> 
     values
 }
 
-/// Links above leaves, and these, on the way up.
-struct Stems<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
-    constants: [T; C],
-    leaf_constants: [T; C],
-    copies: usize,
-    run: Run,
-    theta: &'a [T],
-    omega: &'a [T],
-    memory: &'a mut Memory<'b, T, R, K>,
-    recursion: PhantomData<P>,
+#[inline(always)]
+fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
+    for i in 0..N {
+        a[i] = a[i] + b[i];
+    }
+    a
 }
 
-impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize>
-    Stems<'_, '_, P, T, C, L, R, K>
-where
-    P: Recursion<C, L, R, K>,
-{
+/// What is known of links before the recursion.
+#[derive(Clone, Copy)]
+struct Links<'a, T> {
+    turns: Columns<'a, T, 3>,
+    bends: Columns<'a, T, 2>,
+    joints: bool,
+}
+
+impl<T: Scalar> Links<'_, T> {
     #[inline(always)]
-    fn leaf<V: Vector<T>>(&self, copy: usize, index: usize) -> [V; L] {
-        let own = self.run.child_own + copy * self.run.next_own + index;
-        let whole = self.run.child_whole + copy * self.run.next_whole + index;
-        let link = motion(self.memory, self.theta, self.omega, own, whole);
-        P::leaf(&splat::<T, V, C>(&self.leaf_constants), link)
+    fn window(self, at: usize, rows: usize) -> Option<Self> {
+        let bends = match self.joints {
+            true => self.bends.window(at, rows)?,
+            false => self.bends,
+        };
+        Some(Self {
+            turns: self.turns.window(at, rows)?,
+            bends,
+            ..self
+        })
+    }
+
+    #[inline(always)]
+    fn motion<V: Vector<T>>(self, at: usize) -> Option<Motion<V>> {
+        let [sine, cosine, omega] = self.turns.load(at)?;
+        let [bend, bend_rate] = match self.joints {
+            true => self.bends.load(at)?,
+            false => [omega; 2],
+        };
+        Some(Motion {
+            sine,
+            cosine,
+            omega,
+            bend,
+            bend_rate,
+        })
     }
 }
 
-impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize> Step<T>
-    for Stems<'_, '_, P, T, C, L, R, K>
+/// Neighbours of one generation, on the way up or down.
+struct Level<'a, T, const C: usize, const R: usize, const K: usize> {
+    constants: [T; C],
+    copies: usize,
+    length: usize,
+    /// The length, or the number of a vector's lanes where that is more.
+    rows: usize,
+    /// The first copy of the first one's children, and how far the next copies are.
+    child: Place,
+    next_own: usize,
+    next_whole: usize,
+    own: Links<'a, T>,
+    answers: Columns<'a, T, R>,
+    kept: Columns<'a, T, K>,
+    alpha: Shared<'a, T>,
+    /// Of all links.
+    links: Links<'a, T>,
+    all_answers: Columns<'a, T, R>,
+    all_alpha: Shared<'a, T>,
+}
+
+impl<T: Scalar, const C: usize, const R: usize, const K: usize> Level<'_, T, C, R, K> {
+    /// The first link of a copy of the children.
+    #[inline(always)]
+    fn child(&self, copy: usize) -> Place {
+        Place {
+            own: self.child.own + copy * self.next_own,
+            slot: self.child.slot + copy * self.next_own,
+            whole: self.child.whole + copy * self.next_whole,
+        }
+    }
+}
+
+/// Links above leaves, and these, on the way up.
+struct Stems<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    Level<'a, T, C, R, K>,
+    [T; C],
+    PhantomData<P>,
+);
+
+impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
+    for Stems<'_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
+    T: Scalar,
+    V: Vector<T>,
 {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let run = self.run;
-        let mut below = self.leaf(0, index);
-        for copy in 1..self.copies {
-            below = sum(below, self.leaf(copy, index));
+    fn at(&mut self, index: usize) -> Option<()> {
+        let Self(level, leaf_constants, _) = self;
+        let constants = splat::<T, V, C>(leaf_constants);
+        let mut below = None;
+        for copy in 0..level.copies {
+            let leaves = level.links.window(level.child(copy).own, level.rows)?;
+            let answers = P::leaf(&constants, leaves.motion(index)?);
+            below = Some(match below {
+                Some(below) => sum(below, answers),
+                None => answers,
+            });
         }
-        let (own, whole) = (run.own + index, run.whole + index);
-        let link = motion(self.memory, self.theta, self.omega, own, whole);
-        let (answers, kept) = P::stem(&splat::<T, V, C>(&self.constants), link, below);
-        store_all(answers, &mut self.memory.answers, own);
-        store_all(kept, &mut self.memory.kept, own);
+        let constants = splat(&level.constants);
+        let (answers, kept) = P::stem(&constants, level.own.motion(index)?, below?);
+        level.answers.store(index, answers)?;
+        level.kept.store(index, kept)
     }
 }
 
 /// Links above inner links, on the way up.
-struct Inners<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
-    constants: [T; C],
-    copies: usize,
-    run: Run,
-    theta: &'a [T],
-    omega: &'a [T],
-    memory: &'a mut Memory<'b, T, R, K>,
-    recursion: PhantomData<P>,
-}
+struct Inners<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    Level<'a, T, C, R, K>,
+    PhantomData<P>,
+);
 
-impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize> Step<T>
-    for Inners<'_, '_, P, T, C, L, R, K>
+impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
+    for Inners<'_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
+    T: Scalar,
+    V: Vector<T>,
 {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let run = self.run;
-        let mut child = run.child_own + index;
-        let mut below = load_all(&self.memory.answers, child);
-        for _ in 1..self.copies {
-            child += run.next_own;
-            below = sum(below, load_all(&self.memory.answers, child));
+    fn at(&mut self, index: usize) -> Option<()> {
+        let Self(level, _) = self;
+        let child = |copy| level.all_answers.window(level.child(copy).slot, level.rows);
+        let mut below: [V; R] = child(0)?.load(index)?;
+        for copy in 1..level.copies {
+            below = sum(below, child(copy)?.load(index)?);
         }
-        let (own, whole) = (run.own + index, run.whole + index);
-        let link = motion(self.memory, self.theta, self.omega, own, whole);
-        let (answers, kept) = P::inner(&splat::<T, V, C>(&self.constants), link, below);
-        store_all(answers, &mut self.memory.answers, own);
-        store_all(kept, &mut self.memory.kept, own);
+        let constants = splat(&level.constants);
+        let (answers, kept) = P::inner(&constants, level.own.motion(index)?, below);
+        level.answers.store(index, answers)?;
+        level.kept.store(index, kept)
     }
 }
 
 /// Links above leaves, and these, on the way down.
-struct TurnStems<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
-    constants: [T; C],
-    leaf_constants: [T; C],
-    copies: usize,
-    run: Run,
-    theta: &'a [T],
-    omega: &'a [T],
-    memory: &'a mut Memory<'b, T, R, K>,
-    alpha: &'a mut [T],
-    recursion: PhantomData<P>,
-}
+struct TurnStems<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    Level<'a, T, C, R, K>,
+    [T; C],
+    PhantomData<P>,
+);
 
-impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize> Step<T>
-    for TurnStems<'_, '_, P, T, C, L, R, K>
+impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
+    for TurnStems<'_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
+    T: Scalar,
+    V: Vector<T>,
 {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let run = self.run;
-        let (own, whole) = (run.own + index, run.whole + index);
-        let link = motion(self.memory, self.theta, self.omega, own, whole);
-        let kept: [V; K] = load_all(&self.memory.kept, own);
-        let pivot = self.memory.pivots(own);
-        let (acceleration, below) = P::turn(&splat::<T, V, C>(&self.constants), link, kept, pivot);
-        acceleration.store(self.alpha, own);
-        let constants = splat::<T, V, C>(&self.leaf_constants);
-        for copy in 0..self.copies {
-            let own = run.child_own + copy * run.next_own + index;
-            let whole = run.child_whole + copy * run.next_whole + index;
-            let link = motion(self.memory, self.theta, self.omega, own, whole);
-            P::turn_leaf(&constants, link, below).store(self.alpha, own);
+    fn at(&mut self, index: usize) -> Option<()> {
+        let Self(level, leaf_constants, _) = self;
+        let (kept, pivot) = (level.kept.load(index)?, level.answers.load(index)?);
+        let constants = splat::<T, V, C>(&level.constants);
+        let (acceleration, below) = P::turn(&constants, level.own.motion(index)?, kept, pivot);
+        let length = level.length;
+        level.alpha.store(index, acceleration, length);
+        let constants = splat(leaf_constants);
+        for copy in 0..level.copies {
+            let child = level.child(copy);
+            let leaves = level.links.window(child.own, level.rows)?;
+            let acceleration = P::turn_leaf(&constants, leaves.motion(index)?, below);
+            level
+                .all_alpha
+                .store(child.whole + index, acceleration, length);
         }
+        Some(())
     }
 }
 
 /// Links above inner links, on the way down.
-struct TurnInners<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize> {
-    constants: [T; C],
-    copies: usize,
-    run: Run,
-    theta: &'a [T],
-    omega: &'a [T],
-    memory: &'a mut Memory<'b, T, R, K>,
-    alpha: &'a mut [T],
-    recursion: PhantomData<P>,
-}
+struct TurnInners<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    Level<'a, T, C, R, K>,
+    PhantomData<P>,
+);
 
-impl<P, T: Scalar, const C: usize, const L: usize, const R: usize, const K: usize> Step<T>
-    for TurnInners<'_, '_, P, T, C, L, R, K>
+impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
+    for TurnInners<'_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
+    T: Scalar,
+    V: Vector<T>,
 {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
-        let run = self.run;
-        let (own, whole) = (run.own + index, run.whole + index);
-        let link = motion(self.memory, self.theta, self.omega, own, whole);
-        let kept: [V; K] = load_all(&self.memory.kept, own);
-        let pivot = self.memory.pivots(own);
-        let (acceleration, below) = P::turn(&splat::<T, V, C>(&self.constants), link, kept, pivot);
-        acceleration.store(self.alpha, own);
-        for copy in 0..self.copies {
-            let own = run.child_own + copy * run.next_own + index;
-            let [x, y] = self.memory.pivots_mut();
-            below[0].store(x, own);
-            below[1].store(y, own);
+    fn at(&mut self, index: usize) -> Option<()> {
+        let Self(level, _) = self;
+        let (kept, pivot) = (level.kept.load(index)?, level.answers.load(index)?);
+        let constants = splat::<T, V, C>(&level.constants);
+        let (acceleration, below) = P::turn(&constants, level.own.motion(index)?, kept, pivot);
+        level.alpha.store(index, acceleration, level.length);
+        for copy in 0..level.copies {
+            let child = level.child(copy).slot;
+            let pivots = level.all_answers.window(child, level.rows)?;
+            pivots.store(index, below)?;
         }
+        Some(())
     }
 }
+
+#[cfg(test)]
+mod tests;

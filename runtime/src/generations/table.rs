@@ -64,8 +64,16 @@ fn by_depth(parents: &[u32]) -> Vec<u32> {
 /// to it and the `f64` nearest to the rest.
 #[must_use]
 pub fn rows<T: Scalar, const N: usize>(exact: &[[[f64; 2]; N]]) -> Vec<[T; N]> {
-    let row = |row: &[[f64; 2]; N]| row.map(|[high, low]| T::from_parts(high, low));
-    exact.iter().map(row).collect()
+    let mut rows = Vec::with_capacity(exact.len());
+    for exact in exact {
+        let mut row = [T::from_f64(0.0); N];
+        for i in 0..N {
+            let [high, low] = exact[i];
+            row[i] = T::from_parts(high, low);
+        }
+        rows.push(row);
+    }
+    rows
 }
 
 impl<P, T, const C: usize, const R: usize, const K: usize> Table<P, T, C, R, K>
@@ -170,12 +178,13 @@ struct Turns<'a, T> {
     cosines: &'a mut [T],
 }
 
-impl<T: Scalar> Step<T> for Turns<'_, T> {
+impl<T: Scalar, V: Vector<T>> Step<V> for Turns<'_, T> {
     #[inline(always)]
-    fn at<V: Vector<T>>(&mut self, index: usize) {
+    fn at(&mut self, index: usize) -> Option<()> {
         let (sine, cosine) = V::load(self.theta, index).sin_cos();
         sine.store(self.sines, index);
         cosine.store(self.cosines, index);
+        Some(())
     }
 }
 
@@ -212,7 +221,6 @@ impl<T: Scalar> State<'_, T> {
         Motion {
             sine: V::load(self.sines, link),
             cosine: V::load(self.cosines, link),
-            theta,
             omega,
             bend,
             bend_rate,
@@ -254,7 +262,7 @@ where
         let (below, buffer) = buffer.split_at_mut(R * n);
         let kept = buffer.get_mut(..K * n).unwrap_or_default();
         let (theta, omega) = (self.theta, self.omega);
-        each::<T, W>(
+        let _ = each::<T, W::Wide>(
             n,
             &mut Turns {
                 theta,

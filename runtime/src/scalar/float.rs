@@ -6,7 +6,7 @@ use super::lanes::{Lane, Sealed};
 #[cfg(target_arch = "x86_64")]
 use super::register;
 use super::{Real, Scalar, sincos};
-use crate::generations::{SliceKernel, vectors};
+use crate::generations::{Loops, SliceKernel, vectors};
 use crate::system::rescale::{self, Rescale};
 use crate::taylor::{Kernel, run_f64};
 
@@ -42,6 +42,12 @@ macro_rules! implement_scalar {
             #[inline]
             fn over_slices<K: SliceKernel<Self>>(kernel: K) {
                 vectors::run(kernel);
+            }
+
+            // Compiled here, not where it is called.
+            #[inline(never)]
+            fn loops() -> Loops<Self> {
+                Loops::new()
             }
 
             #[inline(always)]

@@ -58,7 +58,7 @@ pub use wide::Double;
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-use crate::generations::{Single, SliceKernel};
+use crate::generations::{Loops, Single, SliceKernel};
 use crate::model::Part;
 use crate::system::rescale::{self, Rescale};
 use crate::taylor::{Kernel, Quad};
@@ -165,6 +165,13 @@ pub trait Scalar:
     #[inline]
     fn over_slices<K: SliceKernel<Self>>(kernel: K) {
         kernel.run::<Single>();
+    }
+
+    /// What large trees do whatever their equations are.
+    #[doc(hidden)]
+    #[inline]
+    fn loops() -> Loops<Self> {
+        Loops::new()
     }
 
     /// `self * factor + addend`, fused where the type says so: rounded once then,

@@ -277,6 +277,40 @@ fn any_number_of_threads_gives_the_same_bits() {
     threads_agree(&mut Odd::<f64>::new(), Odd::set_threads);
 }
 
+/// Parts of 256 links leave one over; and one number at a time is another way
+/// through registers.
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 3, branching = 257, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.01, length_ratio = 0.7, friction = 1e-5),
+)]
+struct Broad;
+
+#[test]
+fn links_left_over_are_computed_like_the_others() {
+    threads_agree(&mut Broad::<f64>::new(), Broad::set_threads);
+    let n = <Broad as Pendulum<f64>>::LINKS;
+    let mut random = Random::new(13);
+    let (theta, omega) = (random.around_zero(n, 3.0), random.around_zero(n, 2.0));
+    let mut alpha = vec![0.0; n];
+    Broad::<f64>::new().accelerations_into(0.0, &theta, &omega, &mut alpha);
+    let wide = |numbers: &[f64]| -> Vec<Double> {
+        let numbers = numbers.iter();
+        numbers.map(|&number| Double::from_f64(number)).collect()
+    };
+    let mut doubles = wide(&alpha);
+    Broad::<Double>::default().accelerations_into(
+        Double::from_f64(0.0),
+        &wide(&theta),
+        &wide(&omega),
+        &mut doubles,
+    );
+    let largest = alpha.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+    for (alpha, double) in alpha.iter().zip(&doubles) {
+        assert!((alpha - double.to_f64()).abs() < 1e-10 * largest);
+    }
+}
+
 /// 2²⁰ − 1 links.
 #[branched_pendulum(
     gravity = 9.80665,

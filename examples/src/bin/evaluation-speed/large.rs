@@ -38,6 +38,27 @@ tree!(Loops16383, 14);
 tree!(Loops131071, 17);
 tree!(Loops1048575, 20);
 
+/// Irregular trees: a rod with several full trees of rods under it.
+macro_rules! bush {
+    ($name:ident, $trees:ident: $($tree:ident $generations:literal $branching:literal),*) => {
+        #[branched_pendulum(
+            gravity = 9.80665,
+            code = loops,
+            trunk: rod(mass = 0.12, length = 0.3) [
+                $($tree: generations(count = $generations, branching = $branching, shape = rod,
+                    mass = 0.12, length = 0.3, mass_ratio = 0.5, length_ratio = 0.7)),*
+            ]
+        )]
+        pub struct $name;
+
+        /// Generations and branching of the trees.
+        pub const $trees: &[[usize; 2]] = &[$([$generations, $branching]),*];
+    };
+}
+
+bush!(Bush127, BUSH_127: a 6 2, b 4 3, c 2 1, d 3 4);
+bush!(Bush500, BUSH_500: a 8 2, b 5 3, c 4 4, d 38 1);
+
 /// Writes accelerations of angles and velocities.
 type Evaluate<'a> = dyn FnMut(&[f64], &[f64], &mut [f64]) + 'a;
 
@@ -80,49 +101,110 @@ fn row<P: Pendulum<f64>>(
     set_threads: impl Fn(&mut P, NonZeroUsize),
     generations: usize,
 ) -> Row {
-    let links = P::LINKS;
-    let states = (NUMBERS / links).max(1);
-    let theta = random(1, links, states, std::f64::consts::PI).by_state;
-    let omega = random(2, links, states, 9.0).by_state;
-    let mut alpha = vec![vec![0.0; links]; states];
-    let mut best = |evaluate: &mut Evaluate| {
-        let passes = (3_000_000 / (links * states)).clamp(15, 400);
+    let mut states = States::new(P::LINKS);
+    let sines = states.sines();
+    let mut threads = |count: NonZeroUsize| {
+        set_threads(&mut model, count);
+        states.best(&mut |theta, omega, alpha| model.accelerations_into(0.0, theta, omega, alpha))
+    };
+    let one = threads(NonZeroUsize::MIN);
+    let two = threads(NonZeroUsize::MIN.saturating_add(1));
+    Row {
+        links: P::LINKS,
+        sines,
+        one,
+        two,
+        articulated: states.articulated(&table::tree(generations)),
+    }
+}
+
+/// Least times for one link of an irregular tree, ns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Irregular {
+    /// Number of links.
+    pub links: usize,
+    /// The system's sine and cosine of its angle.
+    pub sines: f64,
+    /// The loop over a table.
+    pub looped: f64,
+    /// The recursion over a table.
+    pub articulated: f64,
+}
+
+/// Measures the irregular trees.
+#[must_use]
+pub fn irregular() -> Vec<Irregular> {
+    vec![
+        bush(&Bush127::<f64>::new(), BUSH_127),
+        bush(&Bush500::<f64>::new(), BUSH_500),
+    ]
+}
+
+fn bush<P: Pendulum<f64>>(model: &P, trees: &[[usize; 2]]) -> Irregular {
+    let mut states = States::new(P::LINKS);
+    Irregular {
+        links: P::LINKS,
+        sines: states.sines(),
+        looped: states
+            .best(&mut |theta, omega, alpha| model.accelerations_into(0.0, theta, omega, alpha)),
+        articulated: states.articulated(&table::bush(trees)),
+    }
+}
+
+/// What is measured with: some states of a tree.
+struct States {
+    theta: Vec<Vec<f64>>,
+    omega: Vec<Vec<f64>>,
+    alpha: Vec<Vec<f64>>,
+}
+
+impl States {
+    fn new(links: usize) -> Self {
+        let states = (NUMBERS / links).max(1);
+        Self {
+            theta: random(1, links, states, std::f64::consts::PI).by_state,
+            omega: random(2, links, states, 9.0).by_state,
+            alpha: vec![vec![0.0; links]; states],
+        }
+    }
+
+    fn best(&mut self, evaluate: &mut Evaluate) -> f64 {
+        let Self {
+            theta,
+            omega,
+            alpha,
+        } = self;
+        let numbers: usize = alpha.iter().map(Vec::len).sum();
+        let passes = (3_000_000 / numbers).clamp(15, 400);
         let mut least = f64::INFINITY;
         for _ in 0..passes {
             let start = Instant::now();
-            for ((theta, omega), alpha) in theta.iter().zip(&omega).zip(&mut alpha) {
+            for ((theta, omega), alpha) in theta.iter().zip(&*omega).zip(&mut *alpha) {
                 evaluate(black_box(theta), black_box(omega), black_box(alpha));
             }
             least = least.min(start.elapsed().as_secs_f64());
         }
-        least * 1e9 / (links * states) as f64
-    };
-    let sines = best(&mut |theta, _, alpha| {
-        for (alpha, theta) in alpha.iter_mut().zip(theta) {
-            let (sine, cosine) = f64::sin_cos(*theta);
-            *alpha = sine + cosine;
-        }
-    });
-    let mut threads = |count: NonZeroUsize| {
-        set_threads(&mut model, count);
-        best(&mut |theta, omega, alpha| model.accelerations_into(0.0, theta, omega, alpha))
-    };
-    let one = threads(NonZeroUsize::MIN);
-    let two = threads(NonZeroUsize::MIN.saturating_add(1));
-    let mut recursion = Articulated::new(&table::tree(generations));
-    let articulated = best(&mut |theta, omega, alpha| recursion.accelerations(theta, omega, alpha));
-    Row {
-        links,
-        sines,
-        one,
-        two,
-        articulated,
+        least * 1e9 / numbers as f64
+    }
+
+    fn sines(&mut self) -> f64 {
+        self.best(&mut |theta, _, alpha| {
+            for (alpha, theta) in alpha.iter_mut().zip(theta) {
+                let (sine, cosine) = f64::sin_cos(*theta);
+                *alpha = sine + cosine;
+            }
+        })
+    }
+
+    fn articulated(&mut self, links: &[table::Link]) -> f64 {
+        let mut recursion = Articulated::new(links);
+        self.best(&mut |theta, omega, alpha| recursion.accelerations(theta, omega, alpha))
     }
 }
 
-/// The table that the program prints.
+/// The tables that the program prints.
 #[must_use]
-pub fn table(rows: &[Row]) -> String {
+pub fn tables(rows: &[Row], irregular: &[Irregular]) -> String {
     let mut text = "Large trees in loops: least time for one link, ns.\n\n".to_owned();
     let _ = writeln!(
         text,
@@ -140,6 +222,24 @@ pub fn table(rows: &[Row]) -> String {
         let _ = writeln!(
             text,
             "{links:>9} {sines:>14.2} {one:>14.2} {two:>14.2} {articulated:>14.2}"
+        );
+    }
+    text.push_str("\nIrregular trees in a table, likewise.\n\n");
+    let _ = writeln!(
+        text,
+        "{:>9} {:>14} {:>14} {:>14}",
+        "links", "sines of std", "table", "articulated"
+    );
+    for row in irregular {
+        let &Irregular {
+            links,
+            sines,
+            looped,
+            articulated,
+        } = row;
+        let _ = writeln!(
+            text,
+            "{links:>9} {sines:>14.2} {looped:>14.2} {articulated:>14.2}"
         );
     }
     text

@@ -26,7 +26,7 @@ What do the accelerations of one state cost, in emitted code one by one and in
 batches, against the system's sines and cosines alone, code written by hand for
 the paper's pendulum, a recursion that takes any tree as a table, and the
 textbook's dense matrix? How far is each from the truth? And what do large trees
-cost, in loops, by the number of threads?
+cost, in loops, by the number of threads, and irregular ones?
 
 Usage: evaluation-speed [--output FOLDER]
 
@@ -58,7 +58,7 @@ fn main() -> ExitCode {
     let rows = measure::all(REPEATS);
     println!("{}", output::table(&rows));
     println!("{}", output::errors(&accuracy::all(STATES)));
-    print!("{}", large::table(&large::all()));
+    print!("{}", large::tables(&large::all(), &large::irregular()));
     exit::of_run(
         "evaluation-speed",
         match folder {

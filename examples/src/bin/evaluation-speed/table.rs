@@ -52,14 +52,26 @@ pub fn paper<T: Scalar>() -> Vec<Link<T>> {
 pub fn tree<T: Scalar>(generations: usize) -> Vec<Link<T>> {
     let mut links = Vec::new();
     let sizes = [decimal(12.0, 1e2), decimal(3.0, 1e1), T::from_f64(0.0)];
-    grow(&mut links, None, generations, sizes);
+    grow(&mut links, None, [generations, 2], sizes);
+    links
+}
+
+/// A rod of the same size with full trees under it, each of so many generations
+/// and so many children under each link; in the order of the emitted code.
+#[must_use]
+pub fn bush(trees: &[[usize; 2]]) -> Vec<Link> {
+    let mut links = Vec::new();
+    grow(&mut links, None, [1, 0], [0.12, 0.3, 0.0]);
+    for &tree in trees {
+        grow(&mut links, Some(0), tree, [0.12, 0.3, 0.3]);
+    }
     links
 }
 
 fn grow<T: Scalar>(
     links: &mut Vec<Link<T>>,
     parent: Option<usize>,
-    generations: usize,
+    [generations, branching]: [usize; 2],
     [mass, length, lever]: [T; 3],
 ) {
     if generations == 0 {
@@ -74,7 +86,7 @@ fn grow<T: Scalar>(
         lever,
     });
     let next = [mass / T::from_f64(2.0), length * decimal(7.0, 10.0), length];
-    for _ in 0..2 {
-        grow(links, Some(index), generations - 1, next);
+    for _ in 0..branching {
+        grow(links, Some(index), [generations - 1, branching], next);
     }
 }

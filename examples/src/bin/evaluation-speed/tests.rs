@@ -6,6 +6,7 @@ use super::accuracy;
 use super::articulated::Articulated;
 use super::by_hand::ByHand;
 use super::dense::Dense;
+use super::large::{BUSH_127, Bush127};
 use super::scenes::factorization::Paper;
 use super::scenes::recursion::{Tree7, Tree31};
 use super::states::random;
@@ -45,6 +46,7 @@ fn baselines_compute_what_emitted_code_computes() {
     agree::<3>(&Paper::new(), &table::paper());
     agree::<7>(&Tree7::new(), &table::tree(3));
     agree::<31>(&Tree31::new(), &table::tree(5));
+    agree::<127>(&Bush127::new(), &table::bush(BUSH_127));
 }
 
 #[test]

@@ -7,6 +7,7 @@
 
 mod fused;
 mod plain;
+mod words;
 
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -14,6 +15,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use super::super::sincos;
 use super::Register;
 use crate::generations::With;
+use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, words_of_sse2};
 
 // SAFETY, for all calls of instructions here and in the two files: those of SSE2 belong to every
 // x86-64 machine. Values of the wider types arise in computations started by
@@ -61,7 +63,8 @@ macro_rules! register {
         $(#[$docs:meta])*
         $name:ident: $vector:ident = $lanes:literal of $lane:ident,
         $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident,
-        $and:ident, $andnot:ident, $or:ident, larger: $larger:ident $(, sines: $sines:ident)?
+        $and:ident, $andnot:ident, $or:ident, larger: $larger:ident,
+        words: $words:ident = $count:literal, some: $some:ident $(, sines: $sines:ident)?
     ) => {
         $(#[$docs])*
         #[derive(Clone, Copy, Debug)]
@@ -85,15 +88,28 @@ macro_rules! register {
 
         impl $name {
             #[inline(always)]
-            pub(in crate::scalar) fn from_array(numbers: [$lane; $lanes]) -> Self {
+            pub(crate) fn from_array(numbers: [$lane; $lanes]) -> Self {
                 // SAFETY: see the top.
                 Self(unsafe { core::mem::transmute::<[$lane; $lanes], $vector>(numbers) })
             }
 
             #[inline(always)]
-            pub(in crate::scalar) fn to_array(self) -> [$lane; $lanes] {
+            pub(crate) fn to_array(self) -> [$lane; $lanes] {
                 // SAFETY: see the top.
                 unsafe { core::mem::transmute::<$vector, [$lane; $lanes]>(self.0) }
+            }
+
+            /// The register whose word `i`, of 32 bits, is `words[i]` of this one.
+            #[inline(always)]
+            pub(crate) fn permuted(self, words: &[u32; $count]) -> Self {
+                // SAFETY: see the top; and plain bits are as many.
+                Self(unsafe { $words(self.0, words) })
+            }
+
+            /// Writes as many numbers as there are places.
+            #[inline(always)]
+            pub(crate) fn store_some(self, places: &mut [$lane]) {
+                $some(self.0, self.to_array(), places);
             }
 
             #[inline(always)]
@@ -190,40 +206,46 @@ register! {
     /// A register of SSE2.
     F64x2: __m128d = 2 of f64,
     _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd,
-    _mm_and_pd, _mm_andnot_pd, _mm_or_pd, larger: _mm_max_pd
+    _mm_and_pd, _mm_andnot_pd, _mm_or_pd, larger: _mm_max_pd,
+    words: words_of_sse2 = 4, some: one_by_one
 }
 
 register! {
     /// A register of SSE2.
     F32x4: __m128 = 4 of f32,
     _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps,
-    _mm_and_ps, _mm_andnot_ps, _mm_or_ps, larger: _mm_max_ps
+    _mm_and_ps, _mm_andnot_ps, _mm_or_ps, larger: _mm_max_ps,
+    words: words_of_sse2 = 4, some: one_by_one
 }
 
 register! {
     /// A register of AVX2.
     F64x4: __m256d = 4 of f64,
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
-    _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd, larger: _mm256_max_pd, sines: fused
+    _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd, larger: _mm256_max_pd,
+    words: words_of_avx2 = 8, some: one_by_one, sines: fused
 }
 
 register! {
     /// A register of AVX2.
     F32x8: __m256 = 8 of f32,
     _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps,
-    _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps, larger: _mm256_max_ps, sines: fused
+    _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps, larger: _mm256_max_ps,
+    words: words_of_avx2 = 8, some: one_by_one, sines: fused
 }
 
 register! {
     /// A register of AVX-512.
     F64x8: __m512d = 8 of f64,
     _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_sqrt_pd,
-    _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd, larger: _mm512_range_pd, sines: fused
+    _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd, larger: _mm512_range_pd,
+    words: words_of_avx512 = 16, some: masked_f64, sines: fused
 }
 
 register! {
     /// A register of AVX-512.
     F32x16: __m512 = 16 of f32,
     _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps,
-    _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps, larger: _mm512_range_ps, sines: fused
+    _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps, larger: _mm512_range_ps,
+    words: words_of_avx512 = 16, some: masked_f32, sines: fused
 }

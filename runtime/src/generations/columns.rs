@@ -1,0 +1,108 @@
+//! Columns of numbers, equally long, that are read and written at one place.
+
+#![allow(unsafe_code)]
+
+use core::marker::PhantomData;
+
+use super::vector::Vector;
+
+/// Numbers of a slice as `N` columns, or some rows of these.
+///
+/// As slices of their own, each column would ask whether a place lies in it, every
+/// time: many questions with one answer, and more instructions than the mechanics.
+/// Copies are views of the same numbers, as of a slice of cells.
+#[derive(Debug)]
+pub(super) struct Columns<'a, T, const N: usize> {
+    start: *mut T,
+    /// From one column to the next.
+    stride: usize,
+    rows: usize,
+    slice: PhantomData<&'a mut [T]>,
+}
+
+impl<T, const N: usize> Clone for Columns<'_, T, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T, const N: usize> Copy for Columns<'_, T, N> {}
+
+impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
+    /// The front of a slice as columns of `length` numbers, or of fewer where it is
+    /// too short.
+    #[inline(always)]
+    pub(super) fn new(slice: &'a mut [T], length: usize) -> Self {
+        let length = length.min(slice.len() / N.max(1));
+        Self {
+            start: slice.as_mut_ptr(),
+            stride: length,
+            rows: length,
+            slice: PhantomData,
+        }
+    }
+
+    /// The rows from `at` on.
+    #[inline(always)]
+    pub(super) fn from(self, at: usize) -> Option<Self> {
+        let rows = self.rows.checked_sub(at)?;
+        Some(Self {
+            // SAFETY: `at` rows lie behind the start.
+            start: unsafe { self.start.add(at) },
+            rows,
+            ..self
+        })
+    }
+
+    /// The rows from `at` on, as many as said: where one number is the length of
+    /// several windows, one question is enough for all.
+    #[inline(always)]
+    pub(super) fn window(self, at: usize, rows: usize) -> Option<Self> {
+        let rest = self.from(at)?;
+        (rows <= rest.rows).then_some(Self { rows, ..rest })
+    }
+
+    #[inline(always)]
+    fn has<V: Vector<T>>(self, at: usize) -> bool {
+        V::LANES <= self.rows && at <= self.rows - V::LANES
+    }
+
+    /// The vectors at `at` of the first `M` columns; none where they would cross the
+    /// end.
+    #[inline(always)]
+    pub(super) fn load<V: Vector<T>, const M: usize>(self, at: usize) -> Option<[V; M]> {
+        const { assert!(M <= N, "there are not so many columns") };
+        if !self.has::<V>(at) {
+            return None;
+        }
+        let mut vectors = [V::from_f64(0.0); M];
+        for (i, vector) in vectors.iter_mut().enumerate() {
+            // SAFETY: in the slice there are `N` columns, `stride` apart, of which
+            // each has `rows` numbers from `start` on; by `new`, and kept by `from`
+            // and `window`. `has` has seen that `LANES` from `at` on are among them.
+            // The slice is borrowed mutably for as long as the views live, which are
+            // all in one thread, and no other reference is there now.
+            *vector = unsafe { V::read(self.start.add(i * self.stride + at)) };
+        }
+        Some(vectors)
+    }
+
+    /// Writes the vectors at `at` of the first `M` columns; none where they would
+    /// cross the end.
+    #[inline(always)]
+    pub(super) fn store<V: Vector<T>, const M: usize>(
+        self,
+        at: usize,
+        vectors: [V; M],
+    ) -> Option<()> {
+        const { assert!(M <= N, "there are not so many columns") };
+        if !self.has::<V>(at) {
+            return None;
+        }
+        for (i, vector) in vectors.into_iter().enumerate() {
+            // SAFETY: as for `load`.
+            unsafe { vector.write(self.start.add(i * self.stride + at)) };
+        }
+        Some(())
+    }
+}

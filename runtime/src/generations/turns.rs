@@ -1,0 +1,71 @@
+//! What every recursion reads of the angles and velocities, formed before it.
+
+use super::columns::Columns;
+use super::prefetch::prefetch;
+use super::sweep::Sweep;
+use super::vector::{SliceKernel, Vector, Vectors};
+use crate::scalar::Scalar;
+
+/// Sines and cosines of a part's angles, and its velocities.
+pub(super) struct Turns<'a, 'b, T>(pub(super) &'a mut Sweep<'b, T>);
+
+impl<T: Scalar> SliceKernel<T> for Turns<'_, '_, T> {
+    #[inline(always)]
+    fn run<W: Vectors<T>>(self) {
+        let Sweep {
+            part,
+            theta,
+            omega,
+            storage,
+            ..
+        } = self.0;
+        let turns = storage.turns;
+        for (own, whole, length) in part.spans() {
+            let span = Span {
+                theta: theta.get(whole..whole + length).unwrap_or_default(),
+                omega: omega.get(whole..whole + length).unwrap_or_default(),
+                turns: turns.window(storage.lead + own, length.max(W::Wide::LANES)),
+                ahead: part.ahead(),
+            };
+            let _ = span.turn::<W::Wide>();
+        }
+    }
+}
+
+/// Neighbours.
+struct Span<'a, T> {
+    theta: &'a [T],
+    omega: &'a [T],
+    turns: Option<Columns<'a, T, 3>>,
+    /// How far the links are that come next.
+    ahead: Option<usize>,
+}
+
+impl<T: Scalar> Span<'_, T> {
+    /// Two vectors at a time, for while the result of one operation is awaited the
+    /// other keeps the processor busy. The last ones overlap those before.
+    #[inline(always)]
+    fn turn<V: Vector<T>>(self) -> Option<()> {
+        let (turns, count) = (self.turns?, self.theta.len());
+        let last = count.saturating_sub(V::LANES);
+        let mut index = 0;
+        while index < count {
+            let places = [index.min(last), (index + V::LANES).min(last)];
+            let angles = [
+                V::load(self.theta, places[0]),
+                V::load(self.theta, places[1]),
+            ];
+            let (sines, cosines) = V::sin_cos_each(&angles);
+            for i in 0..2 {
+                let velocity = V::load(self.omega, places[i]);
+                turns.store(places[i], [sines[i], cosines[i], velocity])?;
+                if let Some(ahead) = self.ahead {
+                    prefetch(self.theta, places[i] + ahead);
+                    prefetch(self.omega, places[i] + ahead);
+                }
+            }
+            index += 2 * V::LANES;
+        }
+        Some(())
+    }
+}

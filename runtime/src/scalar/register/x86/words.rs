@@ -1,0 +1,59 @@
+//! What the standard library has no function of one name for: permutations of a
+//! register's words, and writing its first numbers alone.
+
+use core::arch::x86_64::*;
+
+/// Without an instruction for it.
+#[inline(always)]
+pub(super) unsafe fn words_of_sse2<V>(vector: V, words: &[u32; 4]) -> V {
+    // SAFETY: the caller's vector has 128 bits, any of which are four words.
+    let own: [u32; 4] = unsafe { core::mem::transmute_copy(&vector) };
+    let result = words.map(|word| own[word as usize % 4]);
+    // SAFETY: likewise.
+    unsafe { core::mem::transmute_copy(&result) }
+}
+
+#[inline(always)]
+pub(super) unsafe fn words_of_avx2<V>(vector: V, words: &[u32; 8]) -> V {
+    // SAFETY: the caller's vector has 256 bits.
+    unsafe {
+        let own = core::mem::transmute_copy(&vector);
+        let words = core::mem::transmute::<[u32; 8], __m256i>(*words);
+        core::mem::transmute_copy(&_mm256_permutevar8x32_epi32(own, words))
+    }
+}
+
+#[inline(always)]
+pub(super) unsafe fn words_of_avx512<V>(vector: V, words: &[u32; 16]) -> V {
+    // SAFETY: the caller's vector has 512 bits.
+    unsafe {
+        let own = core::mem::transmute_copy(&vector);
+        let words = core::mem::transmute::<[u32; 16], __m512i>(*words);
+        core::mem::transmute_copy(&_mm512_permutexvar_epi32(words, own))
+    }
+}
+
+#[inline(always)]
+pub(super) fn one_by_one<V, T: Copy, const N: usize>(
+    _vector: V,
+    numbers: [T; N],
+    places: &mut [T],
+) {
+    for (place, number) in places.iter_mut().zip(numbers) {
+        *place = number;
+    }
+}
+
+#[inline(always)]
+pub(super) fn masked_f64(vector: __m512d, _numbers: [f64; 8], places: &mut [f64]) {
+    let mask = !((0xff_u32 << places.len().min(8)) as u8);
+    // SAFETY: writes the numbers of the mask alone, and there are as many places.
+    unsafe { _mm512_mask_storeu_pd(places.as_mut_ptr(), mask, vector) }
+}
+
+#[inline(always)]
+pub(super) fn masked_f32(vector: __m512, _numbers: [f32; 16], places: &mut [f32]) {
+    let mask = !((0xffff_u32 << places.len().min(16)) as u16);
+    // SAFETY: likewise.
+    unsafe { _mm512_mask_storeu_ps(places.as_mut_ptr(), mask, vector) }
+}
