@@ -12,7 +12,17 @@ pub(super) fn product<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
     columns: &[Vector<T, M>],
     x: &[P; M],
 ) -> [P; M] {
-    let mut sum = [P::splat(T::from_f64(0.0)); M];
+    let zero = [P::splat(T::from_f64(0.0)); M];
+    add_product::<T, P, N, M>(&zero, columns, x)
+}
+
+#[inline(always)]
+pub(super) fn add_product<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
+    base: &[P; M],
+    columns: &[Vector<T, M>],
+    x: &[P; M],
+) -> [P; M] {
+    let mut sum = *base;
     for (columns, x) in columns[..N].chunks(4).zip(x) {
         let lanes = [
             x.broadcast::<0>(),
@@ -34,7 +44,7 @@ pub(super) fn product<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
 /// first, in the form that keeps the symmetry (sweeps), without an exchange of
 /// rows.
 #[inline(always)]
-pub(super) fn invert_negative<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
+pub(super) fn invert<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
     columns: &mut [Vector<T, M>],
 ) {
     let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
@@ -68,6 +78,11 @@ pub(super) fn invert_negative<T: Scalar, P: Pack<T>, const N: usize, const M: us
         let inverse = P::splat(inverse);
         for m in 0..M {
             column[m].times(inverse).store(&mut columns[k][m]);
+        }
+    }
+    for column in columns[..N].iter_mut() {
+        for m in 0..M {
+            P::splat(zero).minus(P::load(&column[m])).store(&mut column[m]);
         }
     }
 }
@@ -104,7 +119,7 @@ pub(super) fn numbers<T: Scalar, const N: usize, const M: usize>(
 
 #[cfg(test)]
 mod tests {
-    use super::{invert_negative, product};
+    use super::{invert, product};
     use crate::taylor::quad::Quad;
 
     /// 1/(i + j + 1) + δ_ij, of which the inverse is checked by a product.
@@ -123,7 +138,7 @@ mod tests {
             })
         });
         let mut inverse = matrix;
-        invert_negative::<f64, Quad<f64>, 6, 2>(&mut inverse);
+        invert::<f64, Quad<f64>, 6, 2>(&mut inverse);
         for (j, column) in matrix.iter().enumerate() {
             let unit: [Quad<f64>; 2] = product::<f64, Quad<f64>, 6, 2>(&inverse, column);
             for i in 0..6 {

@@ -9,10 +9,13 @@
 //!
 //! [`integrate::Taylor`]: crate::integrate::Taylor
 
+mod bias;
 mod expand;
 mod levers;
 mod matrix;
+mod orders;
 mod quad;
+mod reciprocal;
 mod rows;
 mod sums;
 

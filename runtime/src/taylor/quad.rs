@@ -134,13 +134,23 @@ mod machine {
 
     #[inline(always)]
     pub(super) fn run<K: Kernel<f64>>(kernel: K) {
-        if std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma") {
+        if std::is_x86_feature_detected!("avx512vl") && std::is_x86_feature_detected!("fma") {
+            // SAFETY: the machine has the features that the function enables,
+            // of which AVX-512 includes AVX2.
+            unsafe { fused_in_many_registers(kernel) }
+        } else if std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma") {
             // SAFETY: the machine has the two features that the function
             // enables.
             unsafe { fused(kernel) }
         } else {
             kernel.run::<Quad<f64>>();
         }
+    }
+
+    /// The same operations with thirty-two registers to keep their values in.
+    #[target_feature(enable = "avx512f,avx512vl,fma")]
+    fn fused_in_many_registers<K: Kernel<f64>>(kernel: K) {
+        kernel.run::<Register>();
     }
 
     #[target_feature(enable = "avx2,fma")]
