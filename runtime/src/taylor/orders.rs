@@ -51,20 +51,6 @@ impl<T: Scalar, B: Bias<T, N>, const N: usize, const M: usize> Kernel<T> for Ord
         levers.mass_matrix::<P>(start, &tree.inertias, mass, turning);
         inverse.copy_from_slice(mass);
         invert::<T, P, N, M>(inverse);
-        for j in 0..N {
-            let (mut column, mut swung) = ([zero; M], [zero; M]);
-            for m in 0..M {
-                column[m] = P::load(&turning[j][m]);
-                swung[m] = omega[m].times(column[m]);
-            }
-            let column = product::<T, P, N, M>(inverse, &column);
-            let swung = product::<T, P, N, M>(inverse, &swung);
-            for m in 0..M {
-                column[m].store(&mut leaning[j][m]);
-                swung[m].store(&mut swinging[j][m]);
-            }
-        }
-
         // Order 0
         let weights: [P; M] = packs(&tree.weights);
         let lateral_weights: [P; M] = packs(&tree.lateral_weights);
@@ -113,16 +99,14 @@ impl<T: Scalar, B: Bias<T, N>, const N: usize, const M: usize> Kernel<T> for Ord
                     .times(s_known[m])
                     .minus_product(factor, sums.omega_sin);
                 x_next[m] = sums.force;
-                x_known[m] = sums.force.plus_product(omega[m], mass_c[m]);
             }
-            let forced = product::<T, P, N, M>(inverse, &x_known);
             // s
-            let swung = add_product::<T, P, N, M>(&forced, swinging, &s);
             let y = add_product::<T, P, N, M>(&mass_c, turning, &s);
             for m in 0..M {
                 c_next[m] = c_next[m].minus_product(rate_2[m], s[m]);
+                x_known[m] = x_next[m].plus_product(omega[m], y[m]);
             }
-            let leant = product::<T, P, N, M>(leaning, &c_next);
+            let leant = product::<T, P, N, M>(turning, &c_next);
             mass_c = product::<T, P, N, M>(mass, &c_next);
             let mut theta = [Quad([T::from_f64(0.0); 4]); M];
             for m in 0..M {
@@ -136,8 +120,7 @@ impl<T: Scalar, B: Bias<T, N>, const N: usize, const M: usize> Kernel<T> for Ord
             numbers(&row[0], &mut coefficients[k][1]);
             numbers(&theta, &mut coefficients[k + 1][0]);
             for m in 0..M {
-                s[m] = swung[m].plus(leant[m]);
-                x[m] = x_next[m].plus_product(omega[m], y[m]);
+                x[m] = x_known[m];
             }
             if B::MOVES {
                 let [theta, omega] = coefficients[k];
@@ -158,12 +141,13 @@ impl<T: Scalar, B: Bias<T, N>, const N: usize, const M: usize> Kernel<T> for Ord
                     sines,
                     cosines,
                 }));
-                let turned = product::<T, P, N, M>(inverse, &others);
                 for m in 0..M {
-                    s[m] = s[m].minus(turned[m]);
                     x[m] = x[m].minus(others[m]);
                 }
             }
+            let mut sum = x;
+            for m in 0..M { sum[m] = sum[m].plus(leant[m]); }
+            s = product::<T, P, N, M>(inverse, &sum);
             c = c_next;
             s_known = s_next;
         }

@@ -1,6 +1,7 @@
 //! The Taylor series method.
 
 mod memory;
+mod polynomial;
 mod root;
 mod run;
 
