@@ -1,17 +1,18 @@
 //! The recurrences of a tree.
 //!
-//! With S = (sin θ)'' and C = (cos θ)'' of each link, the equation of motion of
-//! link i is linear in these second derivatives,
+//! Let γ + iσ = e^(i(θ−θ₀)) for each link, θ₀ its angle at the start, and
+//! C + iS the second derivative of that. The equation of motion is
 //!
-//! A_ii α_i + c_i X_i − s_i Y_i + bias_i = 0,
-//! X_i = Σ_j (A_ij S_j + B_ij C_j), Y_i = Σ_j (A_ij C_j − B_ij S_j),
+//! γ_i X_i − σ_i Y_i + bias_i = 0, X = M S − T C, Y = M C + T S,
 //!
-//! for a mass matrix M_ij = A_ij cos(θ_i − θ_j) + B_ij sin(θ_i − θ_j): X and Y
-//! are the force, times its lever, that the links connected with i exert on it,
-//! across and along the vertical. Four products of series a link are all there
-//! is, for a tree of any shape and depth. In order k, S\[k\] = P + c\[0\] α\[k\]
-//! where P is known, C\[k\] likewise, so that M(θ\[0\]) α\[k\] = −r with r of
-//! known terms: one inverse, of order 0, serves all orders.
+//! with M_ij = A_ij cos(θ_i − θ_j) + B_ij sin(θ_i − θ_j), the mass matrix, and
+//! T_ij = A_ij sin(θ_i − θ_j) − B_ij cos(θ_i − θ_j), both at the start. X and Y
+//! are the force, times its lever, on each link, across and along what it was at
+//! the start, its own inertia and its weight included. Four products of series a
+//! link are all there is, for a tree of any shape and depth.
+//!
+//! In each order X follows from the equation, C from lower orders, and then
+//! S = M⁻¹ (X + T C): one inverse serves all orders.
 
 use super::bias::{Constant, Moving};
 use super::levers::Coupling;

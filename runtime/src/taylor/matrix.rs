@@ -16,6 +16,7 @@ pub(super) fn product<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
     add_product::<T, P, N, M>(&zero, columns, x)
 }
 
+/// `base` + the matrix with these N columns times x.
 #[inline(always)]
 pub(super) fn add_product<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
     base: &[P; M],
@@ -39,10 +40,9 @@ pub(super) fn add_product<T: Scalar, P: Pack<T>, const N: usize, const M: usize>
     sum
 }
 
-/// Replaces a symmetric positive definite matrix of N columns by the opposite
-/// of its inverse: Gauss and Jordan's elimination from the last unknown to the
-/// first, in the form that keeps the symmetry (sweeps), without an exchange of
-/// rows.
+/// Replaces a symmetric positive definite matrix of N columns by its inverse:
+/// Gauss and Jordan's elimination from the last unknown to the first, in the form
+/// that keeps the symmetry (sweeps), without an exchange of rows.
 #[inline(always)]
 pub(super) fn invert<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
     columns: &mut [Vector<T, M>],
@@ -80,10 +80,9 @@ pub(super) fn invert<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
             column[m].times(inverse).store(&mut columns[k][m]);
         }
     }
-    for column in columns[..N].iter_mut() {
-        for m in 0..M {
-            P::splat(zero).minus(P::load(&column[m])).store(&mut column[m]);
-        }
+    // Sweeps leave the opposite.
+    for entries in columns[..N].as_flattened_mut() {
+        P::splat(zero).minus(P::load(entries)).store(entries);
     }
 }
 
@@ -124,7 +123,7 @@ mod tests {
 
     /// 1/(i + j + 1) + δ_ij, of which the inverse is checked by a product.
     #[test]
-    fn inverse_times_matrix_is_minus_one() {
+    fn inverse_times_matrix_is_one() {
         let entry = |i: usize, j: usize| 1.0 / (i + j + 1) as f64 + f64::from(u8::from(i == j));
         let matrix: [[Quad<f64>; 2]; 6] = core::array::from_fn(|j| {
             core::array::from_fn(|m| {
@@ -142,7 +141,7 @@ mod tests {
         for (j, column) in matrix.iter().enumerate() {
             let unit: [Quad<f64>; 2] = product::<f64, Quad<f64>, 6, 2>(&inverse, column);
             for i in 0..6 {
-                let expected = -f64::from(u8::from(i == j));
+                let expected = f64::from(u8::from(i == j));
                 assert!((unit[i / 4].0[i % 4] - expected).abs() < 1e-15, "{unit:?}");
             }
         }

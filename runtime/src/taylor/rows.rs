@@ -4,16 +4,17 @@ use super::matrix::Vector;
 use super::quad::Pack;
 use crate::scalar::Scalar;
 
-/// Series that are kept: ω, cos θ, sin θ, X, Y.
+/// Series that are kept: ω, γ, σ, X, Y. Row r has order r of ω, r + 1 of γ and σ,
+/// r − 1 of X and Y, so that all sums of order k run over rows j and k − j.
 pub(super) const SERIES: usize = 5;
 
 /// Sums of products in one order.
 pub(super) struct Sums<P> {
-    /// Σ ω\[j−1\] cos\[k+2−j\]
+    /// Σ ω\[j\] γ\[k+1−j\]
     pub(super) omega_cos: P,
-    /// Σ ω\[j−1\] sin\[k+2−j\]
+    /// Σ ω\[j\] σ\[k+1−j\]
     pub(super) omega_sin: P,
-    /// Σ sin\[j\] Y\[k−j\] − cos\[j\] X\[k−j\]
+    /// Σ σ\[j+1\] Y\[k−1−j\] − γ\[j+1\] X\[k−1−j\]
     pub(super) force: P,
 }
 

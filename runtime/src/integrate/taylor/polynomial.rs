@@ -36,35 +36,45 @@ impl<T: Real> Kernel<T> for Ahead<'_, T> {
 }
 
 impl<T: Real> Ahead<'_, T> {
-    /// The components from number `first` on, by Horner's rule in τ² for odd
-    /// and even k apart.
+    /// The components from number `first` on, by Horner's rule in τ² for even
+    /// and odd k > 1 apart. With residues, the rounding errors of the sum with
+    /// y\[1\] and of the product with τ are kept as well.
     #[inline(always)]
     fn block<P: Pack<T>, const W: usize>(&mut self, first: usize) {
         let n = self.start.len();
         let zero = P::splat(T::ZERO);
         let (tau, square) = (P::splat(self.tau), P::splat(self.tau * self.tau));
         let (mut odd, mut even) = (zero, zero);
-        let rows = self.coefficients.get(n..).unwrap_or_default();
-        let order = rows.len() / n;
-        // Pairs of an odd and an even order; the highest odd one may be alone.
-        let (pairs, alone) = rows.split_at((order - order % 2) * n);
+        let linear = load::<T, P, W>(self.coefficients, n + first);
+        let rows = self.coefficients.get(2 * n..).unwrap_or_default();
+        // Pairs of an even and an odd order; the highest even one may be alone.
+        let (pairs, alone) = rows.split_at(rows.len() / (2 * n) * (2 * n));
         if !alone.is_empty() {
-            odd = load::<T, P, W>(alone, first);
+            even = load::<T, P, W>(alone, first);
         }
         for pair in pairs.chunks_exact(2 * n).rev() {
-            odd = load::<T, P, W>(pair, first).plus_product(odd, square);
-            even = load::<T, P, W>(pair, n + first).plus_product(even, square);
+            even = load::<T, P, W>(pair, first).plus_product(even, square);
+            odd = load::<T, P, W>(pair, n + first).plus_product(odd, square);
         }
-        let increment = odd.plus_product(even, tau).times(tau);
+        // Σ y[k] τᵏ⁻¹ over k ≥ 2
+        let rest = even.plus_product(odd, tau).times(tau);
         let start = load::<T, P, W>(self.start, first);
         let end = match &mut self.residues {
-            Some((residue, rest)) => {
-                let increment = increment.plus(load::<T, P, W>(residue, first));
-                let (sum, error) = two_sum(start, increment);
-                store::<T, P, W>(error, rest, first);
-                sum
+            Some((residue, rounding)) => {
+                let (slope, slope_error) = two_sum(linear, rest);
+                let increment = slope.times(tau);
+                let (sum, sum_error) = two_sum(start, increment);
+                let error = zero
+                    .minus(increment)
+                    .plus_product(slope, tau)
+                    .plus_product(slope_error, tau)
+                    .plus(load::<T, P, W>(residue, first))
+                    .plus(sum_error);
+                let end = sum.plus(error);
+                store::<T, P, W>(error.minus(end.minus(sum)), rounding, first);
+                end
             }
-            None => start.plus(increment),
+            None => start.plus_product(linear.plus(rest), tau),
         };
         store::<T, P, W>(end, self.end, first);
     }
@@ -145,9 +155,7 @@ fn window<T: Real, const W: usize>(values: &[T], first: usize) -> [T; W] {
 fn load<T: Real, P: Pack<T>, const W: usize>(values: &[T], first: usize) -> P {
     let values = window::<T, W>(values, first);
     let mut quad = Quad([T::ZERO; 4]);
-    for i in 0..W {
-        quad.0[i] = values[i];
-    }
+    quad.0[..W].copy_from_slice(&values);
     P::load(&quad)
 }
 
@@ -155,9 +163,10 @@ fn load<T: Real, P: Pack<T>, const W: usize>(values: &[T], first: usize) -> P {
 fn store<T: Real, P: Pack<T>, const W: usize>(pack: P, values: &mut [T], first: usize) {
     let mut quad = Quad([T::ZERO; 4]);
     pack.store(&mut quad);
-    if let Some(place) = values.get_mut(first..).and_then(<[T]>::first_chunk_mut::<W>) {
-        for i in 0..W {
-            place[i] = quad.0[i];
-        }
+    if let Some(place) = values
+        .get_mut(first..)
+        .and_then(<[T]>::first_chunk_mut::<W>)
+    {
+        place.copy_from_slice(&quad.0[..W]);
     }
 }

@@ -25,26 +25,25 @@ pub(super) fn least_inverse_root<const N: usize>(roots: [(f64, f64); N]) -> f64 
     }
 }
 
-/// log₂ x = e + log₂ m for x = 2ᵉ m, √½ ≤ m < √2, to 2e-5.
+/// log₂ x = e + log₂ m for x = 2ᵉ m, √½ ≤ m < √2, to 3e-05.
 fn log2(x: f64) -> f64 {
     const FRACTION: u64 = (1 << 52) - 1;
     // Moves the boundary between exponents to √2.
     const SHIFT: u64 = 0x3FF0_0000_0000_0000 - 0x3FE6_A09E_667F_3BCD;
-    // The polynomial that is log₂(1 + t) at the Chebyshev nodes of the range.
-    const TERMS: [f64; 6] = [
-        -6.308_052_795_889e-6,
-        1.442_517_608_220_98,
-        -0.720_214_134_218_371,
-        0.488_225_695_552_344,
-        -0.393_689_683_025_324,
-        0.243_272_778_234_309,
+    // Of the polynomial that is log₂(1 + t)/t at the Chebyshev nodes of the range.
+    const TERMS: [f64; 5] = [
+        1.442_640_464_283_215,
+        -0.720_629_215_859_913,
+        0.485_737_842_442_622,
+        -0.389_675_223_791_798,
+        0.250_287_846_961_010,
     ];
     let shifted = x.to_bits() + SHIFT;
     let exponent = (shifted >> 52) as i64 - 1023;
     let t = f64::from_bits((shifted & FRACTION) + 0x3FE6_A09E_667F_3BCD) - 1.0;
     let square = t * t;
-    let [a, b, c, d, e, f] = TERMS;
-    (exponent as f64 + (a + b * t)) + square * ((c + d * t) + square * (e + f * t))
+    let [a, b, c, d, e] = TERMS;
+    (exponent as f64 + a * t) + square * ((b + c * t) + square * (d + e * t))
 }
 
 /// 2ˣ for |x| < 1,000, to 5e-5: the series of e^(x ln 2) on the rest from a whole
