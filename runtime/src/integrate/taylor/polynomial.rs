@@ -74,7 +74,7 @@ impl<T: Real> Ahead<'_, T> {
                 store::<T, P, W>(error.minus(end.minus(sum)), rounding, first);
                 end
             }
-            None => start.plus_product(linear.plus(rest), tau),
+            None => start.plus(linear.plus(rest).times(tau)),
         };
         store::<T, P, W>(end, self.end, first);
     }
