@@ -1,7 +1,7 @@
 //! What links do to each other.
 
 use super::expand::Start;
-use super::matrix::{Vector, packs, product};
+use super::matrix::{Vector, packs};
 use super::quad::{Pack, Quad};
 use crate::scalar::Scalar;
 
@@ -53,51 +53,39 @@ impl<'a, T: Scalar, const N: usize, const M: usize> Levers<'a, T, N, M> {
     }
 
     /// To columns of `mass`, A cos(θ_i − θ_j) + B sin(θ_i − θ_j) with the
-    /// diagonal; to `turning`, its derivatives in θ_j.
+    /// diagonal, and again to those of `copy`; to `turning`, A sin(θ_i − θ_j) −
+    /// B cos(θ_i − θ_j).
     #[inline(always)]
-    pub(super) fn mass_matrix<P: Pack<T>>(
+    pub(super) fn matrices<P: Pack<T>>(
         &self,
         start: &Start<'_, T, N>,
         inertias: &[T; N],
-        mass: &mut [Vector<T, M>],
-        turning: &mut [Vector<T, M>],
+        [mass, copy, turning]: [&mut [Vector<T, M>]; 3],
     ) {
         let cosines: [P; M] = packs(&start.cosines);
         let sines: [P; M] = packs(&start.sines);
-        for (j, (mass, turning)) in mass.iter_mut().zip(turning).enumerate() {
+        let columns = mass.iter_mut().zip(copy).zip(turning).enumerate();
+        for (j, ((mass, copy), turning)) in columns.take(N) {
             let (cosine, sine) = (P::splat(start.cosines[j]), P::splat(start.sines[j]));
+            // Not written into the column afterwards: that would have to reach
+            // the memory before the column can be read.
+            let mut diagonal = [Quad::splat(T::from_f64(0.0)); M];
+            diagonal[j / 4].0[j % 4] = inertias[j];
             for m in 0..M {
                 let cos_between = cosines[m].times(cosine).plus_product(sines[m], sine);
                 let sin_between = sines[m].times(cosine).minus_product(cosines[m], sine);
                 let along = P::load(&self.along[j][m]);
-                let (mut entry, mut slope) = (along.times(cos_between), along.times(sin_between));
+                let mut entry = P::load(&diagonal[m]).plus_product(along, cos_between);
+                let mut slope = along.times(sin_between);
                 if let Some(across) = self.across {
                     let across = P::load(&across[j][m]);
                     entry = entry.plus_product(across, sin_between);
                     slope = slope.minus_product(across, cos_between);
                 }
                 entry.store(&mut mass[m]);
+                entry.store(&mut copy[m]);
                 slope.store(&mut turning[m]);
             }
-            mass[j / 4].0[j % 4] = inertias[j];
         }
-    }
-
-    /// X = A S + B C, Y = A C − B S.
-    #[inline(always)]
-    pub(super) fn forces<P: Pack<T>>(&self, s: &[P; M], c: &[P; M]) -> ([P; M], [P; M]) {
-        let mut x = product::<T, P, N, M>(self.along, s);
-        let mut y = product::<T, P, N, M>(self.along, c);
-        if let Some(across) = self.across {
-            let (of_c, of_s) = (
-                product::<T, P, N, M>(across, c),
-                product::<T, P, N, M>(across, s),
-            );
-            for m in 0..M {
-                x[m] = x[m].plus(of_c[m]);
-                y[m] = y[m].minus(of_s[m]);
-            }
-        }
-        (x, y)
     }
 }

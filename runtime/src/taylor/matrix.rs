@@ -12,7 +12,18 @@ pub(super) fn product<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
     columns: &[Vector<T, M>],
     x: &[P; M],
 ) -> [P; M] {
-    let mut sum = [P::splat(T::from_f64(0.0)); M];
+    let zero = [P::splat(T::from_f64(0.0)); M];
+    add_product::<T, P, N, M>(&zero, columns, x)
+}
+
+/// `base` + the matrix with these N columns times x.
+#[inline(always)]
+pub(super) fn add_product<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
+    base: &[P; M],
+    columns: &[Vector<T, M>],
+    x: &[P; M],
+) -> [P; M] {
+    let mut sum = *base;
     for (columns, x) in columns[..N].chunks(4).zip(x) {
         let lanes = [
             x.broadcast::<0>(),
@@ -29,12 +40,11 @@ pub(super) fn product<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
     sum
 }
 
-/// Replaces a symmetric positive definite matrix of N columns by the opposite
-/// of its inverse: Gauss and Jordan's elimination from the last unknown to the
-/// first, in the form that keeps the symmetry (sweeps), without an exchange of
-/// rows.
+/// Replaces a symmetric positive definite matrix of N columns by its inverse:
+/// Gauss and Jordan's elimination from the last unknown to the first, in the form
+/// that keeps the symmetry (sweeps), without an exchange of rows.
 #[inline(always)]
-pub(super) fn invert_negative<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
+pub(super) fn invert<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
     columns: &mut [Vector<T, M>],
 ) {
     let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
@@ -70,6 +80,10 @@ pub(super) fn invert_negative<T: Scalar, P: Pack<T>, const N: usize, const M: us
             column[m].times(inverse).store(&mut columns[k][m]);
         }
     }
+    // Sweeps leave the opposite.
+    for entries in columns[..N].as_flattened_mut() {
+        P::splat(zero).minus(P::load(entries)).store(entries);
+    }
 }
 
 /// Numbers of all links as packs, zero where there is no link.
@@ -104,12 +118,12 @@ pub(super) fn numbers<T: Scalar, const N: usize, const M: usize>(
 
 #[cfg(test)]
 mod tests {
-    use super::{invert_negative, product};
+    use super::{invert, product};
     use crate::taylor::quad::Quad;
 
     /// 1/(i + j + 1) + δ_ij, of which the inverse is checked by a product.
     #[test]
-    fn inverse_times_matrix_is_minus_one() {
+    fn inverse_times_matrix_is_one() {
         let entry = |i: usize, j: usize| 1.0 / (i + j + 1) as f64 + f64::from(u8::from(i == j));
         let matrix: [[Quad<f64>; 2]; 6] = core::array::from_fn(|j| {
             core::array::from_fn(|m| {
@@ -123,11 +137,11 @@ mod tests {
             })
         });
         let mut inverse = matrix;
-        invert_negative::<f64, Quad<f64>, 6, 2>(&mut inverse);
+        invert::<f64, Quad<f64>, 6, 2>(&mut inverse);
         for (j, column) in matrix.iter().enumerate() {
             let unit: [Quad<f64>; 2] = product::<f64, Quad<f64>, 6, 2>(&inverse, column);
             for i in 0..6 {
-                let expected = -f64::from(u8::from(i == j));
+                let expected = f64::from(u8::from(i == j));
                 assert!((unit[i / 4].0[i % 4] - expected).abs() < 1e-15, "{unit:?}");
             }
         }

@@ -9,11 +9,14 @@
 //!
 //! [`integrate::Taylor`]: crate::integrate::Taylor
 
+mod bias;
 mod expand;
 mod lanes;
 mod levers;
 mod matrix;
+mod orders;
 mod quad;
+mod reciprocal;
 mod rows;
 mod sums;
 

@@ -4,17 +4,18 @@ use super::matrix::Vector;
 use super::quad::Pack;
 use crate::scalar::Scalar;
 
-/// Series that are kept: ω, cos θ, sin θ, X, Y.
+/// Series that are kept: ω, γ, σ, X, Y. Row r has order r of ω, r + 1 of γ and σ,
+/// r − 1 of X and Y, so that all sums of order k run over rows j and k − j.
 pub(super) const SERIES: usize = 5;
 
 /// Sums of products in one order.
 pub(super) struct Sums<P> {
-    /// Σ ω\[j−1\] cos\[k+2−j\]
+    /// Σ ω\[j\] γ\[k+1−j\]
     pub(super) omega_cos: P,
-    /// Σ ω\[j−1\] sin\[k+2−j\]
+    /// Σ ω\[j\] σ\[k+1−j\]
     pub(super) omega_sin: P,
-    /// Σ cos\[j\] X\[k−j\] − sin\[j\] Y\[k−j\]
-    pub(super) torque: P,
+    /// Σ σ\[j+1\] Y\[k−1−j\] − γ\[j+1\] X\[k−1−j\]
+    pub(super) force: P,
 }
 
 /// The sums over all rows, each with the one as far from the other end, from
@@ -32,7 +33,7 @@ pub(super) fn sums<T: Scalar, P: Pack<T>, const M: usize>(
         let [omega, cos, sin, x, y] = load::<T, P, M>(row, m);
         partial[0] = omega.times(cos);
         partial[2] = omega.times(sin);
-        partial[4] = cos.times(x);
+        partial[4] = partial[4].minus_product(cos, x);
         partial[6] = sin.times(y);
     }
     for (row, opposite) in early.iter().rev().zip(late) {
@@ -42,15 +43,15 @@ pub(super) fn sums<T: Scalar, P: Pack<T>, const M: usize>(
         partial[1] = partial[1].plus_product(omega_2, cos);
         partial[2] = partial[2].plus_product(omega, sin_2);
         partial[3] = partial[3].plus_product(omega_2, sin);
-        partial[4] = partial[4].plus_product(cos, x_2);
-        partial[5] = partial[5].plus_product(cos_2, x);
+        partial[4] = partial[4].minus_product(cos, x_2);
+        partial[5] = partial[5].minus_product(cos_2, x);
         partial[6] = partial[6].plus_product(sin, y_2);
         partial[7] = partial[7].plus_product(sin_2, y);
     }
     Sums {
         omega_cos: partial[0].plus(partial[1]),
         omega_sin: partial[2].plus(partial[3]),
-        torque: (partial[4].minus(partial[6])).plus(partial[5].minus(partial[7])),
+        force: (partial[4].plus(partial[6])).plus(partial[5].plus(partial[7])),
     }
 }
 

@@ -3,6 +3,7 @@
 #[cfg(feature = "std")]
 mod lanes;
 mod memory;
+mod polynomial;
 mod root;
 mod run;
 
@@ -27,8 +28,9 @@ use run::Run;
 /// *Order*: p = ⌈8 − 0.65 ln ε⌉ for the smallest tolerance ε, unless
 /// [`with_order`](Self::with_order) sets one. The step is ρ ε^(1/p) at a radius
 /// of convergence ρ. Where the cost of a step grows as p², 1 − ½ ln ε is cheapest,
-/// with steps of ρ/e² (Jorba and Zou, section 3); here it grows more like 4 + p,
-/// for which longer steps of a higher order are cheaper. *Step*: so long that
+/// with steps of ρ/e² (Jorba and Zou, section 3); here it grows like p² + 30 p + 500
+/// on trees of three and of seven links, for which longer steps of a higher order
+/// are cheaper: p with p² (2 p + 30) = −(p² + 30 p + 500) ln (ε/e²). *Step*: so long that
 /// neither of the last two terms, orders p − 1 and p, exceeds the tolerance
 /// `absolute_i + relative_i |y_i|` in any component, times exp(−2/(p − 1)) to
 /// be on the safe side (their section 3 has 0.7 in the place of 2: terms that

@@ -1,0 +1,172 @@
+//! Sums of the polynomial, and the size of its last terms, in the vector
+//! instructions that the machine has for the numbers.
+
+use crate::scalar::Real;
+use crate::taylor::{Kernel, Pack, Quad};
+
+/// Writes `start` + Σ y\[k\] τᵏ over k ≥ 1.
+pub(super) struct Ahead<'a, T> {
+    /// Coefficients y\[k\], order by order.
+    pub(super) coefficients: &'a [T],
+    pub(super) tau: T,
+    pub(super) start: &'a [T],
+    pub(super) end: &'a mut [T],
+    /// Rounding errors of `start` and of `end`, if they are to be carried.
+    pub(super) residues: Option<(&'a [T], &'a mut [T])>,
+}
+
+impl<T: Real> Kernel<T> for Ahead<'_, T> {
+    #[inline(always)]
+    fn run<P: Pack<T>>(mut self) {
+        let n = self.start.len();
+        let mut first = 0;
+        while first + 4 <= n {
+            self.block::<P, 4>(first);
+            first += 4;
+        }
+        while first + 2 <= n {
+            self.block::<P, 2>(first);
+            first += 2;
+        }
+        while first < n {
+            self.block::<P, 1>(first);
+            first += 1;
+        }
+    }
+}
+
+impl<T: Real> Ahead<'_, T> {
+    /// The components from number `first` on, by Horner's rule in τ² for even
+    /// and odd k > 1 apart. With residues, the rounding errors of the sum with
+    /// y\[1\] and of the product with τ are kept as well.
+    #[inline(always)]
+    fn block<P: Pack<T>, const W: usize>(&mut self, first: usize) {
+        let n = self.start.len();
+        let zero = P::splat(T::ZERO);
+        let (tau, square) = (P::splat(self.tau), P::splat(self.tau * self.tau));
+        let (mut odd, mut even) = (zero, zero);
+        let linear = load::<T, P, W>(self.coefficients, n + first);
+        let rows = self.coefficients.get(2 * n..).unwrap_or_default();
+        // Pairs of an even and an odd order; the highest even one may be alone.
+        let (pairs, alone) = rows.split_at(rows.len() / (2 * n) * (2 * n));
+        if !alone.is_empty() {
+            even = load::<T, P, W>(alone, first);
+        }
+        for pair in pairs.chunks_exact(2 * n).rev() {
+            even = load::<T, P, W>(pair, first).plus_product(even, square);
+            odd = load::<T, P, W>(pair, n + first).plus_product(odd, square);
+        }
+        // Σ y[k] τᵏ⁻¹ over k ≥ 2
+        let rest = even.plus_product(odd, tau).times(tau);
+        let start = load::<T, P, W>(self.start, first);
+        let end = match &mut self.residues {
+            Some((residue, rounding)) => {
+                let (slope, slope_error) = two_sum(linear, rest);
+                let increment = slope.times(tau);
+                let (sum, sum_error) = two_sum(start, increment);
+                let error = zero
+                    .minus(increment)
+                    .plus_product(slope, tau)
+                    .plus_product(slope_error, tau)
+                    .plus(load::<T, P, W>(residue, first))
+                    .plus(sum_error);
+                let end = sum.plus(error);
+                store::<T, P, W>(error.minus(end.minus(sum)), rounding, first);
+                end
+            }
+            None => start.plus(linear.plus(rest).times(tau)),
+        };
+        store::<T, P, W>(end, self.end, first);
+    }
+}
+
+/// Knuth's two-sum, the rounded sum and its rounding error, in packs.
+#[inline(always)]
+fn two_sum<T, P: Pack<T>>(a: P, b: P) -> (P, P) {
+    let sum = a.plus(b);
+    let part = sum.minus(a);
+    (sum, a.minus(sum.minus(part)).plus(b.minus(part)))
+}
+
+/// The largest ratios of the last two coefficients to their tolerances, order
+/// by order.
+pub(super) struct LastTerms<'a, T> {
+    /// Coefficients of the last two orders.
+    pub(super) coefficients: &'a [T],
+    pub(super) start: &'a [T],
+    pub(super) relative: &'a [T],
+    pub(super) absolute: &'a [T],
+    pub(super) ratios: &'a mut [T; 2],
+}
+
+impl<T: Real> Kernel<T> for LastTerms<'_, T> {
+    #[inline(always)]
+    fn run<P: Pack<T>>(self) {
+        let mut largest = [[T::ZERO; 4]; 2];
+        let n = self.start.len();
+        let mut first = 0;
+        while first + 4 <= n {
+            self.block::<4>(first, &mut largest);
+            first += 4;
+        }
+        while first + 2 <= n {
+            self.block::<2>(first, &mut largest);
+            first += 2;
+        }
+        while first < n {
+            self.block::<1>(first, &mut largest);
+            first += 1;
+        }
+        for (ratio, [a, b, c, d]) in self.ratios.iter_mut().zip(largest) {
+            *ratio = a.max(b).max(c.max(d));
+        }
+    }
+}
+
+impl<T: Real> LastTerms<'_, T> {
+    #[inline(always)]
+    fn block<const W: usize>(&self, first: usize, largest: &mut [[T; 4]; 2]) {
+        let n = self.start.len();
+        let start = window::<T, W>(self.start, first);
+        let relative = window::<T, W>(self.relative, first);
+        let absolute = window::<T, W>(self.absolute, first);
+        for (order, largest) in largest.iter_mut().enumerate() {
+            let coefficients = window::<T, W>(self.coefficients, order * n + first);
+            for i in 0..W {
+                let tolerance = absolute[i] + relative[i] * start[i].abs();
+                let ratio = coefficients[i].abs() / tolerance;
+                // A component that is exactly zero by symmetry has no error,
+                // whatever its tolerance: not 0/0.
+                let counts = coefficients[i] != T::ZERO;
+                largest[i] = largest[i].max(if counts { ratio } else { T::ZERO });
+            }
+        }
+    }
+}
+
+/// The values from number `first` on.
+#[inline(always)]
+fn window<T: Real, const W: usize>(values: &[T], first: usize) -> [T; W] {
+    let rest = values.get(first..).unwrap_or_default();
+    rest.first_chunk().copied().unwrap_or([T::NAN; W])
+}
+
+#[inline(always)]
+fn load<T: Real, P: Pack<T>, const W: usize>(values: &[T], first: usize) -> P {
+    let values = window::<T, W>(values, first);
+    let mut quad = Quad([T::ZERO; 4]);
+    quad.0[..W].copy_from_slice(&values);
+    P::load(&quad)
+}
+
+#[inline(always)]
+fn store<T: Real, P: Pack<T>, const W: usize>(pack: P, values: &mut [T], first: usize) {
+    let mut quad = Quad([T::ZERO; 4]);
+    pack.store(&mut quad);
+    if let Some(place) = values
+        .get_mut(first..)
+        .and_then(<[T]>::first_chunk_mut::<W>)
+    {
+        place.copy_from_slice(&quad.0[..W]);
+    }
+}
