@@ -230,7 +230,7 @@ where
     }
 
     /// −M⁻¹ at the start: the sweeps of
-    /// [`invert_negative`](super::matrix::invert_negative).
+    /// [`invert`](super::matrix::invert), with the opposite sign.
     #[inline(always)]
     fn negative_inverse(&self) -> [[T; N]; N] {
         let (sines, cosines) = (&self.start.sines, &self.start.cosines);
