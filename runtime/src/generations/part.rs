@@ -116,6 +116,8 @@ impl Part<'_> {
 
     /// The last generation with children that fits a vector, if this is the top of
     /// the tree: those above it go from one to the next in registers.
+    // A call costs 10 ns here: the wide registers have to be given up for it.
+    #[inline(always)]
     pub(super) fn crown(&self, lanes: usize) -> usize {
         let inner = self.stages.iter().take(self.inner);
         let narrow = inner.take_while(|stage| stage.count <= lanes).count();
