@@ -33,7 +33,7 @@ fn errors_fall_to_rounding() {
 #[test]
 fn lanes_agree_with_the_plain_method_near_the_threshold() {
     let (model, starts) = (Ideal::new(), near_threshold(101));
-    let options = Options::with_tolerance(1e-11);
+    let options = Options::with_tolerance(1e-12);
     let (method, series) = (Dop853::new(options.clone()), Taylor::new(options));
     let ensemble = Ensemble::new();
     let plain = ensemble.integrate(&method, &AbsoluteAngles(&model), &starts, 5.0);

@@ -226,7 +226,13 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
             } else {
                 longest
             };
-            let step = (self.safety * roots[lane]).min(longest);
+            // The larger of two sizes may lose a NaN, on some machines.
+            let root = if finite[lane].is_finite() {
+                roots[lane]
+            } else {
+                finite[lane]
+            };
+            let step = (self.safety * root).min(longest);
             let left = (runs.end[lane] - runs.time[lane]).abs();
             runs.evaluations[lane] += self.order as u64;
             runs.step[lane] = step;
