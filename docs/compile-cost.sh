@@ -12,7 +12,7 @@ folder="$(mktemp -d)"
 trap 'rm -r "$folder"' EXIT
 TIMEFORMAT=%U
 
-# Name, generations.
+# Name, generations, further statements.
 package() {
     mkdir -p "$folder/$1/src"
     cat > "$folder/$1/Cargo.toml" <<TOML
@@ -33,7 +33,7 @@ use branched_pendulum::prelude::*;
 )]
 pub struct Tree;
 SCENE
-    cat > "$folder/$1/src/main.rs" <<'MAIN'
+    cat > "$folder/$1/src/main.rs" <<MAIN
 #![allow(dead_code)]
 mod scene;
 use branched_pendulum::prelude::*;
@@ -44,6 +44,7 @@ fn main() {
     model.accelerations_into(0.0, &theta, &omega, &mut alpha);
     let energies = (model.kinetic_energy_of(&theta, &omega), model.potential_energy_of(&theta));
     println!("{} {energies:?}", alpha[0]);
+    ${3:-}
 }
 MAIN
 }
@@ -67,9 +68,16 @@ row() {
 
 package small 3
 package large 20
+package batch 5 'let states = vec![vec![0.1; 64]; n];
+    let mut batch = vec![vec![0.0; 64]; n];
+    let mut evaluation = branched_pendulum::batch::Batch::new(&model);
+    evaluation.accelerations(0.0, &states, &states, &mut batch).unwrap();
+    println!("{}", batch[0][0]);'
 cp Cargo.lock "$folder/small"
 cp Cargo.lock "$folder/large"
+cp Cargo.lock "$folder/batch"
 echo "| tree | expand | rustc | lines |"
 echo "|---|---|---|---|"
 row "7 links, written out" small
 row "2²⁰ − 1 links, loops" large
+row "31 links, written out, and a batch" batch

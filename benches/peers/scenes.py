@@ -3,7 +3,7 @@
 import numpy as np
 
 GRAVITY = 9.80665
-NUMBERS = 6144
+NUMBERS = 6000
 
 
 def paper():

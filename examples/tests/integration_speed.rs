@@ -28,17 +28,17 @@ fn errors_fall_to_rounding() {
     }
 }
 
-/// In lanes, an emitted model goes where it goes alone. Only 5 s: a deviation
-/// grows up to 3e7 times in 10 s there.
+/// In lanes, an emitted model goes where it goes alone. Only 3 s: a deviation
+/// grows up to 3e7 times in 10 s there, and in 5 s up to 1e6 times where links spin.
 #[test]
 fn lanes_agree_with_the_plain_method_near_the_threshold() {
     let (model, starts) = (Ideal::new(), near_threshold(101));
-    let options = Options::with_tolerance(1e-12);
+    let options = Options::with_tolerance(1e-11);
     let (method, series) = (Dop853::new(options.clone()), Taylor::new(options));
     let ensemble = Ensemble::new();
-    let plain = ensemble.integrate(&method, &AbsoluteAngles(&model), &starts, 5.0);
-    let lanes = ensemble.integrate_in_lanes(&method, &model, &starts, 5.0);
-    let series = ensemble.integrate_in_lanes(&series, &model, &starts, 5.0);
+    let plain = ensemble.integrate(&method, &AbsoluteAngles(&model), &starts, 3.0);
+    let lanes = ensemble.integrate_in_lanes(&method, &model, &starts, 3.0);
+    let series = ensemble.integrate_in_lanes(&series, &model, &starts, 3.0);
     for (plain, lanes) in plain.into_iter().zip(lanes.into_iter().zip(series)) {
         let plain = plain.unwrap().state;
         for lane in [lanes.0, lanes.1].map(|lane| lane.unwrap().state) {
