@@ -1,0 +1,131 @@
+//! Large trees and batches allocate nothing after their first evaluation, counted.
+
+// A global allocator cannot be written without `unsafe`; this one hands every
+// request on to the system's, unchanged, and counts it.
+#![allow(unsafe_code)]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::num::NonZeroUsize;
+
+use branched_pendulum::batch::Batch;
+use branched_pendulum::prelude::*;
+use branched_pendulum::scalar::Lane;
+
+thread_local! {
+    // Of this thread alone: the tests run side by side.
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // A thread that is ending has no counter any more.
+        let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Of a first and of a second call.
+fn of_two(mut call: impl FnMut()) -> [u64; 2] {
+    let start = ALLOCATIONS.with(Cell::get);
+    call();
+    let between = ALLOCATIONS.with(Cell::get);
+    call();
+    [between - start, ALLOCATIONS.with(Cell::get) - between]
+}
+
+/// In one piece.
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 10, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7, friction = 1e-4),
+    emit(energies),
+)]
+struct Whole;
+
+/// In parts.
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 15, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.9),
+    emit(energies),
+)]
+struct Parts;
+
+/// In a table.
+#[branched_pendulum(
+    gravity = 9.80665,
+    code = loops,
+    trunk: rod(mass = 1, length = 1) [
+        twig: rod(mass = 0.1, length = 0.5) * 70,
+        bough: rod(mass = 0.2, length = 0.5) [
+            leaf: rod(mass = 0.01, length = 0.1) * 61,
+        ],
+    ],
+    emit(energies),
+)]
+struct Irregular;
+
+fn evaluations<T: Lane, P: Pendulum<T> + Energy<T>>(model: &P) {
+    let n = P::LINKS;
+    let (theta, omega) = (vec![T::from_f64(0.3); n], vec![T::from_f64(0.1); n]);
+    let mut alpha = vec![T::from_f64(0.0); n];
+    let [first, second] = of_two(|| {
+        model.accelerations_into(T::from_f64(0.0), &theta, &omega, &mut alpha);
+    });
+    // Where nothing is counted, the second zero says nothing.
+    assert!(first > 0);
+    assert_eq!(second, 0);
+    let mut energy = T::from_f64(0.0);
+    let [_, second] = of_two(|| {
+        energy = model.kinetic_energy_of(&theta, &omega) + model.potential_energy_of(&theta);
+    });
+    assert_eq!(second, 0);
+    assert!(energy > T::from_f64(0.0));
+}
+
+#[test]
+fn large_trees() {
+    let one = NonZeroUsize::MIN;
+    evaluations::<f64, _>(&Whole::<f64>::new());
+    evaluations::<f32, _>(&Whole::<f32>::default());
+    let (mut double, mut single) = (Parts::<f64>::new(), Parts::<f32>::default());
+    // A thread that is started allocates.
+    double.set_threads(one);
+    single.set_threads(one);
+    evaluations::<f64, _>(&double);
+    evaluations::<f32, _>(&single);
+    evaluations::<f64, _>(&Irregular::<f64>::new());
+    evaluations::<f32, _>(&Irregular::<f32>::default());
+}
+
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 4, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7),
+)]
+struct Small;
+
+/// A batch allocates when it is built, and any count of states after that is free.
+#[test]
+fn batches() {
+    let model = Small::<f64>::new();
+    let mut batch = Batch::new(&model);
+    let states = vec![vec![0.1; 67]; 15];
+    let mut alpha = vec![vec![0.0; 67]; 15];
+    let allocations = of_two(|| {
+        batch
+            .accelerations(0.0, &states, &states, &mut alpha)
+            .unwrap();
+    });
+    assert_eq!(allocations, [0, 0]);
+}
