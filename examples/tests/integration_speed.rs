@@ -3,6 +3,7 @@
 use std::process::Command;
 
 use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
 use branched_pendulum_examples::integration_speed::ensemble::near_threshold;
 use branched_pendulum_examples::integration_speed::measure::points;
@@ -28,24 +29,46 @@ fn errors_fall_to_rounding() {
     }
 }
 
-/// In lanes, an emitted model goes where it goes alone. Only 3 s: a deviation
-/// grows up to 3e7 times in 10 s there, and in 5 s up to 1e6 times where links spin.
+/// In lanes, an emitted model ends as near to the truth as by the same method
+/// alone. Steps are not the same: their control rounds differently, and the motion
+/// makes up to a million times as much of it in 5 s.
 #[test]
-fn lanes_agree_with_the_plain_method_near_the_threshold() {
+fn lanes_are_as_accurate_as_the_plain_method_near_the_threshold() {
     let (model, starts) = (Ideal::new(), near_threshold(101));
-    let options = Options::with_tolerance(1e-11);
-    let (method, series) = (Dop853::new(options.clone()), Taylor::new(options));
+    let ode = AbsoluteAngles(&model);
     let ensemble = Ensemble::new();
-    let plain = ensemble.integrate(&method, &AbsoluteAngles(&model), &starts, 3.0);
-    let lanes = ensemble.integrate_in_lanes(&method, &model, &starts, 3.0);
-    let series = ensemble.integrate_in_lanes(&series, &model, &starts, 3.0);
-    for (plain, lanes) in plain.into_iter().zip(lanes.into_iter().zip(series)) {
-        let plain = plain.unwrap().state;
-        for lane in [lanes.0, lanes.1].map(|lane| lane.unwrap().state) {
-            for (a, b) in plain.values.iter().zip(&lane.values) {
-                assert!((a - b).abs() < 1e-6, "{plain:?} {lane:?}");
-            }
-        }
+    let exact = Taylor::new(Options::with_tolerance(1e-16));
+    let exact = ensemble.integrate(&exact, &ode, &starts, 5.0);
+    let median_and_worst = |ends: Vec<Result<Solution<f64>, IntegrationError<f64>>>| {
+        let mut errors: Vec<f64> = ends
+            .into_iter()
+            .zip(&exact)
+            .map(|(end, exact)| {
+                let (end, exact) = (end.unwrap().state, exact.as_ref().unwrap());
+                let pairs = end.values.iter().zip(&exact.state.values);
+                pairs.fold(0.0, |most, (a, b)| (a - b).abs().max(most))
+            })
+            .collect();
+        errors.sort_by(f64::total_cmp);
+        (errors[errors.len() / 2], errors[errors.len() - 1])
+    };
+    let options = Options::with_tolerance(1e-11);
+    let (pair, series) = (Dop853::new(options.clone()), Taylor::new(options));
+    for (plain, lanes) in [
+        (
+            ensemble.integrate(&pair, &ode, &starts, 5.0),
+            ensemble.integrate_in_lanes(&pair, &model, &starts, 5.0),
+        ),
+        (
+            ensemble.integrate(&series, &ode, &starts, 5.0),
+            ensemble.integrate_in_lanes(&series, &model, &starts, 5.0),
+        ),
+    ] {
+        let (plain, lanes) = (median_and_worst(plain), median_and_worst(lanes));
+        println!("{plain:?} {lanes:?}");
+        assert!(lanes.0 < 2.0 * plain.0, "{plain:?} {lanes:?}");
+        assert!(lanes.1 < 4.0 * plain.1, "{plain:?} {lanes:?}");
+        assert!(plain.0 < 1e-8, "{plain:?}");
     }
 }
 

@@ -13,7 +13,7 @@ pub(crate) mod registers;
 mod runs;
 mod samples;
 #[cfg(test)]
-mod tests;
+pub(in crate::integrate) mod tests;
 
 use alloc::vec::Vec;
 

@@ -3,7 +3,8 @@ use std::mem::discriminant;
 
 use super::{LaneMethod, Outcome, Task, integrate};
 use crate::integrate::{
-    DenseStep, Dop853, InputError, IntegrationError, Integrator, Options, StopReason, Taylor,
+    DenseStep, Dop853, InputError, IntegrationError, Integrator, Options, Solution, StopReason,
+    Taylor,
 };
 use crate::scalar::{InstructionSet, Lane, Scalar};
 use crate::system::{AbsoluteAngles, Pendulum, Rescale, State, TaylorPendulum};
@@ -303,6 +304,47 @@ fn the_plain_methods_are_met_to_the_tolerance() {
     }
 }
 
+/// Both ends are of one kind, failures of the same and about the same time: why, if
+/// they ran.
+pub(in crate::integrate) fn stop_of_both(
+    index: usize,
+    lane: &Result<Solution<f64>, IntegrationError<f64>>,
+    plain: &Result<Solution<f64>, IntegrationError<f64>>,
+) -> Option<StopReason> {
+    match (lane, plain) {
+        (Ok(lane), Ok(plain)) => {
+            assert_eq!(lane.state.time, plain.state.time);
+            None
+        }
+        (Err(IntegrationError::Input(lane)), Err(IntegrationError::Input(plain))) => {
+            // NaN is not itself.
+            assert_eq!(format!("{lane:?}"), format!("{plain:?}"));
+            None
+        }
+        (Err(lane), Err(plain)) => {
+            assert_eq!(discriminant(lane), discriminant(plain), "{index}");
+            let times = [lane, plain].map(|e| e.last_state().unwrap().time);
+            let reports = [lane, plain].map(|e| *e.report().unwrap());
+            let step = reports[1].longest_step;
+            assert!((times[0] - times[1]).abs() <= step, "{index}: {times:?}");
+            assert_eq!(reports[0].stop, reports[1].stop);
+            Some(reports[0].stop)
+        }
+        (lane, plain) => panic!("{index}: {lane:?} but {plain:?}"),
+    }
+}
+
+/// The faults that starts and options were chosen for have been seen.
+pub(in crate::integrate) fn assert_every_fault(seen: &[StopReason]) {
+    for stop in [
+        StopReason::NonFinite,
+        StopReason::StepLimit,
+        StopReason::StepTooSmall,
+    ] {
+        assert!(seen.contains(&stop), "{stop}");
+    }
+}
+
 /// Everything that can go wrong, among trajectories that go well.
 #[test]
 fn errors_of_the_series_are_those_of_the_plain_method() {
@@ -340,33 +382,11 @@ fn errors_of_the_series_are_those_of_the_plain_method() {
             for (index, (start, lane)) in starts.iter().zip(&lanes).enumerate() {
                 let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
                 let plain = method.integrate(&AbsoluteAngles(&model), start, end, go_on);
-                match (&lane.end, &plain) {
-                    (Ok(lane), Ok(plain)) => assert_eq!(lane.state.time, plain.state.time),
-                    (Err(IntegrationError::Input(lane)), Err(IntegrationError::Input(plain))) => {
-                        // NaN is not itself.
-                        assert_eq!(format!("{lane:?}"), format!("{plain:?}"));
-                    }
-                    (Err(lane), Err(plain)) => {
-                        assert_eq!(discriminant(lane), discriminant(plain), "{index}");
-                        let times = [lane, plain].map(|e| e.last_state().unwrap().time);
-                        let reports = [lane, plain].map(|e| *e.report().unwrap());
-                        let step = reports[1].longest_step;
-                        assert!((times[0] - times[1]).abs() <= step, "{index}: {times:?}");
-                        assert_eq!(reports[0].stop, reports[1].stop);
-                        seen.push(reports[0].stop);
-                    }
-                    (lane, plain) => panic!("{index}: {lane:?} but {plain:?}"),
-                }
+                seen.extend(stop_of_both(index, &lane.end, &plain));
             }
         }
     }
-    for stop in [
-        StopReason::NonFinite,
-        StopReason::StepLimit,
-        StopReason::StepTooSmall,
-    ] {
-        assert!(seen.contains(&stop), "{stop}");
-    }
+    assert_every_fault(&seen);
     let no_order = Taylor::new(Options::with_tolerance(1e-9)).with_order(2);
     let refused = outcomes(InstructionSet::widest(), &no_order, &starts[..1], &[], END);
     assert!(matches!(

@@ -1,8 +1,8 @@
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
-use std::mem::discriminant;
 
 use crate::ensemble::Ensemble;
+use crate::integrate::lanes::tests::{assert_every_fault, stop_of_both};
 use crate::integrate::lanes::{Task, integrate};
 use crate::integrate::{Dop853, InputError, IntegrationError, Options, Solution, StopReason};
 use crate::scalar::{InstructionSet, Lane, Scalar};
@@ -254,33 +254,12 @@ fn errors_are_those_of_the_plain_method() {
         for end in [END, f64::INFINITY] {
             let lanes = ends(InstructionSet::widest(), &options, &starts, end, &walled());
             for (index, (start, lane)) in starts.iter().zip(&lanes).enumerate() {
-                match (lane, &plain(&options, start, end, &walled())) {
-                    (Ok(lane), Ok(plain)) => assert_eq!(lane.state.time, plain.state.time),
-                    (Err(IntegrationError::Input(lane)), Err(IntegrationError::Input(plain))) => {
-                        // NaN is not itself.
-                        assert_eq!(format!("{lane:?}"), format!("{plain:?}"));
-                    }
-                    (Err(lane), Err(plain)) => {
-                        assert_eq!(discriminant(lane), discriminant(plain), "{index}");
-                        let times = [lane, plain].map(|e| e.last_state().unwrap().time);
-                        let reports = [lane, plain].map(|e| *e.report().unwrap());
-                        let step = reports[1].longest_step;
-                        assert!((times[0] - times[1]).abs() <= step, "{index}: {times:?}");
-                        assert_eq!(reports[0].stop, reports[1].stop);
-                        seen.push(reports[0].stop);
-                    }
-                    (lane, plain) => panic!("{index}: {lane:?} but {plain:?}"),
-                }
+                let plain = plain(&options, start, end, &walled());
+                seen.extend(stop_of_both(index, lane, &plain));
             }
         }
     }
-    for stop in [
-        StopReason::NonFinite,
-        StopReason::StepLimit,
-        StopReason::StepTooSmall,
-    ] {
-        assert!(seen.contains(&stop), "{stop}");
-    }
+    assert_every_fault(&seen);
 }
 
 /// The place of a failure is one where the rates have no answer.
