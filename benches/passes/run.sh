@@ -70,13 +70,13 @@ scene paper "The paper's pendulum" 3 "parent(mass = 0.12880, com = 0.084, inerti
 scene tree7 "7 links" 7 "arm: generations(count = 3, branching = 2, $tree),
     emit(energies, budget(canonical, velocity, matrix))" "$counted"
 scene tree31 "31 links" 31 "arm: generations(count = 5, branching = 2, $tree), emit(energies)" \
-    "$counted"
+    "$counted order"
 scene driven "A driven tree of 3 links" 3 "trunk: rod(mass = 0.2, length = 0.3, friction = 2e-3) [
     twig: rod(mass = 0.1, length = 0.2, friction = 1e-3) * 2],
     drive(torque = 0.2 * cos(4 * t), x = 0.02 * cos(5 * t), y = 0.01 * sin(10 * t)),
     emit(energies)" "sharing folding signs common-factors fusing"
 scene tree15 "15 links with long functions" 15 "arm: generations(count = 4, branching = 2, $tree),
-    emit(budget(canonical, matrix))" "common-factors splitting"
+    emit(budget(canonical, matrix))" "common-factors order splitting"
 
 cat > "$folder/src/variants.rs" <<RUST
 $modules

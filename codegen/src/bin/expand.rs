@@ -25,7 +25,8 @@ Usage: expand [OPTIONS] SOURCE
   --stage STAGE     show a stage instead of code: description, scene, mechanics
                     or program; or what the passes over programs are worth: passes
   --without PASS    leave out a pass over programs, to compare: sharing, folding,
-                    signs, angle-addition, common-factors, choice, fusing or splitting
+                    signs, angle-addition, common-factors, choice, fusing, order or
+                    splitting
   -h, --help        this text
 
 Everything but the attributed structs is copied as it stands; imports of the

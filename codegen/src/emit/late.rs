@@ -9,7 +9,7 @@ use super::Emission;
 use super::function::{Binding, Written, ident};
 use super::names::Locals;
 use super::parts::{self, Line, Part, SHARED};
-use crate::program::{Argument, Entry, Op, Purpose, ValueId};
+use crate::program::{Argument, Entry, Op, Pass, Purpose, ValueId};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::{BTreeMap, BTreeSet};
@@ -46,7 +46,8 @@ impl Emission<'_> {
     /// the values are needed: accelerations whose values do not fit into
     /// registers, if the compiler sees them as a whole.
     pub(super) fn is_late(&self, entry: &Entry, written: &Written) -> bool {
-        entry.purpose == Purpose::Accelerations
+        self.program.without != Some(Pass::Order)
+            && entry.purpose == Purpose::Accelerations
             && written.gathered.whole == Some(Argument::Theta)
             && parts::is_whole(&written.lines)
             && self.program.live(entry) > WAITING

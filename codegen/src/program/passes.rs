@@ -8,6 +8,7 @@
 //! | common factors | `factors.rs` | on whole programs |
 //! | fusing | `fuse.rs` | on an entry point, for emission and interpreter alike |
 //! | dead code | `dead.rs` | on an entry point, which is the program pruned to its outputs |
+//! | order | `emit/late.rs` | on accelerations with more values than registers |
 //! | splitting | `emit/parts.rs` | on functions that are too long for the compiler |
 //!
 //! Every one keeps what [`Program::verify`] checks, and the meaning: exactly, or within
@@ -36,6 +37,9 @@ pub enum Pass {
     Choice,
     /// Products are part of the sums that they feed.
     Fusing,
+    /// Where values outnumber registers, inputs are read, sines asked for and results
+    /// handed over each where its turn comes.
+    Order,
     /// Long functions are written in parts.
     Splitting,
 }
@@ -48,7 +52,7 @@ pub(super) const PASSES: [(Pass, Over); 1] = [(Pass::CommonFactors, factors::com
 
 impl Pass {
     /// All passes, in the order in which tables show them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Sharing,
         Self::Folding,
         Self::Signs,
@@ -56,6 +60,7 @@ impl Pass {
         Self::CommonFactors,
         Self::Choice,
         Self::Fusing,
+        Self::Order,
         Self::Splitting,
     ];
 
@@ -69,6 +74,7 @@ impl Pass {
             Self::CommonFactors => "common-factors",
             Self::Choice => "choice",
             Self::Fusing => "fusing",
+            Self::Order => "order",
             Self::Splitting => "splitting",
         }
     }
@@ -80,7 +86,7 @@ impl Pass {
 
     /// Whether it changes what a function computes; if not, only how it is written.
     fn is_counted(self) -> bool {
-        self != Self::Splitting
+        !matches!(self, Self::Order | Self::Splitting)
     }
 }
 
