@@ -1,9 +1,11 @@
 //! Driven trees: against derivations of the tests' own, and the physics of
 //! shaken pendulums.
 
+mod balance;
+mod shaken;
+
 use std::f64::consts::PI;
 
-use branched_pendulum::prelude::*;
 use branched_pendulum_codegen::mechanics::coordinates::Kind;
 use branched_pendulum_codegen::scene::Solve;
 use branched_pendulum_tests::oracle::cartesian::Motion;
@@ -11,7 +13,6 @@ use branched_pendulum_tests::oracle::constrained;
 use branched_pendulum_tests::oracle::drive::{Jet, Push, Signal};
 use branched_pendulum_tests::oracle::generator::{Recipe, Sample, sample};
 use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::scenes::driven::{Driven, DrivenParameters};
 use nalgebra::DVector;
 
 use crate::support::{Compiled, Worst, compile};
@@ -261,150 +262,6 @@ fn only_the_pivot_feeds_the_antiphase() {
     assert!(pivot.program.entry("antiphase_drive_power").is_some());
     // Powers of the whole come with the energies.
     assert!(pivot.program.entry("drive_power").is_none());
-}
-
-fn driven() -> Driven {
-    let parameters = DrivenParameters {
-        push: 0.2,
-        pace: 8.0,
-        phase: 0.7,
-        sway: 0.04,
-    };
-    Driven::new(parameters).expect("possible parameters")
-}
-
-/// Integrates the driven fixture and, beside it, powers; returns the largest
-/// |E(t) − E(0) − ∫P dt| and the largest |E|, of all samples.
-fn balance(
-    energy: impl Fn(&Driven, &[f64; 3], &[f64; 3]) -> f64,
-    power: impl Fn(&Driven, f64, &[f64; 3], &[f64; 3]) -> f64,
-) -> (f64, f64) {
-    let model = driven();
-    let halves = |state: &[f64]| -> ([f64; 3], [f64; 3]) {
-        let half = |part: &[f64]| part.try_into().expect("three links");
-        (half(&state[..3]), half(&state[3..6]))
-    };
-    let system = OdeFn::new(7, |time: f64, state: &[f64], rates: &mut [f64]| {
-        let (theta, omega) = halves(state);
-        rates[..3].copy_from_slice(&omega);
-        rates[3..6].copy_from_slice(&model.accelerations(time, &theta, &omega));
-        rates[6] = power(&model, time, &theta, &omega);
-    });
-    let start = State::new(0.0, vec![0.9, 0.3, -0.2, 0.0, 1.0, -2.0, 0.0]);
-    let of = |state: &[f64]| {
-        let (theta, omega) = halves(state);
-        energy(&model, &theta, &omega)
-    };
-    let first = of(&start.values);
-    let times: Vec<f64> = (1..=200).map(|i| 0.05 * f64::from(i)).collect();
-    let (mut error, mut size) = (0.0_f64, 0.0_f64);
-    Dop853::new(Options::with_tolerance(1e-13))
-        .sample(&system, &start, &times, |_, state| {
-            let own = of(state);
-            error = error.max((own - first - state[6]).abs());
-            size = size.max(own.abs());
-        })
-        .expect("it runs");
-    (error, size)
-}
-
-#[test]
-fn energy_is_balanced_by_the_powers_of_drive_and_friction() {
-    let energy = |model: &Driven, theta: &[f64; 3], omega: &[f64; 3]| {
-        model.kinetic_energy(theta, omega) + model.potential_energy(theta)
-    };
-    let (error, size) = balance(energy, |model, time, theta, omega| {
-        model.drive_power(time, theta, omega) + model.friction_power(omega)
-    });
-    println!("balance of the energy: {error:.2e} J of {size:.2e} J");
-    assert!(error <= 1e-10 * size, "{error} {size}");
-    // Neither power may be left out.
-    let (error, size) = balance(energy, |model, time, theta, omega| {
-        model.drive_power(time, theta, omega)
-    });
-    assert!(error > 1e-3 * size, "{error} {size}");
-    let (error, size) = balance(energy, |model, _, _, omega| model.friction_power(omega));
-    assert!(error > 1e-3 * size, "{error} {size}");
-}
-
-#[test]
-fn antiphase_energy_is_balanced_by_transfer_friction_and_drive() {
-    let symmetric = |model: &Driven, theta: &[f64; 3], omega: &[f64; 3]| {
-        (model.to_symmetric(theta), model.to_symmetric(omega))
-    };
-    let energy = |model: &Driven, theta: &[f64; 3], omega: &[f64; 3]| {
-        let (q, v) = symmetric(model, theta, omega);
-        model.antiphase_energy(&q, &model.symmetric_momenta(&q, &v))
-    };
-    let conservative = |model: &Driven, theta: &[f64; 3], omega: &[f64; 3]| {
-        let (q, v) = symmetric(model, theta, omega);
-        model.transfer_exact_from_rates(&q, &v).total() + model.antiphase_friction_power(&q, &v)
-    };
-    let (error, size) = balance(energy, |model, time, theta, omega| {
-        let (q, v) = symmetric(model, theta, omega);
-        conservative(model, theta, omega) + model.antiphase_drive_power(time, &q, &v)
-    });
-    println!("balance of the antiphase: {error:.2e} J of {size:.2e} J");
-    assert!(error <= 1e-10 * size, "{error} {size}");
-    let (error, size) = balance(energy, |model, _, theta, omega| {
-        conservative(model, theta, omega)
-    });
-    assert!(error > 1e-2 * size, "{error} {size}");
-}
-
-mod shaken {
-    #![allow(missing_docs)]
-    use branched_pendulum::branched_pendulum;
-
-    /// A rod whose pivot is shaken up and down; it swings like a point at
-    /// 2/3 of its length.
-    #[branched_pendulum(
-        gravity = 9.8,
-        rod: rod(mass = 0.1, length = 0.3),
-        drive(y = height * cos(rate * t)),
-    )]
-    pub struct Shaken;
-}
-
-/// The largest angle from upright over 6 s, and the number of crossings of it.
-fn upright(height: f64, rate: f64) -> (f64, usize) {
-    let parameters = shaken::ShakenParameters { height, rate };
-    let model = shaken::Shaken::new(parameters).expect("possible parameters");
-    let start = State::at_rest(0.0, &[PI + 0.02]);
-    let times: Vec<f64> = (1..=6000).map(|i| 1e-3 * f64::from(i)).collect();
-    let mut angles = Vec::new();
-    Dop853::new(Options::with_tolerance(1e-10))
-        .sample(&AbsoluteAngles(&model), &start, &times, |_, state| {
-            angles.push(state[0] - PI);
-        })
-        .expect("it runs");
-    let crossings = angles.windows(2).filter(|w| w[0] * w[1] < 0.0).count();
-    let largest = angles.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-    (largest, crossings)
-}
-
-/// Kapitza's pendulum (Landau and Lifshitz, Mechanics, §30): upright is stable
-/// where the pivot moves fast enough, a² Ω² > 2 g l, and the slow oscillation
-/// about it has the frequency √(a² Ω²/2 l² − g/l).
-#[test]
-fn a_fast_pivot_holds_the_pendulum_upright() {
-    const HEIGHT: f64 = 0.005;
-    const LENGTH: f64 = 0.2;
-    let threshold = (2.0 * 9.8 * LENGTH).sqrt() / HEIGHT;
-    let (largest, crossings) = upright(HEIGHT, 0.95 * threshold);
-    assert!(largest > 1.0, "{largest} {crossings}");
-    for factor in [1.05, 1.5, 3.0] {
-        let rate = factor * threshold;
-        let (largest, crossings) = upright(HEIGHT, rate);
-        assert!(largest < 0.03, "{factor}: {largest}");
-        let square = (HEIGHT * rate / LENGTH).powi(2) / 2.0 - 9.8 / LENGTH;
-        let expected = 6.0 * square.sqrt() / PI;
-        // Two crossings a period; the fast motion adds none away from zero.
-        assert!(
-            (crossings as f64 - expected).abs() < 2.0,
-            "{crossings} {expected}"
-        );
-    }
 }
 
 /// Observables know the drive: their rates are those along the driven motion,
