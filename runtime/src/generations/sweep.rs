@@ -62,9 +62,7 @@ pub(super) fn up<P, T, const C: usize, const L: usize, const R: usize, const K: 
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
-    if let Some(sweep) = Typed::<P, T, C, L, R, K>::of(sweep) {
-        T::over_slices(Up(sweep));
-    }
+    T::over_slices(Up::<P, T, C, L, R, K>(sweep, PhantomData));
 }
 
 /// From the first generation of a part, the accelerations of whose pivots are in
@@ -75,36 +73,45 @@ pub(super) fn down<P, T, const C: usize, const L: usize, const R: usize, const K
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
-    if let Some(sweep) = Typed::<P, T, C, L, R, K>::of(sweep) {
-        T::over_slices(Down(sweep));
-    }
+    T::over_slices(Down::<P, T, C, L, R, K>(sweep, PhantomData));
 }
 
-struct Up<S>(S);
+// The sweep itself goes to the copy that is compiled for the machine's instructions
+// by reference: moved, it would be read in other widths than it was just written
+// in, and a processor waits for that.
+struct Up<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    &'a mut Sweep<'b, T>,
+    PhantomData<P>,
+);
 
-struct Down<S>(S);
+struct Down<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    &'a mut Sweep<'b, T>,
+    PhantomData<P>,
+);
 
 impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
-    for Up<Typed<'_, P, T, C, L, R, K>>
+    for Up<'_, '_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
     #[inline(always)]
     fn run<W: Vectors<T>>(self) {
-        let _ = self.0.up::<W::Long>();
+        let typed = Typed::<P, T, C, L, R, K>::of(self.0);
+        let _ = typed.and_then(|typed| typed.up::<W::Long>());
     }
 }
 
 impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
-    for Down<Typed<'_, P, T, C, L, R, K>>
+    for Down<'_, '_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
     #[inline(always)]
-    fn run<W: Vectors<T>>(mut self) {
-        let _ = self.0.down::<W::Long>();
+    fn run<W: Vectors<T>>(self) {
+        let typed = Typed::<P, T, C, L, R, K>::of(self.0);
+        let _ = typed.and_then(|mut typed| typed.down::<W::Long>());
     }
 }
 
@@ -126,6 +133,7 @@ where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
+    #[inline(always)]
     fn of(sweep: &'a mut Sweep<'_, T>) -> Option<Self> {
         let Sweep {
             part,
