@@ -4,11 +4,11 @@ mod steps;
 
 use core::marker::PhantomData;
 
-use super::columns::Columns;
+use super::columns::{AtCopies, Columns, Copies};
 use super::memory::Storage;
 use super::part::{Part, Place};
 use super::recursion::{Motion, Recursion};
-use super::shared::Shared;
+use super::shared::{Copies as SharedCopies, Shared};
 use super::vector::{SliceKernel, Vector, Vectors, each};
 use crate::scalar::Scalar;
 use steps::{Inners, Stems, TurnInners, TurnStems};
@@ -175,7 +175,6 @@ where
         let (first, rows) = (self.part.place(stage, run), stage.length.max(V::LANES));
         Some(Level {
             constants,
-            copies: below.copies,
             length: stage.length,
             rows,
             own: self.links.window(first.own, rows)?,
@@ -187,11 +186,37 @@ where
                 slot: below.slot + run * stage.length,
                 whole: below.whole + self.part.start + run * stage.stride,
             },
-            next_own: stage.count,
-            next_whole: stage.whole_count,
-            links: self.links,
-            all_answers: self.answers,
-            all_alpha: self.alpha,
+            copies: [below.copies, stage.count],
+            whole_copies: [below.copies, stage.whole_count],
+        })
+    }
+
+    /// Answers of the children, on the way down the accelerations of their pivots.
+    #[inline(always)]
+    fn below(&self, level: &Level<'a, T, C, R, K>) -> Option<Copies<'a, T, R>> {
+        let Level { child, rows, .. } = level;
+        self.answers.copies(child.slot, *rows, level.copies)
+    }
+
+    /// The children that are leaves.
+    #[inline(always)]
+    fn leaves(&self, level: &Level<'a, T, C, R, K>) -> Option<Leaves<'a, T, C>> {
+        let &Level {
+            child,
+            rows,
+            length,
+            copies,
+            whole_copies,
+            ..
+        } = level;
+        Some(Leaves {
+            constants: *self.constants.last()?,
+            turns: self.links.turns.copies(child.own, rows, copies)?,
+            bends: match P::JOINTS {
+                true => Some(self.links.bends.copies(child.own, rows, copies)?),
+                false => None,
+            },
+            alpha: self.alpha.copies(child.whole, length, whole_copies)?,
         })
     }
 
@@ -204,11 +229,12 @@ where
                 let level = self.level::<V>(stage, run)?;
                 let length = level.length;
                 if self.part.has_leaves && stage + 1 == self.part.inner {
-                    let leaf_constants = *self.constants.last()?;
-                    let mut step = Stems::<P, T, C, L, R, K>(level, leaf_constants, PhantomData);
+                    let leaves = self.leaves(&level)?;
+                    let mut step = Stems::<P, T, C, L, R, K>(level, leaves, PhantomData);
                     each::<T, V>(length, &mut step)?;
                 } else {
-                    let mut step = Inners::<P, T, C, L, R, K>(level, PhantomData);
+                    let below = self.below(&level)?;
+                    let mut step = Inners::<P, T, C, L, R, K>(level, below, PhantomData);
                     each::<T, V>(length, &mut step)?;
                 }
             }
@@ -250,11 +276,12 @@ where
                 let level = self.level::<V>(stage, run)?;
                 let length = level.length;
                 if self.part.has_leaves && stage + 1 == self.part.inner {
-                    let constants = *self.constants.last()?;
-                    let mut step = TurnStems::<P, T, C, L, R, K>(level, constants, PhantomData);
+                    let leaves = self.leaves(&level)?;
+                    let mut step = TurnStems::<P, T, C, L, R, K>(level, leaves, PhantomData);
                     each::<T, V>(length, &mut step)?;
                 } else {
-                    let mut step = TurnInners::<P, T, C, L, R, K>(level, PhantomData);
+                    let below = self.below(&level)?;
+                    let mut step = TurnInners::<P, T, C, L, R, K>(level, below, PhantomData);
                     each::<T, V>(length, &mut step)?;
                 }
             }
@@ -324,51 +351,86 @@ impl<T: Scalar> Links<'_, T> {
 
     #[inline(always)]
     fn motion<V: Vector<T>>(self, at: usize) -> Option<Motion<V>> {
-        let [sine, cosine, omega] = self.turns.load(at)?;
-        let [bend, bend_rate] = match self.joints {
-            true => self.bends.load(at)?,
-            false => [omega; 2],
+        let bends = match self.joints {
+            true => Some(self.bends.load(at)?),
+            false => None,
         };
-        Some(Motion {
-            sine,
-            cosine,
-            omega,
-            bend,
-            bend_rate,
-        })
+        Some(motion(self.turns.load(at)?, bends))
+    }
+}
+
+#[inline(always)]
+fn motion<V: Scalar>([sine, cosine, omega]: [V; 3], bends: Option<[V; 2]>) -> Motion<V> {
+    // Where nothing acts in joints nobody reads them.
+    let [bend, bend_rate] = match bends {
+        Some(bends) => bends,
+        None => [omega; 2],
+    };
+    Motion {
+        sine,
+        cosine,
+        omega,
+        bend,
+        bend_rate,
     }
 }
 
 /// Neighbours of one generation, on the way up or down.
 struct Level<'a, T, const C: usize, const R: usize, const K: usize> {
     constants: [T; C],
-    copies: usize,
     length: usize,
     /// The length, or the number of a vector's lanes where that is more.
     rows: usize,
-    /// The first copy of the first one's children, and how far the next copies are.
-    child: Place,
-    next_own: usize,
-    next_whole: usize,
     own: Links<'a, T>,
     answers: Columns<'a, T, R>,
     kept: Columns<'a, T, K>,
     alpha: Shared<'a, T>,
-    /// Of all links.
-    links: Links<'a, T>,
-    all_answers: Columns<'a, T, R>,
-    all_alpha: Shared<'a, T>,
+    /// The first copy of the first one's children.
+    child: Place,
+    /// How many copies there are, and how far from one to the next in the part's own
+    /// arrays and in the whole tree's.
+    copies: [usize; 2],
+    whole_copies: [usize; 2],
 }
 
-impl<T: Scalar, const C: usize, const R: usize, const K: usize> Level<'_, T, C, R, K> {
-    /// The first link of a copy of the children.
+/// The leaves below neighbours.
+struct Leaves<'a, T, const C: usize> {
+    constants: [T; C],
+    turns: Copies<'a, T, 3>,
+    bends: Option<Copies<'a, T, 2>>,
+    alpha: SharedCopies<'a, T>,
+}
+
+impl<'a, T: Scalar, const C: usize> Leaves<'a, T, C> {
+    /// Their motions, copy by copy.
     #[inline(always)]
-    fn child(&self, copy: usize) -> Place {
-        Place {
-            own: self.child.own + copy * self.next_own,
-            slot: self.child.slot + copy * self.next_own,
-            whole: self.child.whole + copy * self.next_whole,
-        }
+    fn at<V: Vector<T>>(&self, index: usize) -> Option<LeavesAt<'a, T, V>> {
+        Some(LeavesAt {
+            turns: self.turns.at(index)?,
+            bends: match self.bends {
+                Some(bends) => Some(bends.at(index)?),
+                None => None,
+            },
+        })
+    }
+}
+
+/// Leaves at one place, from the first copy on.
+struct LeavesAt<'a, T, V> {
+    turns: AtCopies<'a, T, V, 3>,
+    bends: Option<AtCopies<'a, T, V, 2>>,
+}
+
+impl<T: Scalar, V: Vector<T>> LeavesAt<'_, T, V> {
+    /// The next copy's; none behind the last one.
+    #[inline(always)]
+    fn next(&mut self) -> Option<Motion<V>> {
+        let turns = self.turns.load()?;
+        let bends = match &mut self.bends {
+            Some(bends) => Some(bends.load()?),
+            None => None,
+        };
+        Some(motion(turns, bends))
     }
 }
 
