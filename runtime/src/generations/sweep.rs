@@ -1,16 +1,19 @@
 //! Leaves to root, and back: the recursion over a part of the tree.
 
+mod level;
 mod steps;
 
 use core::marker::PhantomData;
 
-use super::columns::{AtCopies, Columns, Copies};
+use super::columns::{Columns, Copies};
 use super::memory::Storage;
 use super::part::{Part, Place};
-use super::recursion::{Motion, Recursion};
-use super::shared::{Copies as SharedCopies, Shared};
+use super::recursion::Recursion;
+use super::shared::Shared;
 use super::vector::{SliceKernel, Vector, Vectors, each};
 use crate::scalar::Scalar;
+pub(super) use level::splat;
+use level::{Leaves, Level, Links};
 use steps::{Inners, Stems, TurnInners, TurnStems};
 
 /// A part with its state.
@@ -306,131 +309,6 @@ where
             pivot = [x.repeat(stage.count), y.repeat(stage.count)];
         }
         self.answers.store(part.stages.get(crown)?.slot, pivot)
-    }
-}
-
-// Loops: `map` and `from_fn` are not always inlined, and must be.
-#[inline(always)]
-pub(super) fn splat<T: Copy, V: Vector<T>, const N: usize>(numbers: &[T; N]) -> [V; N] {
-    let mut values = [V::from_f64(0.0); N];
-    for i in 0..N {
-        values[i] = V::splat(numbers[i]);
-    }
-    values
-}
-
-#[inline(always)]
-fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
-    for i in 0..N {
-        a[i] = a[i] + b[i];
-    }
-    a
-}
-
-/// What is known of links before the recursion.
-#[derive(Clone, Copy)]
-struct Links<'a, T> {
-    turns: Columns<'a, T, 3>,
-    bends: Columns<'a, T, 2>,
-    joints: bool,
-}
-
-impl<T: Scalar> Links<'_, T> {
-    #[inline(always)]
-    fn window(self, at: usize, rows: usize) -> Option<Self> {
-        let bends = match self.joints {
-            true => self.bends.window(at, rows)?,
-            false => self.bends,
-        };
-        Some(Self {
-            turns: self.turns.window(at, rows)?,
-            bends,
-            ..self
-        })
-    }
-
-    #[inline(always)]
-    fn motion<V: Vector<T>>(self, at: usize) -> Option<Motion<V>> {
-        let bends = match self.joints {
-            true => Some(self.bends.load(at)?),
-            false => None,
-        };
-        Some(motion(self.turns.load(at)?, bends))
-    }
-}
-
-#[inline(always)]
-fn motion<V: Scalar>([sine, cosine, omega]: [V; 3], bends: Option<[V; 2]>) -> Motion<V> {
-    // Where nothing acts in joints nobody reads them.
-    let [bend, bend_rate] = match bends {
-        Some(bends) => bends,
-        None => [omega; 2],
-    };
-    Motion {
-        sine,
-        cosine,
-        omega,
-        bend,
-        bend_rate,
-    }
-}
-
-/// Neighbours of one generation, on the way up or down.
-struct Level<'a, T, const C: usize, const R: usize, const K: usize> {
-    constants: [T; C],
-    length: usize,
-    /// The length, or the number of a vector's lanes where that is more.
-    rows: usize,
-    own: Links<'a, T>,
-    answers: Columns<'a, T, R>,
-    kept: Columns<'a, T, K>,
-    alpha: Shared<'a, T>,
-    /// The first copy of the first one's children.
-    child: Place,
-    /// How many copies there are, and how far from one to the next in the part's own
-    /// arrays and in the whole tree's.
-    copies: [usize; 2],
-    whole_copies: [usize; 2],
-}
-
-/// The leaves below neighbours.
-struct Leaves<'a, T, const C: usize> {
-    constants: [T; C],
-    turns: Copies<'a, T, 3>,
-    bends: Option<Copies<'a, T, 2>>,
-    alpha: SharedCopies<'a, T>,
-}
-
-impl<'a, T: Scalar, const C: usize> Leaves<'a, T, C> {
-    /// Their motions, copy by copy.
-    #[inline(always)]
-    fn at<V: Vector<T>>(&self, index: usize) -> Option<LeavesAt<'a, T, V>> {
-        Some(LeavesAt {
-            turns: self.turns.at(index)?,
-            bends: match self.bends {
-                Some(bends) => Some(bends.at(index)?),
-                None => None,
-            },
-        })
-    }
-}
-
-/// Leaves at one place, from the first copy on.
-struct LeavesAt<'a, T, V> {
-    turns: AtCopies<'a, T, V, 3>,
-    bends: Option<AtCopies<'a, T, V, 2>>,
-}
-
-impl<T: Scalar, V: Vector<T>> LeavesAt<'_, T, V> {
-    /// The next copy's; none behind the last one.
-    #[inline(always)]
-    fn next(&mut self) -> Option<Motion<V>> {
-        let turns = self.turns.load()?;
-        let bends = match &mut self.bends {
-            Some(bends) => Some(bends.load()?),
-            None => None,
-        };
-        Some(motion(turns, bends))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::{Leaves, Level, splat, sum};
+use super::level::{Leaves, Level, splat, sum};
 use crate::generations::columns::Copies;
 use crate::generations::recursion::Recursion;
 use crate::generations::vector::{Step, Vector};
