@@ -106,3 +106,103 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         Some(())
     }
 }
+
+impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
+    /// So many windows of `rows` rows, the first at `at` and the others `apart` from
+    /// each other: one question for all of them.
+    #[inline(always)]
+    pub(super) fn copies(
+        self,
+        at: usize,
+        rows: usize,
+        [copies, apart]: [usize; 2],
+    ) -> Option<Copies<'a, T, N>> {
+        let reach = copies.checked_sub(1)?.checked_mul(apart)?;
+        self.window(at, reach.checked_add(rows)?)?;
+        Some(Copies {
+            first: self.window(at, rows)?,
+            copies,
+            apart,
+        })
+    }
+}
+
+/// Windows of equal length, equally far apart: the copies of links below others.
+#[derive(Debug)]
+pub(super) struct Copies<'a, T, const N: usize> {
+    first: Columns<'a, T, N>,
+    copies: usize,
+    apart: usize,
+}
+
+impl<T, const N: usize> Clone for Copies<'_, T, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T, const N: usize> Copy for Copies<'_, T, N> {}
+
+impl<'a, T: Copy, const N: usize> Copies<'a, T, N> {
+    /// The vectors at `at` of each window; none where they would cross its end.
+    #[inline(always)]
+    pub(super) fn at<V: Vector<T>>(self, at: usize) -> Option<AtCopies<'a, T, V, N>> {
+        self.first.has::<V>(at).then_some(AtCopies {
+            // SAFETY: `at` rows lie behind the start, as `has` has seen.
+            start: unsafe { self.first.start.add(at) },
+            stride: self.first.stride,
+            left: self.copies,
+            apart: self.apart,
+            slice: PhantomData,
+        })
+    }
+}
+
+/// Vectors at one place of each copy, from the first on.
+#[derive(Debug)]
+pub(super) struct AtCopies<'a, T, V, const N: usize> {
+    /// The next one's.
+    start: *mut T,
+    stride: usize,
+    left: usize,
+    apart: usize,
+    slice: PhantomData<(&'a mut [T], V)>,
+}
+
+impl<T: Copy, V: Vector<T>, const N: usize> AtCopies<'_, T, V, N> {
+    /// Where the next one's numbers are.
+    #[inline(always)]
+    fn next(&mut self) -> Option<*mut T> {
+        self.left = self.left.checked_sub(1)?;
+        let start = self.start;
+        // Behind the last copy there may be nothing to point to.
+        self.start = start.wrapping_add(self.apart);
+        Some(start)
+    }
+
+    /// The next one's first `M` columns.
+    #[inline(always)]
+    pub(super) fn load<const M: usize>(&mut self) -> Option<[V; M]> {
+        const { assert!(M <= N, "there are not so many columns") };
+        let start = self.next()?;
+        let mut vectors = [V::from_f64(0.0); M];
+        for (i, vector) in vectors.iter_mut().enumerate() {
+            // SAFETY: as for `Columns::load`. `copies` has seen that all windows lie in
+            // the columns, `at` that a vector from here on lies in a window.
+            *vector = unsafe { V::read(start.add(i * self.stride)) };
+        }
+        Some(vectors)
+    }
+
+    /// Writes the next one's first `M` columns.
+    #[inline(always)]
+    pub(super) fn store<const M: usize>(&mut self, vectors: [V; M]) -> Option<()> {
+        const { assert!(M <= N, "there are not so many columns") };
+        let start = self.next()?;
+        for (i, vector) in vectors.into_iter().enumerate() {
+            // SAFETY: likewise.
+            unsafe { vector.write(start.add(i * self.stride)) };
+        }
+        Some(())
+    }
+}

@@ -64,4 +64,68 @@ impl<'a, T: Copy> Shared<'a, T> {
             vector.store(places, 0);
         }
     }
+
+    /// `count` numbers from `at` on, and as many of each other copy, so far apart.
+    #[inline(always)]
+    pub(super) fn copies(
+        self,
+        at: usize,
+        count: usize,
+        [copies, apart]: [usize; 2],
+    ) -> Option<Copies<'a, T>> {
+        let reach = copies.checked_sub(1)?.checked_mul(apart)?;
+        let rest = self.from(at)?;
+        (reach.checked_add(count)? <= rest.length).then_some(Copies {
+            first: Self {
+                length: count,
+                ..rest
+            },
+            copies,
+            apart,
+        })
+    }
+}
+
+/// Runs of equal length, equally far apart.
+#[derive(Debug)]
+pub(super) struct Copies<'a, T> {
+    first: Shared<'a, T>,
+    copies: usize,
+    apart: usize,
+}
+
+impl<T> Clone for Copies<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Copies<'_, T> {}
+
+impl<'a, T: Copy> Copies<'a, T> {
+    /// Places for vectors at `at` in each run.
+    #[inline(always)]
+    pub(super) fn at(self, at: usize) -> AtCopies<'a, T> {
+        AtCopies { runs: self, at }
+    }
+}
+
+/// Places for vectors in runs, from the first on.
+#[derive(Debug)]
+pub(super) struct AtCopies<'a, T> {
+    runs: Copies<'a, T>,
+    at: usize,
+}
+
+impl<T: Copy> AtCopies<'_, T> {
+    /// Writes to the next run, as [`Shared::store`] does with its length.
+    #[inline(always)]
+    pub(super) fn store<V: Vector<T>>(&mut self, vector: V) -> Option<()> {
+        let runs = &mut self.runs;
+        runs.copies = runs.copies.checked_sub(1)?;
+        runs.first.store(self.at, vector, runs.first.length);
+        // Behind the last run, where this may point to nothing, there is no store.
+        runs.first.start = runs.first.start.wrapping_add(runs.apart);
+        Some(())
+    }
 }

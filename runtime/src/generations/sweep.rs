@@ -1,16 +1,19 @@
 //! Leaves to root, and back: the recursion over a part of the tree.
 
+mod level;
 mod steps;
 
 use core::marker::PhantomData;
 
-use super::columns::Columns;
+use super::columns::{Columns, Copies};
 use super::memory::Storage;
 use super::part::{Part, Place};
-use super::recursion::{Motion, Recursion};
+use super::recursion::Recursion;
 use super::shared::Shared;
 use super::vector::{SliceKernel, Vector, Vectors, each};
 use crate::scalar::Scalar;
+pub(super) use level::splat;
+use level::{Leaves, Level, Links};
 use steps::{Inners, Stems, TurnInners, TurnStems};
 
 /// A part with its state.
@@ -62,9 +65,7 @@ pub(super) fn up<P, T, const C: usize, const L: usize, const R: usize, const K: 
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
-    if let Some(sweep) = Typed::<P, T, C, L, R, K>::of(sweep) {
-        T::over_slices(Up(sweep));
-    }
+    T::over_slices(Up::<P, T, C, L, R, K>(sweep, PhantomData));
 }
 
 /// From the first generation of a part, the accelerations of whose pivots are in
@@ -75,36 +76,45 @@ pub(super) fn down<P, T, const C: usize, const L: usize, const R: usize, const K
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
-    if let Some(sweep) = Typed::<P, T, C, L, R, K>::of(sweep) {
-        T::over_slices(Down(sweep));
-    }
+    T::over_slices(Down::<P, T, C, L, R, K>(sweep, PhantomData));
 }
 
-struct Up<S>(S);
+// The sweep itself goes to the copy that is compiled for the machine's instructions
+// by reference: moved, it would be read in other widths than it was just written
+// in, and a processor waits for that.
+struct Up<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    &'a mut Sweep<'b, T>,
+    PhantomData<P>,
+);
 
-struct Down<S>(S);
+struct Down<'a, 'b, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
+    &'a mut Sweep<'b, T>,
+    PhantomData<P>,
+);
 
 impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
-    for Up<Typed<'_, P, T, C, L, R, K>>
+    for Up<'_, '_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
     #[inline(always)]
     fn run<W: Vectors<T>>(self) {
-        let _ = self.0.up::<W::Long>();
+        let typed = Typed::<P, T, C, L, R, K>::of(self.0);
+        let _ = typed.and_then(|typed| typed.up::<W::Long>());
     }
 }
 
 impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> SliceKernel<T>
-    for Down<Typed<'_, P, T, C, L, R, K>>
+    for Down<'_, '_, P, T, C, L, R, K>
 where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
     #[inline(always)]
-    fn run<W: Vectors<T>>(mut self) {
-        let _ = self.0.down::<W::Long>();
+    fn run<W: Vectors<T>>(self) {
+        let typed = Typed::<P, T, C, L, R, K>::of(self.0);
+        let _ = typed.and_then(|mut typed| typed.down::<W::Long>());
     }
 }
 
@@ -126,6 +136,7 @@ where
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
+    #[inline(always)]
     fn of(sweep: &'a mut Sweep<'_, T>) -> Option<Self> {
         let Sweep {
             part,
@@ -167,7 +178,6 @@ where
         let (first, rows) = (self.part.place(stage, run), stage.length.max(V::LANES));
         Some(Level {
             constants,
-            copies: below.copies,
             length: stage.length,
             rows,
             own: self.links.window(first.own, rows)?,
@@ -179,11 +189,37 @@ where
                 slot: below.slot + run * stage.length,
                 whole: below.whole + self.part.start + run * stage.stride,
             },
-            next_own: stage.count,
-            next_whole: stage.whole_count,
-            links: self.links,
-            all_answers: self.answers,
-            all_alpha: self.alpha,
+            copies: [below.copies, stage.count],
+            whole_copies: [below.copies, stage.whole_count],
+        })
+    }
+
+    /// Answers of the children, on the way down the accelerations of their pivots.
+    #[inline(always)]
+    fn below(&self, level: &Level<'a, T, C, R, K>) -> Option<Copies<'a, T, R>> {
+        let Level { child, rows, .. } = level;
+        self.answers.copies(child.slot, *rows, level.copies)
+    }
+
+    /// The children that are leaves.
+    #[inline(always)]
+    fn leaves(&self, level: &Level<'a, T, C, R, K>) -> Option<Leaves<'a, T, C>> {
+        let &Level {
+            child,
+            rows,
+            length,
+            copies,
+            whole_copies,
+            ..
+        } = level;
+        Some(Leaves {
+            constants: *self.constants.last()?,
+            turns: self.links.turns.copies(child.own, rows, copies)?,
+            bends: match P::JOINTS {
+                true => Some(self.links.bends.copies(child.own, rows, copies)?),
+                false => None,
+            },
+            alpha: self.alpha.copies(child.whole, length, whole_copies)?,
         })
     }
 
@@ -196,11 +232,12 @@ where
                 let level = self.level::<V>(stage, run)?;
                 let length = level.length;
                 if self.part.has_leaves && stage + 1 == self.part.inner {
-                    let leaf_constants = *self.constants.last()?;
-                    let mut step = Stems::<P, T, C, L, R, K>(level, leaf_constants, PhantomData);
+                    let leaves = self.leaves(&level)?;
+                    let mut step = Stems::<P, T, C, L, R, K>(level, leaves, PhantomData);
                     each::<T, V>(length, &mut step)?;
                 } else {
-                    let mut step = Inners::<P, T, C, L, R, K>(level, PhantomData);
+                    let below = self.below(&level)?;
+                    let mut step = Inners::<P, T, C, L, R, K>(level, below, PhantomData);
                     each::<T, V>(length, &mut step)?;
                 }
             }
@@ -242,11 +279,12 @@ where
                 let level = self.level::<V>(stage, run)?;
                 let length = level.length;
                 if self.part.has_leaves && stage + 1 == self.part.inner {
-                    let constants = *self.constants.last()?;
-                    let mut step = TurnStems::<P, T, C, L, R, K>(level, constants, PhantomData);
+                    let leaves = self.leaves(&level)?;
+                    let mut step = TurnStems::<P, T, C, L, R, K>(level, leaves, PhantomData);
                     each::<T, V>(length, &mut step)?;
                 } else {
-                    let mut step = TurnInners::<P, T, C, L, R, K>(level, PhantomData);
+                    let below = self.below(&level)?;
+                    let mut step = TurnInners::<P, T, C, L, R, K>(level, below, PhantomData);
                     each::<T, V>(length, &mut step)?;
                 }
             }
@@ -271,96 +309,6 @@ where
             pivot = [x.repeat(stage.count), y.repeat(stage.count)];
         }
         self.answers.store(part.stages.get(crown)?.slot, pivot)
-    }
-}
-
-// Loops: `map` and `from_fn` are not always inlined, and must be.
-#[inline(always)]
-pub(super) fn splat<T: Copy, V: Vector<T>, const N: usize>(numbers: &[T; N]) -> [V; N] {
-    let mut values = [V::from_f64(0.0); N];
-    for i in 0..N {
-        values[i] = V::splat(numbers[i]);
-    }
-    values
-}
-
-#[inline(always)]
-fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
-    for i in 0..N {
-        a[i] = a[i] + b[i];
-    }
-    a
-}
-
-/// What is known of links before the recursion.
-#[derive(Clone, Copy)]
-struct Links<'a, T> {
-    turns: Columns<'a, T, 3>,
-    bends: Columns<'a, T, 2>,
-    joints: bool,
-}
-
-impl<T: Scalar> Links<'_, T> {
-    #[inline(always)]
-    fn window(self, at: usize, rows: usize) -> Option<Self> {
-        let bends = match self.joints {
-            true => self.bends.window(at, rows)?,
-            false => self.bends,
-        };
-        Some(Self {
-            turns: self.turns.window(at, rows)?,
-            bends,
-            ..self
-        })
-    }
-
-    #[inline(always)]
-    fn motion<V: Vector<T>>(self, at: usize) -> Option<Motion<V>> {
-        let [sine, cosine, omega] = self.turns.load(at)?;
-        let [bend, bend_rate] = match self.joints {
-            true => self.bends.load(at)?,
-            false => [omega; 2],
-        };
-        Some(Motion {
-            sine,
-            cosine,
-            omega,
-            bend,
-            bend_rate,
-        })
-    }
-}
-
-/// Neighbours of one generation, on the way up or down.
-struct Level<'a, T, const C: usize, const R: usize, const K: usize> {
-    constants: [T; C],
-    copies: usize,
-    length: usize,
-    /// The length, or the number of a vector's lanes where that is more.
-    rows: usize,
-    /// The first copy of the first one's children, and how far the next copies are.
-    child: Place,
-    next_own: usize,
-    next_whole: usize,
-    own: Links<'a, T>,
-    answers: Columns<'a, T, R>,
-    kept: Columns<'a, T, K>,
-    alpha: Shared<'a, T>,
-    /// Of all links.
-    links: Links<'a, T>,
-    all_answers: Columns<'a, T, R>,
-    all_alpha: Shared<'a, T>,
-}
-
-impl<T: Scalar, const C: usize, const R: usize, const K: usize> Level<'_, T, C, R, K> {
-    /// The first link of a copy of the children.
-    #[inline(always)]
-    fn child(&self, copy: usize) -> Place {
-        Place {
-            own: self.child.own + copy * self.next_own,
-            slot: self.child.slot + copy * self.next_own,
-            whole: self.child.whole + copy * self.next_whole,
-        }
     }
 }
 

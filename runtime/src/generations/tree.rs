@@ -66,7 +66,10 @@ fn accelerations_into<T: Scalar>(
     omega: &[T],
     alpha: &mut [T],
 ) {
-    if [theta.len(), omega.len(), alpha.len()] != [tree.plan.links(); 3] {
+    let links = tree.plan.links();
+    // One by one: as arrays they would be read back in other widths than they were
+    // written in, and the lock would wait for that.
+    if theta.len() != links || omega.len() != links || alpha.len() != links {
         alpha.fill(T::from_f64(f64::NAN));
         return;
     }

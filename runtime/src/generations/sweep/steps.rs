@@ -2,7 +2,8 @@
 
 use core::marker::PhantomData;
 
-use super::{Level, splat, sum};
+use super::level::{Leaves, Level, splat, sum};
+use crate::generations::columns::Copies;
 use crate::generations::recursion::Recursion;
 use crate::generations::vector::{Step, Vector};
 use crate::scalar::Scalar;
@@ -10,7 +11,7 @@ use crate::scalar::Scalar;
 /// Links above leaves, and these, on the way up.
 pub(super) struct Stems<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
     pub(super) Level<'a, T, C, R, K>,
-    pub(super) [T; C],
+    pub(super) Leaves<'a, T, C>,
     pub(super) PhantomData<P>,
 );
 
@@ -23,19 +24,15 @@ where
 {
     #[inline(always)]
     fn at(&mut self, index: usize) -> Option<()> {
-        let Self(level, leaf_constants, _) = self;
-        let constants = splat::<T, V, C>(leaf_constants);
-        let mut below = None;
-        for copy in 0..level.copies {
-            let leaves = level.links.window(level.child(copy).own, level.rows)?;
-            let answers = P::leaf(&constants, leaves.motion(index)?);
-            below = Some(match below {
-                Some(below) => sum(below, answers),
-                None => answers,
-            });
+        let Self(level, leaves, _) = self;
+        let constants = splat::<T, V, C>(&leaves.constants);
+        let mut copies = leaves.at(index)?;
+        let mut below = P::leaf(&constants, copies.next()?);
+        while let Some(link) = copies.next() {
+            below = sum(below, P::leaf(&constants, link));
         }
         let constants = splat(&level.constants);
-        let (answers, kept) = P::stem(&constants, level.own.motion(index)?, below?);
+        let (answers, kept) = P::stem(&constants, level.own.motion(index)?, below);
         level.answers.store(index, answers)?;
         level.kept.store(index, kept)
     }
@@ -44,6 +41,7 @@ where
 /// Links above inner links, on the way up.
 pub(super) struct Inners<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
     pub(super) Level<'a, T, C, R, K>,
+    pub(super) Copies<'a, T, R>,
     pub(super) PhantomData<P>,
 );
 
@@ -56,11 +54,11 @@ where
 {
     #[inline(always)]
     fn at(&mut self, index: usize) -> Option<()> {
-        let Self(level, _) = self;
-        let child = |copy| level.all_answers.window(level.child(copy).slot, level.rows);
-        let mut below: [V; R] = child(0)?.load(index)?;
-        for copy in 1..level.copies {
-            below = sum(below, child(copy)?.load(index)?);
+        let Self(level, children, _) = self;
+        let mut copies = children.at(index)?;
+        let mut below: [V; R] = copies.load()?;
+        while let Some(answers) = copies.load() {
+            below = sum(below, answers);
         }
         let constants = splat(&level.constants);
         let (answers, kept) = P::inner(&constants, level.own.motion(index)?, below);
@@ -80,7 +78,7 @@ pub(super) struct TurnStems<
     const K: usize,
 >(
     pub(super) Level<'a, T, C, R, K>,
-    pub(super) [T; C],
+    pub(super) Leaves<'a, T, C>,
     pub(super) PhantomData<P>,
 );
 
@@ -93,20 +91,15 @@ where
 {
     #[inline(always)]
     fn at(&mut self, index: usize) -> Option<()> {
-        let Self(level, leaf_constants, _) = self;
+        let Self(level, leaves, _) = self;
         let (kept, pivot) = (level.kept.load(index)?, level.answers.load(index)?);
         let constants = splat::<T, V, C>(&level.constants);
         let (acceleration, below) = P::turn(&constants, level.own.motion(index)?, kept, pivot);
-        let length = level.length;
-        level.alpha.store(index, acceleration, length);
-        let constants = splat(leaf_constants);
-        for copy in 0..level.copies {
-            let child = level.child(copy);
-            let leaves = level.links.window(child.own, level.rows)?;
-            let acceleration = P::turn_leaf(&constants, leaves.motion(index)?, below);
-            level
-                .all_alpha
-                .store(child.whole + index, acceleration, length);
+        level.alpha.store(index, acceleration, level.length);
+        let constants = splat(&leaves.constants);
+        let (mut copies, mut places) = (leaves.at(index)?, leaves.alpha.at(index));
+        while let Some(link) = copies.next() {
+            places.store(P::turn_leaf(&constants, link, below))?;
         }
         Some(())
     }
@@ -121,7 +114,11 @@ pub(super) struct TurnInners<
     const L: usize,
     const R: usize,
     const K: usize,
->(pub(super) Level<'a, T, C, R, K>, pub(super) PhantomData<P>);
+>(
+    pub(super) Level<'a, T, C, R, K>,
+    pub(super) Copies<'a, T, R>,
+    pub(super) PhantomData<P>,
+);
 
 impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
     for TurnInners<'_, P, T, C, L, R, K>
@@ -132,16 +129,13 @@ where
 {
     #[inline(always)]
     fn at(&mut self, index: usize) -> Option<()> {
-        let Self(level, _) = self;
+        let Self(level, children, _) = self;
         let (kept, pivot) = (level.kept.load(index)?, level.answers.load(index)?);
         let constants = splat::<T, V, C>(&level.constants);
         let (acceleration, below) = P::turn(&constants, level.own.motion(index)?, kept, pivot);
         level.alpha.store(index, acceleration, level.length);
-        for copy in 0..level.copies {
-            let child = level.child(copy).slot;
-            let pivots = level.all_answers.window(child, level.rows)?;
-            pivots.store(index, below)?;
-        }
+        let mut copies = children.at(index)?;
+        while copies.store(below).is_some() {}
         Some(())
     }
 }

@@ -4,11 +4,12 @@
 use super::super::Generations;
 use super::super::evaluate::Kernels;
 use super::super::vectors::run_in;
-use super::{Down, Sweep, Typed, Up};
+use super::{Down, Sweep, Up};
 use crate::generations::{Motion, Recursion};
 use crate::scalar::register::Fused;
 use crate::scalar::{InstructionSet, Lane, Real, Scalar};
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 
 /// Copies of each generation: numbers of siblings below, at and above the lanes of
 /// every register, and none that is a power of two.
@@ -176,13 +177,13 @@ fn evaluated<T: Scalar, const NUMBER: usize>(kernels: Option<Kernels<T>>) -> Vec
 
 /// Equations in the vectors of one instruction set, by its number.
 fn up_in<T: Lane, const SET: usize, const NUMBER: usize>(sweep: &mut Sweep<'_, T>) {
-    let typed = Typed::<Shape<NUMBER>, T, 8, 6, 6, 3>::of(sweep).unwrap();
-    run_in(InstructionSet::ALL[SET], Up(typed));
+    let kernel = Up::<Shape<NUMBER>, T, 8, 6, 6, 3>(sweep, PhantomData);
+    run_in(InstructionSet::ALL[SET], kernel);
 }
 
 fn down_in<T: Lane, const SET: usize, const NUMBER: usize>(sweep: &mut Sweep<'_, T>) {
-    let typed = Typed::<Shape<NUMBER>, T, 8, 6, 6, 3>::of(sweep).unwrap();
-    run_in(InstructionSet::ALL[SET], Down(typed));
+    let kernel = Down::<Shape<NUMBER>, T, 8, 6, 6, 3>(sweep, PhantomData);
+    run_in(InstructionSet::ALL[SET], kernel);
 }
 
 fn kernels<T: Lane, const SET: usize, const NUMBER: usize>() -> Kernels<T> {
