@@ -71,42 +71,61 @@ where
             put(&mut self.rows[1], COS, i, -(sine * omega));
             put(&mut self.rows[1], SIN, i, cosine * omega);
         }
-        self.single::<0>(&inverse);
-        self.single::<1>(&inverse);
-        self.single::<2>(&inverse);
-        self.single::<3>(&inverse);
         let [mut now, mut next] = [[Sums::none(); N]; 2];
-        let mut k = SINGLE;
-        while k < last {
-            for i in 0..N {
-                [now[i], next[i]] = self.pair(k, i);
+        for k in 0..last {
+            let single = k < SINGLE;
+            if single {
+                for i in 0..N {
+                    now[i] = Sums::none();
+                    for j in 0..=k {
+                        self.add(&mut now[i], k, j, i);
+                    }
+                }
+            } else if k % 2 == SINGLE % 2 {
+                for i in 0..N {
+                    [now[i], next[i]] = self.pair(k, i);
+                }
+            } else {
+                now = next;
+                for i in 0..N {
+                    self.add(&mut now[i], k, 0, i);
+                    self.add(&mut now[i], k, k, i);
+                }
             }
-            self.order::<false>(k, &now, &inverse);
-            if k + 1 == last {
-                return;
+            // The only place: a function that is called from several is not inlined,
+            // and compiled without the registers.
+            let bias = self.bias(k);
+            if single {
+                self.order::<true>(k, &now, bias, &inverse);
+            } else {
+                self.order::<false>(k, &now, bias, &inverse);
             }
-            for i in 0..N {
-                self.add(&mut next[i], k + 1, 0, i);
-                self.add(&mut next[i], k + 1, k + 1, i);
-            }
-            self.order::<false>(k + 1, &next, &inverse);
-            k += 2;
         }
     }
 
-    /// All of order K, if it is wanted.
+    /// The bias of order k.
     #[inline(always)]
-    fn single<const K: usize>(&mut self, inverse: &[[T; N]; N]) {
-        if K + 1 >= self.coefficients.len() {
-            return;
+    fn bias(&mut self, k: usize) -> [T; N] {
+        if k == 0 {
+            return self.start.bias;
         }
-        let mut sums = [Sums::none(); N];
+        let Some(others) = &mut self.bias else {
+            return [T::from_f64(0.0); N];
+        };
+        let row = &self.rows[k];
+        let [theta, omega] = self.coefficients[k];
+        let (mut sines, mut cosines) = (theta, theta);
         for i in 0..N {
-            for j in 0..=K {
-                self.add(&mut sums[i], K, j, i);
-            }
+            sines[i] = at(row, SIN, i);
+            cosines[i] = at(row, COS, i);
         }
-        self.order::<true>(K, &sums, inverse);
+        others(&Known {
+            order: k,
+            theta,
+            omega,
+            sines,
+            cosines,
+        })
     }
 
     /// Adds the terms with index j to the sums of order k of link i.
@@ -161,28 +180,14 @@ where
     /// Order k + 1 of the angles and velocities, order k + 2 of their sines and
     /// cosines, order k of the forces. Divides exactly but for rounding if `EXACT`.
     #[inline(always)]
-    fn order<const EXACT: bool>(&mut self, k: usize, sums: &[Sums<T>; N], inverse: &[[T; N]; N]) {
+    fn order<const EXACT: bool>(
+        &mut self,
+        k: usize,
+        sums: &[Sums<T>; N],
+        bias: [T; N],
+        inverse: &[[T; N]; N],
+    ) {
         let number = T::from_f64((k + 1) as f64);
-        let mut bias = self.start.bias;
-        if k > 0 {
-            bias = [T::from_f64(0.0); N];
-            if let Some(others) = &mut self.bias {
-                let row = &self.rows[k];
-                let [theta, omega] = self.coefficients[k];
-                let (mut sines, mut cosines) = (theta, theta);
-                for i in 0..N {
-                    sines[i] = at(row, SIN, i);
-                    cosines[i] = at(row, COS, i);
-                }
-                bias = others(&Known {
-                    order: k,
-                    theta,
-                    omega,
-                    sines,
-                    cosines,
-                });
-            }
-        }
         // S and C without their terms in α.
         let (mut s, mut c) = (bias, bias);
         for i in 0..N {
