@@ -76,6 +76,62 @@ where
             put(&mut self.rows[1], COS, i, -(sine * omega));
             put(&mut self.rows[1], SIN, i, cosine * omega);
         }
+        if self.bias.is_some() {
+            self.in_turn(last, &inverse);
+        } else {
+            self.unrolled(last, &inverse);
+        }
+    }
+
+    /// The orders where the bias has none beyond 0.
+    #[inline(always)]
+    fn unrolled(&mut self, last: usize, inverse: &[[T; N]; N]) {
+        self.single::<0>(inverse);
+        self.single::<1>(inverse);
+        self.single::<2>(inverse);
+        self.single::<3>(inverse);
+        let none = [T::from_f64(0.0); N];
+        let [mut now, mut next] = [[Sums::none(); N]; 2];
+        let mut k = SINGLE;
+        while k < last {
+            for i in 0..N {
+                [now[i], next[i]] = self.pair(k, i);
+            }
+            self.order::<false>(k, &now, none, inverse);
+            if k + 1 == last {
+                return;
+            }
+            for i in 0..N {
+                self.add(&mut next[i], k + 1, 0, i);
+                self.add(&mut next[i], k + 1, k + 1, i);
+            }
+            self.order::<false>(k + 1, &next, none, inverse);
+            k += 2;
+        }
+    }
+
+    /// All of order K, if it is wanted.
+    #[inline(always)]
+    fn single<const K: usize>(&mut self, inverse: &[[T; N]; N]) {
+        if K + 1 >= self.coefficients.len() {
+            return;
+        }
+        let mut sums = [Sums::none(); N];
+        for i in 0..N {
+            for j in 0..=K {
+                self.add(&mut sums[i], K, j, i);
+            }
+        }
+        let none = [T::from_f64(0.0); N];
+        let bias = if K == 0 { self.start.bias } else { none };
+        self.order::<true>(K, &sums, bias, inverse);
+    }
+
+    /// The orders where the bias has all: one loop, so that the function that gives
+    /// it is called in one place. Called in several it is not inlined, and compiled
+    /// without the registers.
+    #[inline(always)]
+    fn in_turn(&mut self, last: usize, inverse: &[[T; N]; N]) {
         let [mut now, mut next] = [[Sums::none(); N]; 2];
         for k in 0..last {
             let single = k < SINGLE;
@@ -97,13 +153,11 @@ where
                     self.add(&mut now[i], k, k, i);
                 }
             }
-            // The only place: a function that is called from several is not inlined,
-            // and compiled without the registers.
             let bias = self.bias(k);
             if single {
-                self.order::<true>(k, &now, bias, &inverse);
+                self.order::<true>(k, &now, bias, inverse);
             } else {
-                self.order::<false>(k, &now, bias, &inverse);
+                self.order::<false>(k, &now, bias, inverse);
             }
         }
     }
