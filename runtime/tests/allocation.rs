@@ -179,10 +179,11 @@ fn taylor_series() {
     assert_eq!(in_steps(&Series, &Taylor::new(options)), 0);
 }
 
-/// y'' = −y.
-struct Oscillator;
+/// y'' = −k y, which holds k.
+#[derive(Clone, Copy)]
+struct Oscillator<T>(T);
 
-impl<T: Scalar> Pendulum<T> for Oscillator {
+impl<T: Scalar> Pendulum<T> for Oscillator<T> {
     const LINKS: usize = 1;
     const LINK_NAMES: &'static [&'static str] = &["oscillator"];
 
@@ -191,11 +192,11 @@ impl<T: Scalar> Pendulum<T> for Oscillator {
     }
 }
 
-impl<T: Scalar> Rescale<T> for Oscillator {
-    type Of<S: Scalar> = Self;
+impl<T: Scalar> Rescale<T> for Oscillator<T> {
+    type Of<S: Scalar> = Oscillator<S>;
 
-    fn rescale<S: Scalar>(&self, _convert: impl Fn(T) -> S) -> Self {
-        Self
+    fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Oscillator<S> {
+        Oscillator(convert(self.0))
     }
 
     #[inline(always)]
@@ -206,11 +207,11 @@ impl<T: Scalar> Rescale<T> for Oscillator {
         _omega: impl Fn(usize) -> T,
         mut alpha: impl FnMut(usize, T),
     ) {
-        alpha(0, -theta(0));
+        alpha(0, -(self.0 * theta(0)));
     }
 }
 
-impl<T: Scalar> TaylorPendulum<T> for Oscillator {
+impl<T: Scalar> TaylorPendulum<T> for Oscillator<T> {
     fn taylor_workspace(_order: usize) -> usize {
         0
     }
@@ -228,13 +229,13 @@ impl<T: Scalar> TaylorPendulum<T> for Oscillator {
         for (k, row) in coefficients.chunks_exact_mut(2).enumerate() {
             row.copy_from_slice(&[position, velocity]);
             let next = T::from_f64(1.0 / (k + 1) as f64);
-            (position, velocity) = (velocity * next, -(position * next));
+            (position, velocity) = (velocity * next, -(self.0 * position * next));
         }
     }
 
     #[inline(always)]
     fn taylor_coefficients_of<S: Scalar>(
-        pendulum: &Self,
+        pendulum: &Oscillator<S>,
         time: S,
         theta: &[S],
         omega: &[S],
@@ -245,17 +246,30 @@ impl<T: Scalar> TaylorPendulum<T> for Oscillator {
     }
 }
 
-/// Allocations of an ensemble in lanes whose trajectories make so many steps, and
+/// Allocations of ensembles in lanes whose trajectories make so many steps, and
 /// have a sample in each.
-fn in_lanes(method: &impl LaneMethod<Oscillator, f64>, steps: u32) -> u64 {
+fn in_lanes(method: &impl LaneMethod<Oscillator<f64>, f64>, steps: u32) -> u64 {
     let starts = vec![State::at_rest(0.0, &[1.0]); 11];
+    let releases: Vec<_> = (0..11)
+        .map(|i| (Oscillator(1.0 + 0.1 * f64::from(i)), starts[0].clone()))
+        .collect();
     let times: Vec<f64> = (0..steps).map(|i| STEP * (f64::from(i) + 0.5)).collect();
-    let ensemble = Ensemble::new().threads(NonZeroUsize::MIN);
+    let (ensemble, end) = (
+        Ensemble::new().threads(NonZeroUsize::MIN),
+        STEP * f64::from(steps),
+    );
+    let (model, starts) = (&Oscillator(1.0), starts.as_slice());
     let before = allocations();
-    let ends = ensemble.integrate_in_lanes(method, &Oscillator, &starts, STEP * f64::from(steps));
-    let samples = ensemble.sample_in_lanes(method, &Oscillator, &starts, &times);
+    let ends = [
+        ensemble.integrate_in_lanes(method, model, starts, end),
+        ensemble.integrate_models_in_lanes(method, &releases, end),
+    ];
+    let samples = [
+        ensemble.sample_in_lanes(method, model, starts, &times),
+        ensemble.sample_models_in_lanes(method, &releases, &times),
+    ];
     let after = allocations();
-    for (end, samples) in ends.iter().zip(&samples) {
+    for (end, samples) in ends.iter().flatten().zip(samples.iter().flatten()) {
         assert!(end.as_ref().unwrap().report.accepted >= u64::from(steps) - 1);
         assert_eq!(samples.states().len(), times.len());
     }
@@ -264,13 +278,16 @@ fn in_lanes(method: &impl LaneMethod<Oscillator, f64>, steps: u32) -> u64 {
 
 #[test]
 fn lanes() {
-    let pair = Dop853::new(options());
-    assert_eq!(in_lanes(&pair, 10), in_lanes(&pair, 10_000));
-    let series = Taylor::new(Options {
+    fn count(method: &impl LaneMethod<Oscillator<f64>, f64>) {
+        assert_eq!(in_lanes(method, 10), in_lanes(method, 10_000));
+    }
+    count(&Dopri5::new(options()));
+    count(&Dop853::new(options()));
+    count(&Verner98::new(options()));
+    count(&Taylor::new(Options {
         beta: 0.0,
         ..options()
-    });
-    assert_eq!(in_lanes(&series, 10), in_lanes(&series, 10_000));
+    }));
 }
 
 #[test]

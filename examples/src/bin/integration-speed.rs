@@ -7,7 +7,9 @@ use std::process::ExitCode;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum_examples::exit;
-use branched_pendulum_examples::integration_speed::ensemble::{near_threshold, speeds};
+use branched_pendulum_examples::integration_speed::ensemble::{
+    Speed, friction_scan, near_threshold, scan_speeds, speeds,
+};
 use branched_pendulum_examples::integration_speed::measure::{ERRORS, points, time_for};
 use branched_pendulum_examples::solvers::scenes::{Ideal, Rods};
 use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};
@@ -20,6 +22,7 @@ with heyoka.
 
 With `ensemble`: how many trajectories of the paper's pendulum a second, released
 at angles near its threshold, one by one and in the lanes of vector registers?
+And how many of pendulums each of which has a friction of its own?
 
 Usage: integration-speed [ensemble]
 
@@ -60,22 +63,23 @@ fn report(end: Result<(), Box<dyn Error>>) -> ExitCode {
 }
 
 fn ensemble() -> Result<(), Box<dyn Error>> {
-    let tolerance = 1e-9;
-    let starts = near_threshold(10_000);
-    println!(
-        "{} starts, {END} s, tolerance {tolerance:e}, on one thread",
-        starts.len()
-    );
-    let speeds = speeds(&starts, END, tolerance, 5)?;
-    for (way, speed) in [
-        ("Dop853, one by one", speeds.plain),
-        ("Dop853 in lanes", speeds.lanes),
-        ("Taylor in lanes", speeds.series),
-    ] {
-        let times = speed / speeds.plain;
-        println!("{way:18} {speed:>8.0} trajectories/s, {times:5.2} times the first");
-    }
+    let (tolerance, count, repeats) = (1e-9, 10_000, 5);
+    println!("{END} s, tolerance {tolerance:e}, on one thread, trajectories a second");
+    let starts = near_threshold(count);
+    println!("{count} starts");
+    print_speeds(&speeds(&starts, END, tolerance, repeats)?);
+    let releases = friction_scan(count)?;
+    println!("{count} frictions");
+    print_speeds(&scan_speeds(&releases, END, tolerance, repeats)?);
     Ok(())
+}
+
+fn print_speeds(speeds: &[Speed]) {
+    let first = speeds.first().map_or(f64::NAN, |first| first.per_second);
+    for Speed { way, per_second } in speeds {
+        let times = per_second / first;
+        println!("  {way:18} {per_second:>8.0}, {times:5.2} times the first");
+    }
 }
 
 fn run() -> Result<(), Box<dyn Error>> {

@@ -4,26 +4,28 @@ use std::hint::black_box;
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
+use branched_pendulum::ParameterError;
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
 
-use crate::solvers::scenes::Ideal;
+use crate::solvers::scenes::{Damped, DampedParameters, Ideal};
 
-/// Trajectories a second on one thread.
+/// How fast a way to integrate is, on one thread.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Speeds {
-    /// `Dop853`, one by one.
-    pub plain: f64,
-    /// `Dop853` in the lanes of vector registers.
-    pub lanes: f64,
-    /// `Taylor` there.
-    pub series: f64,
+pub struct Speed {
+    /// The method, and how it runs.
+    pub way: &'static str,
+    /// Trajectories a second.
+    pub per_second: f64,
 }
 
-/// Order of [`Speeds::series`]: as fast as the order that the tolerance of 1e-9 calls
+/// Order of the Taylor series: as fast as the order that the tolerance of 1e-9 calls
 /// for by default, with smaller errors.
 pub const ORDER: usize = 18;
+
+/// Largest friction of [`friction_scan`], N m s.
+const FRICTION: f64 = 1e-3;
 
 /// Releases of the paper's pendulum from 40° to 55°, its children a thousandth of
 /// a radian to both sides of the vertical.
@@ -32,11 +34,34 @@ pub fn near_threshold(count: u32) -> Vec<State<f64>> {
     let step = 15.0 / f64::from(count.max(2) - 1);
     (0..count)
         .map(|i| (40.0 + step * f64::from(i)).to_radians())
-        .map(|angle| State::at_rest(0.0, &[angle, 1e-3, -1e-3]))
+        .map(released)
         .collect()
 }
 
-/// The best of several runs to the time `end`, the three ways in turn.
+/// Paper's pendulums with friction from zero to 1e-3 N m s in every pivot, released
+/// from 50°.
+///
+/// # Errors
+/// None: the parameters are possible.
+pub fn friction_scan(count: u32) -> Result<Vec<(Damped, State<f64>)>, ParameterError> {
+    let step = FRICTION / f64::from(count.max(2) - 1);
+    (0..count)
+        .map(|i| DampedParameters {
+            friction: step * f64::from(i),
+        })
+        .map(|parameters| Ok((Damped::new(parameters)?, released(50_f64.to_radians()))))
+        .collect()
+}
+
+fn released(angle: f64) -> State<f64> {
+    State::at_rest(0.0, &[angle, 1e-3, -1e-3])
+}
+
+type Ends = Vec<Result<Solution<f64>, IntegrationError<f64>>>;
+type Way<'a> = (&'static str, &'a dyn Fn() -> Ends);
+
+/// One model from every start to the time `end`, in the ways in turn: the best of
+/// several runs of each. The first way is one by one.
 ///
 /// # Errors
 /// Those of the integration.
@@ -45,30 +70,100 @@ pub fn speeds(
     end: f64,
     tolerance: f64,
     repeats: usize,
-) -> Result<Speeds, IntegrationError<f64>> {
+) -> Result<Vec<Speed>, IntegrationError<f64>> {
     let model = Ideal::new();
-    let ensemble = Ensemble::new().threads(NonZeroUsize::MIN);
-    let method = Dop853::new(Options::with_tolerance(tolerance));
-    let series = Taylor::new(Options::with_tolerance(tolerance)).with_order(ORDER);
-    let mut best = Speeds {
-        plain: 0.0,
-        lanes: 0.0,
-        series: 0.0,
+    let Methods {
+        ensemble,
+        dop853,
+        verner98,
+        taylor,
+    } = Methods::new(tolerance);
+    let plain = || ensemble.integrate(&dop853, &AbsoluteAngles(&model), black_box(starts), end);
+    let lanes = || ensemble.integrate_in_lanes(&dop853, &model, black_box(starts), end);
+    let ninth = || ensemble.integrate_in_lanes(&verner98, &model, black_box(starts), end);
+    let series = || ensemble.integrate_in_lanes(&taylor, &model, black_box(starts), end);
+    best(
+        &[
+            ("Dop853, one by one", &plain),
+            ("Dop853 in lanes", &lanes),
+            ("Verner98 in lanes", &ninth),
+            ("Taylor in lanes", &series),
+        ],
+        repeats,
+    )
+}
+
+/// The same for models that differ, each from its own start.
+///
+/// # Errors
+/// Those of the integration.
+pub fn scan_speeds(
+    releases: &[(Damped, State<f64>)],
+    end: f64,
+    tolerance: f64,
+    repeats: usize,
+) -> Result<Vec<Speed>, IntegrationError<f64>> {
+    let Methods {
+        ensemble,
+        dop853,
+        verner98,
+        taylor,
+    } = Methods::new(tolerance);
+    let plain = || {
+        ensemble.map(black_box(releases), |_, (model, start)| {
+            let run_on = |_: &mut DenseStep<'_, f64>| std::ops::ControlFlow::Continue(());
+            dop853.integrate(&AbsoluteAngles(model), start, end, run_on)
+        })
     };
-    let per_second = |clock: Instant| starts.len() as f64 / clock.elapsed().as_secs_f64();
+    let lanes = || ensemble.integrate_models_in_lanes(&dop853, black_box(releases), end);
+    let ninth = || ensemble.integrate_models_in_lanes(&verner98, black_box(releases), end);
+    let series = || ensemble.integrate_models_in_lanes(&taylor, black_box(releases), end);
+    best(
+        &[
+            ("Dop853, one by one", &plain),
+            ("Dop853 in lanes", &lanes),
+            ("Verner98 in lanes", &ninth),
+            ("Taylor in lanes", &series),
+        ],
+        repeats,
+    )
+}
+
+struct Methods {
+    ensemble: Ensemble<'static>,
+    dop853: Dop853<f64>,
+    verner98: Verner98<f64>,
+    taylor: Taylor<f64>,
+}
+
+impl Methods {
+    fn new(tolerance: f64) -> Self {
+        let options = Options::with_tolerance(tolerance);
+        Self {
+            ensemble: Ensemble::new().threads(NonZeroUsize::MIN),
+            dop853: Dop853::new(options.clone()),
+            verner98: Verner98::new(options.clone()),
+            taylor: Taylor::new(options).with_order(ORDER),
+        }
+    }
+}
+
+fn best(ways: &[Way<'_>], repeats: usize) -> Result<Vec<Speed>, IntegrationError<f64>> {
+    let mut best: Vec<Speed> = ways
+        .iter()
+        .map(|&(way, _)| Speed {
+            way,
+            per_second: 0.0,
+        })
+        .collect();
     for _ in 0..repeats {
-        let clock = Instant::now();
-        let ends = ensemble.integrate(&method, &AbsoluteAngles(&model), black_box(starts), end);
-        best.plain = best.plain.max(per_second(clock));
-        ends.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let clock = Instant::now();
-        let ends = ensemble.integrate_in_lanes(&method, &model, black_box(starts), end);
-        best.lanes = best.lanes.max(per_second(clock));
-        ends.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let clock = Instant::now();
-        let ends = ensemble.integrate_in_lanes(&series, &model, black_box(starts), end);
-        best.series = best.series.max(per_second(clock));
-        ends.into_iter().collect::<Result<Vec<_>, _>>()?;
+        for (best, (_, run)) in best.iter_mut().zip(ways) {
+            let clock = Instant::now();
+            let ends = run();
+            let per_second = ends.len() as f64 / clock.elapsed().as_secs_f64();
+            best.per_second = best.per_second.max(per_second);
+            ends.into_iter().collect::<Result<Vec<_>, _>>()?;
+        }
     }
     Ok(best)
 }

@@ -67,6 +67,11 @@ pub trait Rescale<T: Scalar>: Pendulum<T> {
 
     /// Takes every constant through `convert`, which should change their type
     /// and not their value.
+    ///
+    /// All models of a type must convert as many constants in the same order, and
+    /// differ in nothing else: this is how
+    /// [`Ensemble::integrate_models_in_lanes`](crate::ensemble::Ensemble::integrate_models_in_lanes)
+    /// puts several models into the lanes of one.
     fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 
     /// The angular accelerations (rad/s²) at `time` (s), in the arithmetic of

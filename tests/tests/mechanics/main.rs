@@ -14,6 +14,7 @@ mod parameters;
 mod random_trees;
 mod rebuilt;
 mod reference;
+mod scans;
 mod sectors;
 mod solves;
 mod support;

@@ -144,7 +144,7 @@ fn polynomials_of_the_free_tree_solve_its_equation() {
     );
 }
 
-const PARAMETERS: DrivenSeriesParameters<f64> = DrivenSeriesParameters {
+pub(crate) const PARAMETERS: DrivenSeriesParameters<f64> = DrivenSeriesParameters {
     gravity: 9.80665,
     mass: 0.2,
     com: 0.15,

@@ -89,6 +89,14 @@ pub enum InputError<T> {
         /// Number of components given.
         found: usize,
     },
+    /// A pendulum of an ensemble in lanes has not as many constants as the first
+    /// one: [`Rescale`](crate::system::Rescale) says what it takes.
+    Constants {
+        /// Constants of the first one.
+        expected: usize,
+        /// Its own.
+        found: usize,
+    },
     /// The starting time is infinite or NaN.
     StartTime {
         /// The time given.
@@ -221,6 +229,11 @@ impl<T: Real> fmt::Display for InputError<T> {
                     "the state has {found} components, the equations have {expected}"
                 )
             }
+            Self::Constants { expected, found } => write!(
+                f,
+                "the pendulum converts {found} constants, the first of the ensemble {expected}: \
+                 in lanes all must have the same"
+            ),
             Self::StartTime { value } => write!(f, "the starting time is {value}"),
             Self::StartValue { component, value } => {
                 write!(f, "component {component} of the starting state is {value}")

@@ -5,6 +5,7 @@
 
 use alloc::vec::Vec;
 
+use super::models::Models;
 use super::runs::{Flags, Runs};
 use crate::integrate::error::InputError;
 use crate::integrate::explicit::Span;
@@ -14,17 +15,20 @@ use crate::scalar::register::Register;
 use crate::system::Rescale;
 
 /// A method that integrates pendulums of the type `P` in the lanes of vector
-/// registers, for [`Ensemble`](crate::ensemble::Ensemble): [`Dop853`] any,
-/// [`Taylor`] those that give their Taylor coefficients.
+/// registers, for [`Ensemble`](crate::ensemble::Ensemble): the explicit
+/// Runge–Kutta pairs ([`Dop853`], [`Dopri5`], [`Verner98`]) any, [`Taylor`]
+/// those that give their Taylor coefficients.
 ///
 /// No other crate can implement it.
 ///
 /// [`Dop853`]: crate::integrate::Dop853
+/// [`Dopri5`]: crate::integrate::Dopri5
 /// [`Taylor`]: crate::integrate::Taylor
+/// [`Verner98`]: crate::integrate::Verner98
 pub trait LaneMethod<P: Rescale<T>, T: Lane>: Sync {
     /// The method at work.
     #[doc(hidden)]
-    type Stepper<'a, R: Register<Lane = T>>: Stepper<R>
+    type Stepper<'a, R: Register<Lane = T>>: Stepper<R, Pendulum = P>
     where
         Self: 'a;
 
@@ -38,13 +42,19 @@ pub trait LaneMethod<P: Rescale<T>, T: Lane>: Sync {
         Ok(())
     }
 
-    /// Its memory, for this pendulum.
+    /// Its memory, with this pendulum in every lane.
     #[doc(hidden)]
     fn stepper<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> Self::Stepper<'a, R>;
 }
 
 /// A method at work, with a state in each lane.
 pub trait Stepper<R: Register> {
+    /// Whose motion it steps along.
+    type Pendulum: Rescale<R::Lane>;
+
+    /// The pendulums in the lanes.
+    fn models(&mut self) -> &mut Models<Self::Pendulum, R>;
+
     /// Puts a state into a lane. Without one the lane gets zeros, of which
     /// sines and cosines are sooner done than of what is not finite.
     fn set(&mut self, lane: usize, values: Option<&[R::Lane]>);

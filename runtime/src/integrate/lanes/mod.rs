@@ -1,14 +1,16 @@
-//! Trajectories of one pendulum in the lanes of vector registers.
+//! Trajectories of pendulums in the lanes of vector registers.
 //!
 //! A method computes its steps for all lanes at once; every lane has its own
 //! time, step, error and control, by the rules of the plain method. A lane
 //! whose step is rejected keeps its state, and a lane whose trajectory has ended
-//! gets the next start. Lanes without a trajectory stand still.
+//! gets the next start, with the constants of its pendulum. Lanes without a trajectory stand still.
 
 // One index into all lanes at once.
 #![allow(clippy::needless_range_loop)]
 
+mod cases;
 mod method;
+mod models;
 pub(crate) mod registers;
 mod runs;
 mod samples;
@@ -17,8 +19,10 @@ pub(in crate::integrate) mod tests;
 
 use alloc::vec::Vec;
 
+pub(crate) use self::cases::Cases;
 pub use self::method::LaneMethod;
 pub(crate) use self::method::Stepper;
+pub(crate) use self::models::Models;
 use self::registers::{Numbers, WIDEST, register};
 pub(crate) use self::runs::{Flags, Outcome, Runs};
 use self::samples::Samples;
@@ -34,15 +38,14 @@ use crate::system::{AbsoluteAngles, Rescale, State};
 pub(crate) struct Task<'a, M, P, T> {
     pub(crate) instructions: InstructionSet,
     pub(crate) method: &'a M,
-    pub(crate) pendulum: &'a P,
-    pub(crate) starts: &'a [State<T>],
+    pub(crate) cases: Cases<'a, P, T>,
     /// Times at which states are wanted.
     pub(crate) times: &'a [T],
     /// None: where it starts.
     pub(crate) end: Option<T>,
 }
 
-/// Integrates the starts whose indices `next` gives, until it gives none, and
+/// Integrates the cases whose indices `next` gives, until it gives none, and
 /// hands each outcome to `done` with its index.
 ///
 /// Allocates its registers once; a trajectory allocates where it begins and
@@ -78,14 +81,18 @@ where
 
     #[inline(always)]
     fn run<R: Register<Lane = T>>(mut self) {
-        let (method, pendulum) = (self.task.method, self.task.pendulum);
+        // Without any there is nothing to do.
+        let Some((first, _)) = self.task.cases.get(0) else {
+            return;
+        };
+        let method = self.task.method;
         let dimension = 2 * P::LINKS;
         let valid = method.options().validate(dimension);
         if let Err(error) = valid.and_then(|()| method.check()) {
             self.refuse_all(&error);
             return;
         }
-        let mut stepper = method.stepper::<R>(pendulum);
+        let mut stepper = method.stepper::<R>(first);
         let mut runs = Runs::new();
         let mut samples = Samples::new(dimension);
         let mut fresh = self.fill(&mut stepper, &mut runs);
@@ -123,7 +130,8 @@ where
     fn refuse_all(&mut self, error: &InputError<T>) {
         while let Some(index) = (self.next)() {
             // What is wrong with the start comes first, as in the plain method.
-            let error = match self.task.starts.get(index).map(|start| self.check(start)) {
+            let case = self.task.cases.get(index);
+            let error = match case.map(|(pendulum, start)| self.check(pendulum, start)) {
                 Some(Err(error)) => error,
                 _ => error.clone(),
             };
@@ -131,26 +139,30 @@ where
         }
     }
 
-    fn check(&self, start: &State<T>) -> Result<(), InputError<T>> {
-        check_start(&AbsoluteAngles(self.task.pendulum), start)?;
+    fn check(&self, pendulum: &P, start: &State<T>) -> Result<(), InputError<T>> {
+        check_start(&AbsoluteAngles(pendulum), start)?;
         check_times(start.time, self.task.times)?;
         check_times(start.time, self.task.end.as_slice())
     }
 
-    /// Gives a start to every lane without a trajectory, as long as there are any.
+    /// Gives a case to every lane without a trajectory, as long as there are any.
     /// Returns which have got one.
     fn fill<R: Register<Lane = T>>(
         &mut self,
-        stepper: &mut impl Stepper<R>,
+        stepper: &mut impl Stepper<R, Pendulum = P>,
         runs: &mut Runs<T>,
     ) -> Flags {
         let mut fresh = [false; WIDEST];
         for lane in 0..R::LANES {
             while !runs.active[lane]
                 && let Some(index) = (self.next)()
-                && let Some(start) = self.task.starts.get(index)
+                && let Some((pendulum, start)) = self.task.cases.get(index)
             {
-                if let Err(error) = self.check(start) {
+                let mut checked = self.check(pendulum, start);
+                if checked.is_ok() && self.task.cases.models_differ() {
+                    checked = stepper.models().set(lane, pendulum);
+                }
+                if let Err(error) = checked {
                     (self.done)(index, Outcome::refused(error));
                     continue;
                 }
@@ -174,7 +186,7 @@ where
     #[inline(always)]
     fn plan<R: Register<Lane = T>>(
         &mut self,
-        stepper: &mut impl Stepper<R>,
+        stepper: &mut impl Stepper<R, Pendulum = P>,
         runs: &mut Runs<T>,
     ) -> (Span<R>, R) {
         let options = self.task.method.options();
@@ -204,12 +216,31 @@ where
     #[inline(always)]
     fn hand_over_failed<R: Register<Lane = T>>(
         &mut self,
-        stepper: &mut impl Stepper<R>,
+        stepper: &mut impl Stepper<R, Pendulum = P>,
         runs: &mut Runs<T>,
     ) {
         while let Some((lane, index, outcome)) = runs.take_failed() {
             (self.done)(index, outcome);
             stepper.set(lane, None);
+            self.replace_model(stepper, runs, lane);
+        }
+    }
+
+    /// Puts a pendulum that is in motion into a lane whose trajectory has failed.
+    /// What failed in motion might at rest too, and slow down the other lanes.
+    #[cold]
+    fn replace_model<R: Register<Lane = T>>(
+        &self,
+        stepper: &mut impl Stepper<R, Pendulum = P>,
+        runs: &Runs<T>,
+        lane: usize,
+    ) {
+        if self.task.cases.models_differ()
+            && let Some(index) = runs.any()
+            && let Some((pendulum, _)) = self.task.cases.get(index)
+        {
+            // It is in a lane already, so that its constants fit.
+            let _ = stepper.models().set(lane, pendulum);
         }
     }
 

@@ -34,7 +34,7 @@ pub(crate) struct Outcome<T> {
 pub struct Runs<T> {
     /// Which lanes have a trajectory.
     pub(crate) active: Flags,
-    /// Its place among the starts.
+    /// Its place among the cases.
     index: [usize; WIDEST],
     /// Start of the step.
     pub(crate) time: Numbers<T>,
@@ -92,6 +92,12 @@ impl<T: Real> Runs<T> {
         self.time[lane] = time;
         self.end[lane] = end;
         self.direction[lane] = if end > time { T::ONE } else { -T::ONE };
+    }
+
+    /// One of the trajectories under way, by its place among the cases.
+    pub(super) fn any(&self) -> Option<usize> {
+        let lane = self.active.iter().position(|&active| active)?;
+        Some(self.index[lane])
     }
 
     /// Takes the trajectory out of a lane, with its samples.

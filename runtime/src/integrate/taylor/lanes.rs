@@ -13,7 +13,7 @@ use crate::integrate::explicit::Span;
 use crate::integrate::lanes::registers::{
     Numbers, WIDEST, numbers, numbers_in, register, set_lane, tolerances,
 };
-use crate::integrate::lanes::{Flags, LaneMethod, Runs, Stepper};
+use crate::integrate::lanes::{Flags, LaneMethod, Models, Runs, Stepper};
 use crate::integrate::options::Options;
 use crate::integrate::sum::two_sum;
 use crate::model::Part;
@@ -38,9 +38,7 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
         let zero = R::from_f64(0.0);
         let (relative, absolute) = tolerances(&self.options, n);
         Lanes {
-            series: Series {
-                pendulum: pendulum.rescale(R::splat),
-            },
+            models: Models::splat(pendulum),
             options: &self.options,
             order,
             safety: super::safety(order),
@@ -58,16 +56,11 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
     }
 }
 
-/// The expansion of a pendulum in registers.
-struct Series<P: Rescale<R::Lane>, R: Register> {
-    pendulum: P::Of<R>,
-}
-
 /// What an expansion gets: time, state, coefficients, workspace.
 type Expansion<'a, R> = (R, &'a [R], &'a mut [R], &'a mut [Quad<R>]);
 
 /// In a function of its own, with registers of its own.
-impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>> for Series<P, R> {
+impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>> for Models<P, R> {
     type Output = ();
 
     #[inline(always)]
@@ -75,13 +68,13 @@ impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>> for 
         let Some((theta, omega)) = state.split_at_checked(P::LINKS) else {
             return;
         };
-        P::taylor_coefficients_of(&self.pendulum, time, theta, omega, coefficients, work);
+        P::taylor_coefficients_of(&self.registers, time, theta, omega, coefficients, work);
     }
 }
 
 /// The method at work: its polynomials, and what it works on.
 pub struct Lanes<'a, P: Rescale<R::Lane>, R: Register> {
-    series: Series<P, R>,
+    models: Models<P, R>,
     options: &'a Options<R::Lane>,
     order: usize,
     safety: R::Lane,
@@ -176,6 +169,12 @@ impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
 }
 
 impl<P: TaylorPendulum<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
+    type Pendulum = P;
+
+    fn models(&mut self) -> &mut Models<P, R> {
+        &mut self.models
+    }
+
     fn set(&mut self, lane: usize, values: Option<&[R::Lane]>) {
         for i in 0..self.start.len() {
             let value = values.map_or(R::Lane::ZERO, |values| values[i]);
@@ -195,7 +194,7 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
     #[inline(always)]
     fn prepare(&mut self, runs: &mut Runs<R::Lane>, _fresh: &Flags) {
         R::outlined::<0, _, _>(
-            &self.series,
+            &self.models,
             (
                 register(&runs.time),
                 self.start.as_slice(),

@@ -1,6 +1,8 @@
 //! Dormand and Prince's pair of order 8(5,3).
 
-pub(super) mod tables;
+#[cfg(feature = "std")]
+mod lanes;
+mod tables;
 
 use self::tables::{
     A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, A14, A15, A16, B, B_THIRD, C, D, E_FIFTH,
@@ -112,7 +114,7 @@ impl Pair for DormandPrince8 {
 }
 
 /// Weights of the solution of order 8 minus those of the one of order 3.
-pub(super) const B_MINUS_THIRD: Row<8> = {
+const B_MINUS_THIRD: Row<8> = {
     let mut row = B;
     let mut i = 0;
     while i < row.len() {

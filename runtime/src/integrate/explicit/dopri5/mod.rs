@@ -1,5 +1,7 @@
 //! Dormand and Prince's pair of order 5(4).
 
+#[cfg(feature = "std")]
+mod lanes;
 mod tables;
 
 use self::tables::{A2, A3, A4, A5, A6, B, C, D, E};

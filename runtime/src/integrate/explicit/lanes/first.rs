@@ -2,16 +2,15 @@
 
 use alloc::vec::Vec;
 
-use super::{Lanes, limit};
+use super::{LanePair, Lanes, limit};
 use crate::integrate::control::FirstStep;
-use crate::integrate::explicit::dop853::tables::ORDER;
 use crate::integrate::lanes::registers::{WIDEST, numbers, numbers_in, register};
 use crate::integrate::lanes::{Flags, Runs};
 use crate::scalar::register::Register;
 use crate::scalar::{Real, Scalar};
 use crate::system::Rescale;
 
-impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
+impl<M: LanePair, P: Rescale<R::Lane>, R: Register> Lanes<'_, M, P, R> {
     /// The first stage and the first step of fresh trajectories. The other lanes
     /// go through it too, and keep what they have.
     pub(super) fn first_steps(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags) {
@@ -21,7 +20,7 @@ impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
         let memory = &mut self.memory;
         let others: Vec<R> = memory.rates[..n].to_vec();
         memory.stage.copy_from_slice(&memory.start);
-        memory.evaluate(&self.rates, register(&time), 1);
+        memory.evaluate(&self.models, register(&time), 1);
         let mask = R::mask(|lane| fresh[lane]);
         for (rate, other) in memory.rates.iter_mut().zip(others) {
             *rate = rate.choose(other, mask);
@@ -35,7 +34,7 @@ impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
         for i in 0..n {
             memory.stage[i] = step.mul_add(memory.rates[i], memory.start[i]);
         }
-        memory.evaluate(&self.rates, register(&time), 2);
+        memory.evaluate(&self.models, register(&time), 2);
         for lane in (0..R::LANES).filter(|&lane| fresh[lane]) {
             if runs.active[lane] && self.options.initial_step.is_none() {
                 self.first_step(runs, lane);
@@ -77,7 +76,7 @@ impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
         }
         let change = self.scaled_norm(lane, &change);
         let first = self.first(runs, lane);
-        runs.step[lane] = first.refined(runs.step[lane], change, ORDER);
+        runs.step[lane] = first.refined(runs.step[lane], change, M::ORDER);
     }
 
     fn first(&self, runs: &Runs<R::Lane>, lane: usize) -> FirstStep<R::Lane> {

@@ -3,45 +3,45 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::integrate::explicit::dop853::tables::{STAGES, STAGES_DENSE};
-use crate::integrate::explicit::{DormandPrince8, pair::Pair};
+use super::pair::LanePair;
 use crate::integrate::lanes::registers::{set_lane, smallest_divisor, tolerances};
 use crate::integrate::options::Options;
 use crate::scalar::register::Register;
 use crate::scalar::{Real, Scalar};
 
-/// Vectors that the dense output keeps.
-const DENSE_TERMS: usize = <DormandPrince8 as Pair>::DENSE_TERMS;
+/// Stages of the pair that has most.
+pub(super) const MOST_STAGES: usize = 21;
 
 /// Workspace for one state in each lane.
-pub(super) struct Memory<R> {
+pub struct Memory<R> {
     /// Relative tolerance of each component.
-    pub(super) relative: Vec<R>,
+    pub(in crate::integrate::explicit) relative: Vec<R>,
     /// Absolute tolerance of each component, not zero.
-    pub(super) absolute: Vec<R>,
+    pub(in crate::integrate::explicit) absolute: Vec<R>,
     /// A divisor for what may be zero over zero.
-    pub(super) smallest: R,
+    pub(in crate::integrate::explicit) smallest: R,
     /// State at the start of the step.
-    pub(super) start: Vec<R>,
+    pub(in crate::integrate::explicit) start: Vec<R>,
     /// State at the end of the step.
-    pub(super) end: Vec<R>,
+    pub(in crate::integrate::explicit) end: Vec<R>,
     /// State at which a stage is evaluated.
-    pub(super) stage: Vec<R>,
+    pub(in crate::integrate::explicit) stage: Vec<R>,
     /// Rates of the stages, one after the other.
-    pub(super) rates: Vec<R>,
+    pub(in crate::integrate::explicit) rates: Vec<R>,
     /// Rounding error of `start`, if the sums are compensated.
-    pub(super) start_residue: Vec<R>,
+    pub(in crate::integrate::explicit) start_residue: Vec<R>,
     /// Rounding error of `end`.
-    pub(super) end_residue: Vec<R>,
+    pub(in crate::integrate::explicit) end_residue: Vec<R>,
     /// Zero after a stage, NaN from the first stage on whose rates are not finite.
-    pub(super) checks: [R; STAGES_DENSE],
+    pub(in crate::integrate::explicit) checks: [R; MOST_STAGES],
     /// Coefficients of the dense output beyond the start value, one after the
     /// other.
-    pub(super) dense: Vec<R>,
+    pub(in crate::integrate::explicit) dense: Vec<R>,
 }
 
 impl<R: Register> Memory<R> {
-    pub(super) fn new(options: &Options<R::Lane>, n: usize) -> Self {
+    pub(super) fn new<M: LanePair>(options: &Options<R::Lane>, n: usize) -> Self {
+        const { assert!(M::STAGES_DENSE <= MOST_STAGES) }
         let zero = R::from_f64(0.0);
         let smallest = smallest_divisor();
         let (relative, absolute) = tolerances(options, n);
@@ -52,11 +52,11 @@ impl<R: Register> Memory<R> {
             start: vec![zero; n],
             end: vec![zero; n],
             stage: vec![zero; n],
-            rates: vec![zero; STAGES_DENSE * n],
+            rates: vec![zero; M::STAGES_DENSE * n],
             start_residue: vec![zero; n],
             end_residue: vec![zero; n],
-            checks: [zero; STAGES_DENSE],
-            dense: vec![zero; DENSE_TERMS * n],
+            checks: [zero; MOST_STAGES],
+            dense: vec![zero; M::DENSE_TERMS * n],
         }
     }
 
@@ -74,9 +74,9 @@ impl<R: Register> Memory<R> {
     /// Makes the end of the step the start of the next one, in the lanes of
     /// `accepted`. The rates there become its first stage. `n` components.
     #[inline(always)]
-    pub(super) fn advance(&mut self, n: usize, accepted: R::Mask, compensated: bool) {
+    pub(super) fn advance<M: LanePair>(&mut self, n: usize, accepted: R::Mask, compensated: bool) {
         let (first, rest) = self.rates.split_at_mut(n);
-        let last = &rest[(STAGES - 1) * n..][..n];
+        let last = &rest[(M::STAGES - 1) * n..][..n];
         let (start, end) = (&mut self.start[..n], &self.end[..n]);
         for i in 0..n {
             start[i] = end[i].choose(start[i], accepted);
@@ -97,7 +97,12 @@ impl<R: Register> Memory<R> {
 /// No closure takes part: those are functions of their own, which the compiler
 /// may leave without the instructions of the registers.
 #[inline(always)]
-pub(super) fn sum<R: Scalar>(row: &[(usize, f64)], rates: &[R], n: usize, i: usize) -> R {
+pub(in crate::integrate::explicit) fn sum<R: Scalar>(
+    row: &[(usize, f64)],
+    rates: &[R],
+    n: usize,
+    i: usize,
+) -> R {
     let mut terms = row.iter();
     let Some(&(stage, factor)) = terms.next() else {
         return R::from_f64(0.0);

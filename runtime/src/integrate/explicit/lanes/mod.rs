@@ -1,53 +1,58 @@
 //! Explicit Runge–Kutta pairs in the lanes of vector registers.
 
+// A sealed trait names the types.
+#![allow(unreachable_pub)]
+// One index into all components at once.
+#![allow(clippy::needless_range_loop)]
+
 mod first;
 mod memory;
+mod pair;
 mod step;
-#[cfg(test)]
-mod tests;
 
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 
-use self::memory::{Memory, sum};
-use self::step::{Rates, node, row};
+pub(super) use self::memory::{Memory, sum};
+pub(super) use self::pair::LanePair;
+use self::step::node;
+use super::ExplicitRungeKutta;
 use super::arithmetic::Span;
-use super::dop853::tables::{C, STAGES, STAGES_DENSE};
-use super::pair::Pair;
-use super::{Dop853, DormandPrince8};
 use crate::integrate::control::StepControl;
 use crate::integrate::lanes::registers::{Numbers, WIDEST, numbers, numbers_in};
-use crate::integrate::lanes::{Flags, LaneMethod, Runs, Stepper};
+use crate::integrate::lanes::{Flags, LaneMethod, Models, Runs, Stepper};
 use crate::integrate::options::Options;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
 use crate::system::{Rescale, State};
 
-impl<P: Rescale<T>, T: Lane> LaneMethod<P, T> for Dop853<T> {
-    type Stepper<'a, R: Register<Lane = T>> = Lanes<'a, P, R>;
+impl<M: LanePair, P: Rescale<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKutta<M, T> {
+    type Stepper<'a, R: Register<Lane = T>> = Lanes<'a, M, P, R>;
 
     fn options(&self) -> &Options<T> {
         &self.options
     }
 
-    fn stepper<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> Lanes<'a, P, R> {
+    fn stepper<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> Lanes<'a, M, P, R> {
         let zero = [T::ZERO; WIDEST];
-        let control = StepControl::new(DormandPrince8::CONTROL, self.options.beta);
+        let control = StepControl::new(M::CONTROL, self.options.beta);
         Lanes {
-            rates: Rates(pendulum.rescale(R::splat)),
+            models: Models::splat(pendulum),
             options: &self.options,
-            memory: Memory::new(&self.options, 2 * P::LINKS),
+            memory: Memory::new::<M>(&self.options, 2 * P::LINKS),
             controls: core::array::from_fn(|_| control.clone()),
             errors: zero,
             finite_stages: zero,
             finite_end: zero,
             finite_end_rates: zero,
+            pair: PhantomData,
         }
     }
 }
 
 /// The method at work.
-pub struct Lanes<'a, P: Rescale<R::Lane>, R: Register> {
-    rates: Rates<P::Of<R>>,
+pub struct Lanes<'a, M, P: Rescale<R::Lane>, R: Register> {
+    models: Models<P, R>,
     options: &'a Options<R::Lane>,
     memory: Memory<R>,
     controls: [StepControl<R::Lane>; WIDEST],
@@ -60,12 +65,19 @@ pub struct Lanes<'a, P: Rescale<R::Lane>, R: Register> {
     finite_end: Numbers<R::Lane>,
     /// The rates there.
     finite_end_rates: Numbers<R::Lane>,
+    pair: PhantomData<M>,
 }
 
-impl<P: Rescale<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
+impl<M: LanePair, P: Rescale<R::Lane>, R: Register> Stepper<R> for Lanes<'_, M, P, R> {
+    type Pendulum = P;
+
+    fn models(&mut self) -> &mut Models<P, R> {
+        &mut self.models
+    }
+
     fn set(&mut self, lane: usize, values: Option<&[R::Lane]>) {
         self.memory.set(lane, values);
-        self.controls[lane] = StepControl::new(DormandPrince8::CONTROL, self.options.beta);
+        self.controls[lane] = StepControl::new(M::CONTROL, self.options.beta);
     }
 
     fn start(&self) -> &[R] {
@@ -86,10 +98,11 @@ impl<P: Rescale<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
     #[inline(always)]
     fn attempt(&mut self, span: Span<R>, size: R) {
         let memory = &mut self.memory;
-        self.finite_end = numbers(memory.step(&self.rates, span, self.options.compensated));
-        self.errors = numbers(memory.error(2 * P::LINKS, size));
-        self.finite_stages = numbers(memory.checks[STAGES - 1]);
-        self.finite_end_rates = numbers(memory.checks[STAGES]);
+        self.finite_end =
+            numbers(memory.step::<M, P>(&self.models, span, self.options.compensated));
+        self.errors = numbers(M::errors(memory, 2 * P::LINKS, size));
+        self.finite_stages = numbers(memory.checks[M::STAGES - 1]);
+        self.finite_end_rates = numbers(memory.checks[M::STAGES]);
     }
 
     #[inline(always)]
@@ -106,7 +119,7 @@ impl<P: Rescale<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
 
     #[inline(always)]
     fn prepare_dense(&mut self, span: Span<R>) {
-        self.memory.dense(&self.rates, span);
+        M::prepare_dense_in_lanes(&mut self.memory, &self.models, span);
     }
 
     fn judge_dense(
@@ -114,40 +127,44 @@ impl<P: Rescale<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
         runs: &mut Runs<R::Lane>,
         lane: usize,
     ) -> Result<(), (R::Lane, Vec<R::Lane>)> {
-        if numbers(self.memory.checks[STAGES_DENSE - 1])[lane].is_finite() {
-            runs.evaluations[lane] += (STAGES_DENSE - STAGES - 1) as u64;
+        if numbers(self.memory.checks[M::STAGES_DENSE - 1])[lane].is_finite() {
+            runs.evaluations[lane] += (M::STAGES_DENSE - M::STAGES - 1) as u64;
             return Ok(());
         }
-        Err(self.failed_stage(lane, runs.span(lane), STAGES_DENSE))
+        Err(self.failed_stage(lane, runs.span(lane), M::STAGES_DENSE))
     }
 
     #[inline(always)]
     fn value(&self, fraction: R, out: &mut [R]) {
-        self.memory.dense_output(fraction, out);
+        M::dense_outputs(&self.memory, fraction, out);
     }
 
     #[inline(always)]
     fn advance(&mut self, accepted: R::Mask) {
         let n = 2 * P::LINKS;
-        self.memory.advance(n, accepted, self.options.compensated);
+        self.memory
+            .advance::<M>(n, accepted, self.options.compensated);
     }
 }
 
-impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
+impl<M: LanePair, P: Rescale<R::Lane>, R: Register> Lanes<'_, M, P, R> {
     /// Judges the step of a lane: whether it is accepted. Chooses the next one.
     #[inline(always)]
     fn judge_lane(&mut self, runs: &mut Runs<R::Lane>, lane: usize) -> bool {
         let span = runs.span(lane);
         let length = span.step.abs();
         runs.next_step[lane] = runs.step[lane];
-        runs.evaluations[lane] += STAGES as u64 - 1;
+        runs.evaluations[lane] += M::STAGES as u64 - 1;
         if !self.finite_stages[lane].is_finite() {
-            let place = self.failed_stage(lane, span, STAGES);
+            let place = self.failed_stage(lane, span, M::STAGES);
             runs.non_finite(lane, place, self.state(lane, span.time));
             return false;
         }
-        let control = &mut self.controls[lane];
-        let error = if self.finite_end[lane].is_finite() {
+        let finite = self.finite_end[lane].is_finite();
+        if M::ERROR_USES_END && finite && !self.judge_end(runs, lane) {
+            return false;
+        }
+        let error = if finite {
             self.errors[lane]
         } else {
             R::Lane::NAN
@@ -155,17 +172,14 @@ impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
         // An error that is NaN must not pass either.
         if !matches!(error.partial_cmp(&R::Lane::ONE), Some(order) if order.is_le()) {
             runs.rejected[lane] += 1;
-            runs.step[lane] = length * control.reject(error);
+            runs.step[lane] = length * self.controls[lane].reject(error);
             runs.next_step[lane] = runs.step[lane];
             return false;
         }
-        runs.evaluations[lane] += 1;
-        if !self.finite_end_rates[lane].is_finite() {
-            let place = (runs.end_time[lane], numbers_in(&self.memory.end, lane));
-            runs.non_finite(lane, place, self.state(lane, span.time));
+        if !M::ERROR_USES_END && !self.judge_end(runs, lane) {
             return false;
         }
-        let proposed = length * control.accept(error);
+        let proposed = length * self.controls[lane].accept(error);
         // A step cut short by the end says nothing against the planned one.
         let wanted = if runs.last[lane] {
             proposed.max(runs.step[lane])
@@ -175,6 +189,19 @@ impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
         runs.step[lane] = limit(self.options, wanted);
         runs.next_step[lane] = runs.step[lane];
         true
+    }
+
+    /// Counts the rates at the end of a lane's step: whether they are finite. Ends
+    /// the trajectory if not.
+    #[inline(always)]
+    fn judge_end(&self, runs: &mut Runs<R::Lane>, lane: usize) -> bool {
+        runs.evaluations[lane] += 1;
+        let finite = self.finite_end_rates[lane].is_finite();
+        if !finite {
+            let place = (runs.end_time[lane], numbers_in(&self.memory.end, lane));
+            runs.non_finite(lane, place, self.state(lane, runs.time[lane]));
+        }
+        finite
     }
 
     /// The state at the start of the step in a lane.
@@ -203,11 +230,13 @@ impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
         };
         let values: Vec<R> = (0..n)
             .map(|i| {
-                span.step
-                    .mul_add(sum(row(stage), &memory.rates, n, i), memory.start[i])
+                span.step.mul_add(
+                    sum(M::ROWS[stage - 2], &memory.rates, n, i),
+                    memory.start[i],
+                )
             })
             .collect();
-        let time = numbers(node(span, C[stage - 1]))[lane];
+        let time = numbers(node(span, M::NODES[stage - 1]))[lane];
         (time, numbers_in(&values, lane))
     }
 }

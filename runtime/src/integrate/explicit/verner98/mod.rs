@@ -1,5 +1,7 @@
 //! Verner's pair of order 9(8).
 
+#[cfg(feature = "std")]
+mod lanes;
 mod tables;
 
 use self::tables::{
@@ -10,7 +12,7 @@ use super::arithmetic::{NonFiniteRates, Row, Span, for_each_sum};
 use super::memory::Memory;
 use super::pair::Pair;
 use crate::integrate::control::ControlConstants;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::system::Ode;
 
 /// The pair of [`Verner98`](super::Verner98).
@@ -105,17 +107,21 @@ impl Pair for Verner9 {
 }
 
 /// Bernstein polynomials 1 to 8 of degree 8.
-fn bernstein<T: Real>(s: T) -> [T; DEGREE] {
-    let r = T::ONE - s;
-    let mut row = [T::ZERO; DEGREE + 1];
-    row[0] = T::ONE;
+#[inline(always)]
+fn bernstein<T: Scalar>(s: T) -> [T; DEGREE] {
+    let [zero, one] = [0.0, 1.0].map(T::from_f64);
+    let r = one - s;
+    let mut row = [zero; DEGREE + 1];
+    row[0] = one;
     for degree in 1..=DEGREE {
         for k in (1..=degree).rev() {
             row[k] = r * row[k] + s * row[k - 1];
         }
         row[0] = r * row[0];
     }
-    core::array::from_fn(|k| row[k + 1])
+    let mut inner = [zero; DEGREE];
+    inner.copy_from_slice(&row[1..]);
+    inner
 }
 
 /// Weights of the solution of order 9 minus those of the one of order 8.

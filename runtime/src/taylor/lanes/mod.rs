@@ -8,6 +8,11 @@
 //! last, so that the sums of a pair are formed while the machine waits for the
 //! results of the one before.
 
+mod inverse;
+#[cfg(test)]
+mod tests;
+
+use self::inverse::negative_inverse;
 use super::expand::{Known, Start, Tree};
 use super::levers::Coupling;
 use super::matrix::Vector;
@@ -62,7 +67,7 @@ where
         if last == 0 {
             return;
         }
-        let inverse = self.negative_inverse();
+        let inverse = negative_inverse(self.start, self.tree);
         for i in 0..N {
             let (sine, cosine) = (self.start.sines[i], self.start.cosines[i]);
             let omega = self.start.omega[i];
@@ -71,17 +76,28 @@ where
             put(&mut self.rows[1], COS, i, -(sine * omega));
             put(&mut self.rows[1], SIN, i, cosine * omega);
         }
-        self.single::<0>(&inverse);
-        self.single::<1>(&inverse);
-        self.single::<2>(&inverse);
-        self.single::<3>(&inverse);
+        if self.bias.is_some() {
+            self.in_turn(last, &inverse);
+        } else {
+            self.unrolled(last, &inverse);
+        }
+    }
+
+    /// The orders where the bias has none beyond 0.
+    #[inline(always)]
+    fn unrolled(&mut self, last: usize, inverse: &[[T; N]; N]) {
+        self.single::<0>(inverse);
+        self.single::<1>(inverse);
+        self.single::<2>(inverse);
+        self.single::<3>(inverse);
+        let none = [T::from_f64(0.0); N];
         let [mut now, mut next] = [[Sums::none(); N]; 2];
         let mut k = SINGLE;
         while k < last {
             for i in 0..N {
                 [now[i], next[i]] = self.pair(k, i);
             }
-            self.order::<false>(k, &now, &inverse);
+            self.order::<false>(k, &now, none, inverse);
             if k + 1 == last {
                 return;
             }
@@ -89,7 +105,7 @@ where
                 self.add(&mut next[i], k + 1, 0, i);
                 self.add(&mut next[i], k + 1, k + 1, i);
             }
-            self.order::<false>(k + 1, &next, &inverse);
+            self.order::<false>(k + 1, &next, none, inverse);
             k += 2;
         }
     }
@@ -106,7 +122,69 @@ where
                 self.add(&mut sums[i], K, j, i);
             }
         }
-        self.order::<true>(K, &sums, inverse);
+        let none = [T::from_f64(0.0); N];
+        let bias = if K == 0 { self.start.bias } else { none };
+        self.order::<true>(K, &sums, bias, inverse);
+    }
+
+    /// The orders where the bias has all: one loop, so that the function that gives
+    /// it is called in one place. Called in several it is not inlined, and compiled
+    /// without the registers.
+    #[inline(always)]
+    fn in_turn(&mut self, last: usize, inverse: &[[T; N]; N]) {
+        let [mut now, mut next] = [[Sums::none(); N]; 2];
+        for k in 0..last {
+            let single = k < SINGLE;
+            if single {
+                for i in 0..N {
+                    now[i] = Sums::none();
+                    for j in 0..=k {
+                        self.add(&mut now[i], k, j, i);
+                    }
+                }
+            } else if k % 2 == SINGLE % 2 {
+                for i in 0..N {
+                    [now[i], next[i]] = self.pair(k, i);
+                }
+            } else {
+                now = next;
+                for i in 0..N {
+                    self.add(&mut now[i], k, 0, i);
+                    self.add(&mut now[i], k, k, i);
+                }
+            }
+            let bias = self.bias(k);
+            if single {
+                self.order::<true>(k, &now, bias, inverse);
+            } else {
+                self.order::<false>(k, &now, bias, inverse);
+            }
+        }
+    }
+
+    /// The bias of order k.
+    #[inline(always)]
+    fn bias(&mut self, k: usize) -> [T; N] {
+        if k == 0 {
+            return self.start.bias;
+        }
+        let Some(others) = &mut self.bias else {
+            return [T::from_f64(0.0); N];
+        };
+        let row = &self.rows[k];
+        let [theta, omega] = self.coefficients[k];
+        let (mut sines, mut cosines) = (theta, theta);
+        for i in 0..N {
+            sines[i] = at(row, SIN, i);
+            cosines[i] = at(row, COS, i);
+        }
+        others(&Known {
+            order: k,
+            theta,
+            omega,
+            sines,
+            cosines,
+        })
     }
 
     /// Adds the terms with index j to the sums of order k of link i.
@@ -161,28 +239,14 @@ where
     /// Order k + 1 of the angles and velocities, order k + 2 of their sines and
     /// cosines, order k of the forces. Divides exactly but for rounding if `EXACT`.
     #[inline(always)]
-    fn order<const EXACT: bool>(&mut self, k: usize, sums: &[Sums<T>; N], inverse: &[[T; N]; N]) {
+    fn order<const EXACT: bool>(
+        &mut self,
+        k: usize,
+        sums: &[Sums<T>; N],
+        bias: [T; N],
+        inverse: &[[T; N]; N],
+    ) {
         let number = T::from_f64((k + 1) as f64);
-        let mut bias = self.start.bias;
-        if k > 0 {
-            bias = [T::from_f64(0.0); N];
-            if let Some(others) = &mut self.bias {
-                let row = &self.rows[k];
-                let [theta, omega] = self.coefficients[k];
-                let (mut sines, mut cosines) = (theta, theta);
-                for i in 0..N {
-                    sines[i] = at(row, SIN, i);
-                    cosines[i] = at(row, COS, i);
-                }
-                bias = others(&Known {
-                    order: k,
-                    theta,
-                    omega,
-                    sines,
-                    cosines,
-                });
-            }
-        }
         // S and C without their terms in α.
         let (mut s, mut c) = (bias, bias);
         for i in 0..N {
@@ -227,50 +291,6 @@ where
             put(&mut self.rows[k + 2], COS, i, over.times(c[i]));
             put(&mut self.rows[k + 2], SIN, i, over.times(s[i]));
         }
-    }
-
-    /// −M⁻¹ at the start: the sweeps of
-    /// [`invert`](super::matrix::invert), with the opposite sign.
-    #[inline(always)]
-    fn negative_inverse(&self) -> [[T; N]; N] {
-        let (sines, cosines) = (&self.start.sines, &self.start.cosines);
-        let mut matrix = [[T::from_f64(0.0); N]; N];
-        for i in 0..N {
-            matrix[i][i] = self.tree.inertias[i];
-        }
-        for coupling in self.tree.couplings {
-            let [i, j] = coupling.links;
-            let cos_between = cosines[i].mul_add(cosines[j], sines[i] * sines[j]);
-            let mut entry = coupling.cosine * cos_between;
-            if let Some(sine) = coupling.sine {
-                let sin_between = sines[i] * cosines[j] - cosines[i] * sines[j];
-                entry = sine.mul_add(sin_between, entry);
-            }
-            matrix[i][j] = entry;
-            matrix[j][i] = entry;
-        }
-        for k in (0..N).rev() {
-            let inverse = T::from_f64(1.0) / matrix[k][k];
-            for i in 0..N {
-                if i != k {
-                    let factor = -(matrix[i][k] * inverse);
-                    for j in 0..=i {
-                        if j != k {
-                            matrix[i][j] = factor.mul_add(matrix[k][j], matrix[i][j]);
-                            matrix[j][i] = matrix[i][j];
-                        }
-                    }
-                }
-            }
-            for i in 0..N {
-                if i != k {
-                    matrix[i][k] = matrix[i][k] * inverse;
-                    matrix[k][i] = matrix[i][k];
-                }
-            }
-            matrix[k][k] = -inverse;
-        }
-        matrix
     }
 }
 
@@ -348,89 +368,6 @@ impl<T: Scalar, const EXACT: bool> Reciprocal<T, EXACT> {
             value.mul_add(self.high, value * self.low)
         } else {
             value * self.high
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::expand::{Known, Start, Tree, expand, workspace};
-    use super::super::levers::Coupling;
-    use super::super::quad::Quad;
-    use crate::scalar::{Lanes, Scalar};
-
-    /// A tree of six links that lean on each other, and a torque that depends on
-    /// all there is.
-    fn coefficients<T: Scalar>(orders: usize, state: impl Fn(usize) -> T) -> Vec<[[T; 6]; 2]> {
-        let number = T::from_f64;
-        let (theta, omega) = (
-            core::array::from_fn(&state),
-            core::array::from_fn(|i| state(6 + i)),
-        );
-        let (sines, cosines) = T::sin_cos_each(&theta);
-        let torque = |sines: [T; 6], cosines: [T; 6], omega: [T; 6], theta: [T; 6]| {
-            core::array::from_fn(|i| {
-                number(0.1) * omega[i] + number(0.2) * theta[i] + number(0.3) * cosines[i]
-                    - number(0.4) * sines[5 - i]
-            })
-        };
-        let start = Start {
-            theta: &theta,
-            omega: &omega,
-            sines,
-            cosines,
-            bias: torque(sines, cosines, omega, theta),
-        };
-        let couplings = [
-            [0, 1],
-            [0, 2],
-            [1, 3],
-            [0, 3],
-            [2, 4],
-            [0, 4],
-            [2, 5],
-            [0, 5],
-        ];
-        let couplings = couplings.map(|links| Coupling {
-            links,
-            cosine: number(0.03 * (links[0] + links[1]) as f64),
-            sine: (links[1] % 2 == 0).then(|| number(0.02 * links[1] as f64)),
-        });
-        let tree = Tree {
-            inertias: core::array::from_fn(|i| number(1.0 - 0.1 * i as f64)),
-            couplings: &couplings,
-            weights: core::array::from_fn(|i| number(5.0 - 0.5 * i as f64)),
-            lateral_weights: core::array::from_fn(|i| number(0.1 * i as f64)),
-        };
-        let mut rows = vec![[[number(f64::NAN); 6]; 2]; orders];
-        let mut work = vec![Quad([number(f64::NAN); 4]); workspace(6, orders)];
-        let bias =
-            |known: &Known<T, 6>| torque(known.sines, known.cosines, known.omega, known.theta);
-        expand::<T, 6, 2, _>(&start, &tree, &mut rows, &mut work, Some(bias));
-        rows
-    }
-
-    /// In every lane the coefficients are those of one state but for rounding.
-    #[test]
-    fn lanes_have_the_coefficients_of_one_state() {
-        let angle = |i: usize, lane: usize| (0.7 * i as f64 + 1.9 * lane as f64).sin();
-        for orders in (0..12).chain([23, 24, 31]) {
-            let lanes = coefficients(orders, |i| Lanes([angle(i, 0), angle(i, 1)]));
-            for lane in 0..2 {
-                let one = coefficients(orders, |i| angle(i, lane));
-                assert_eq!(one.len(), lanes.len());
-                for (k, (one, lanes)) in one.iter().zip(&lanes).enumerate() {
-                    let both = one.as_flattened().iter().zip(lanes.as_flattened());
-                    let largest = one
-                        .as_flattened()
-                        .iter()
-                        .fold(0.0, |a: f64, b| a.max(b.abs()));
-                    for (one, lanes) in both {
-                        let difference = (one - lanes.0[lane]).abs();
-                        assert!(difference <= 1e-12 * largest, "order {k} of {orders}");
-                    }
-                }
-            }
         }
     }
 }

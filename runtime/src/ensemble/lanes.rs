@@ -1,0 +1,270 @@
+//! Many pendulums in the lanes of vector registers.
+
+use std::slice::ChunksExact;
+
+use super::Ensemble;
+use crate::integrate::lanes::{self, Cases, Outcome, Task};
+use crate::integrate::{IntegrationError, LaneMethod, Solution};
+use crate::scalar::{InstructionSet, Lane};
+use crate::system::{Rescale, State};
+
+impl Ensemble<'_> {
+    /// Integrates a pendulum from every start to the time `end`, as many starts
+    /// at a time on each thread as the widest vector registers of the machine
+    /// have lanes: eight in `f64` with AVX-512.
+    ///
+    /// By [`Taylor`](crate::integrate::Taylor), for models that say `emit(taylor)`,
+    /// or by [`Dop853`](crate::integrate::Dop853), [`Dopri5`](crate::integrate::Dopri5)
+    /// or [`Verner98`](crate::integrate::Verner98).
+    ///
+    /// States are absolute angles (rad), then angular velocities (rad/s), as for
+    /// [`AbsoluteAngles`](crate::system::AbsoluteAngles). Each trajectory has its own steps, chosen by the rules
+    /// of `method` from its own errors, and its own errors and account, as
+    /// [`integrate`](Self::integrate) gives them. Its bits depend on its start
+    /// alone: not on its place, the other starts or the number of threads. They
+    /// are not those of [`integrate`](Self::integrate), because products and sums
+    /// are fused here where the machine can; both keep the tolerance. A lane whose
+    /// trajectory has ended takes the next start.
+    ///
+    /// Memory on each thread: for each component of a state 22, 30 or 36 registers
+    /// for the pairs of order 5, 8 and 9, and for a Taylor series of order p some
+    /// 20 + 4 p; steps allocate nothing.
+    ///
+    /// # Examples
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use branched_pendulum::ensemble::Ensemble;
+    /// use branched_pendulum::prelude::*;
+    ///
+    /// #[branched_pendulum(gravity = 9.80665, rod(mass = 0.2, com = 0.25, inertia = 4e-3))]
+    /// struct Rod;
+    ///
+    /// let rod = Rod::new();
+    /// let starts: Vec<State<f64>> = (1..100)
+    ///     .map(|i| State::at_rest(0.0, &[0.03 * f64::from(i)]))
+    ///     .collect();
+    /// let method = Dop853::new(Options::with_tolerance(1e-10));
+    /// let lanes = Ensemble::new().integrate_in_lanes(&method, &rod, &starts, 10.0);
+    /// let plain = Ensemble::new().integrate(&method, &AbsoluteAngles(&rod), &starts, 10.0);
+    /// for (lane, plain) in lanes.into_iter().zip(plain) {
+    ///     let (lane, plain) = (lane?.state.values[0], plain?.state.values[0]);
+    ///     assert!((lane - plain).abs() < 1e-7);
+    /// }
+    /// # Ok::<(), IntegrationError<f64>>(())
+    /// ```
+    pub fn integrate_in_lanes<T, P, M>(
+        &self,
+        method: &M,
+        pendulum: &P,
+        starts: &[State<T>],
+        end: T,
+    ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
+    {
+        self.ends(method, Cases::Starts(pendulum, starts), end)
+    }
+
+    /// Integrates pendulums that differ in their parameters, each from its own
+    /// start, in lanes as [`integrate_in_lanes`](Self::integrate_in_lanes): scans
+    /// over friction, masses, lengths, drives.
+    ///
+    /// Every lane has the constants of its own pendulum; a trajectory has the bits
+    /// that [`integrate_in_lanes`](Self::integrate_in_lanes) gives it with that
+    /// pendulum. One whose parameters have no answer, at once or later, fails
+    /// alone, with its last good state. It costs as much as many starts of one pendulum,
+    /// but for putting the constants of the next one into a lane.
+    ///
+    /// The pendulums are of one type, and differ in nothing but the constants that
+    /// [`Rescale::rescale`] converts.
+    ///
+    /// # Examples
+    ///
+    /// How fast a rod is after ten seconds, by its friction:
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use branched_pendulum::ParameterError;
+    /// use branched_pendulum::ensemble::Ensemble;
+    /// use branched_pendulum::prelude::*;
+    ///
+    /// #[branched_pendulum(
+    ///     gravity = 9.80665,
+    ///     rod(mass = 0.2, com = 0.25, inertia = 4e-3, friction = friction),
+    /// )]
+    /// struct Rod;
+    ///
+    /// let release = State::at_rest(0.0, &[1.0]);
+    /// let scan = (0..30)
+    ///     .map(|i| Rod::new(RodParameters { friction: 1e-4 * f64::from(i) }))
+    ///     .map(|rod| Ok((rod?, release.clone())))
+    ///     .collect::<Result<Vec<_>, ParameterError>>()?;
+    /// let method = Dop853::new(Options::with_tolerance(1e-10));
+    /// let ends = Ensemble::new().integrate_models_in_lanes(&method, &scan, 10.0);
+    /// let seventh = AbsoluteAngles(&scan[7].0);
+    /// let plain = Ensemble::new().integrate(&method, &seventh, &[release], 10.0);
+    /// let speeds = [&ends[7], &plain[0]].map(|end| end.as_ref().unwrap().state.values[1]);
+    /// assert!((speeds[0] - speeds[1]).abs() < 1e-7);
+    /// # Ok::<(), ParameterError>(())
+    /// ```
+    pub fn integrate_models_in_lanes<T, P, M>(
+        &self,
+        method: &M,
+        releases: &[(P, State<T>)],
+        end: T,
+    ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
+    {
+        self.ends(method, Cases::Pairs(releases), end)
+    }
+
+    /// The states of a pendulum at the given times, from every start, in lanes as
+    /// [`integrate_in_lanes`](Self::integrate_in_lanes).
+    ///
+    /// Times run one way from every start; those equal to it give the start itself.
+    /// The steps are those of [`integrate_in_lanes`](Self::integrate_in_lanes) to the
+    /// last time: states between their ends come from the dense output of the
+    /// method, in lanes too. Without times the end is the start.
+    ///
+    /// Memory: beside that of the steps, one state for each time and start.
+    ///
+    /// # Examples
+    ///
+    /// Where a trajectory fails, its samples end, and no other is concerned:
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use branched_pendulum::ensemble::Ensemble;
+    /// use branched_pendulum::prelude::*;
+    ///
+    /// #[branched_pendulum(gravity = 9.80665, rod(mass = 0.2, com = 0.25, inertia = 4e-3))]
+    /// struct Rod;
+    ///
+    /// let starts = [0.1, f64::NAN, 0.2].map(|angle| State::at_rest(0.0, &[angle]));
+    /// let times: Vec<f64> = (0..=100).map(|i| 0.1 * f64::from(i)).collect();
+    /// let method = Dop853::new(Options::with_tolerance(1e-10));
+    /// let samples = Ensemble::new().sample_in_lanes(&method, &Rod::new(), &starts, &times);
+    /// assert_eq!(samples[0].states().len(), 101);
+    /// assert_eq!(samples[0].states().next(), Some([0.1, 0.0].as_slice()));
+    /// assert_eq!(samples[1].states().len(), 0);
+    /// assert!(samples[1].end.is_err() && samples[2].end.is_ok());
+    /// ```
+    pub fn sample_in_lanes<T, P, M>(
+        &self,
+        method: &M,
+        pendulum: &P,
+        starts: &[State<T>],
+        times: &[T],
+    ) -> Vec<Samples<T>>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
+    {
+        self.samples(method, Cases::Starts(pendulum, starts), times)
+    }
+
+    /// The states at the given times of pendulums that differ in their parameters,
+    /// each from its own start: as [`sample_in_lanes`](Self::sample_in_lanes), for
+    /// what [`integrate_models_in_lanes`](Self::integrate_models_in_lanes) takes.
+    pub fn sample_models_in_lanes<T, P, M>(
+        &self,
+        method: &M,
+        releases: &[(P, State<T>)],
+        times: &[T],
+    ) -> Vec<Samples<T>>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
+    {
+        self.samples(method, Cases::Pairs(releases), times)
+    }
+
+    fn ends<T, P, M>(
+        &self,
+        method: &M,
+        cases: Cases<'_, P, T>,
+        end: T,
+    ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
+    {
+        let outcomes = self.in_lanes(method, cases, &[], Some(end));
+        outcomes.map(|outcome| outcome.end).collect()
+    }
+
+    fn samples<T, P, M>(&self, method: &M, cases: Cases<'_, P, T>, times: &[T]) -> Vec<Samples<T>>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
+    {
+        let outcomes = self.in_lanes(method, cases, times, times.last().copied());
+        outcomes
+            .map(|Outcome { end, samples }| Samples {
+                dimension: 2 * P::LINKS,
+                values: samples,
+                end,
+            })
+            .collect()
+    }
+
+    /// Every case through the times to the end, in their order.
+    fn in_lanes<T, P, M>(
+        &self,
+        method: &M,
+        cases: Cases<'_, P, T>,
+        times: &[T],
+        end: Option<T>,
+    ) -> impl Iterator<Item = Outcome<T>> + use<T, P, M>
+    where
+        T: Lane,
+        P: Rescale<T> + Sync,
+        M: LaneMethod<P, T>,
+    {
+        let task = Task {
+            instructions: InstructionSet::widest(),
+            method,
+            cases,
+            times,
+            end,
+        };
+        let outcomes = self.on_threads(task.cases.len(), |queue| {
+            let mut results = Vec::new();
+            let done = |index, outcome| {
+                results.push((index, outcome));
+                queue.done();
+            };
+            lanes::integrate(&task, || queue.next(), done);
+            results
+        });
+        outcomes.into_iter()
+    }
+}
+
+/// A trajectory at given times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Samples<T> {
+    dimension: usize,
+    values: Vec<T>,
+    /// Where it ended, or why it did before.
+    pub end: Result<Solution<T>, IntegrationError<T>>,
+}
+
+impl<T> Samples<T> {
+    /// The states at the times asked for, in their order: one for each time, or for
+    /// those up to the last good state where the trajectory failed, unless the
+    /// rates were not finite within its last step.
+    pub fn states(&self) -> ChunksExact<'_, T> {
+        self.values.chunks_exact(self.dimension.max(1))
+    }
+}

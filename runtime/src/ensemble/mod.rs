@@ -1,0 +1,170 @@
+//! Many trajectories at once, on all cores.
+//!
+//! An [`Ensemble`] hands items (initial conditions, parameter sets) to threads,
+//! one after the other, and gives the results back in the order of the items.
+//! What a result is is the caller's choice; an item that fails with an error
+//! is one `Err` among the results, and the others run on.
+//!
+//! Pendulums can be integrated in the lanes of vector registers, several
+//! trajectories at a time on each thread: many starts of one model
+//! ([`Ensemble::integrate_in_lanes`]) or models that differ in their parameters
+//! ([`Ensemble::integrate_models_in_lanes`]).
+//!
+//! A trajectory is computed by one thread from its own input alone, so that
+//! results are the same bit for bit, whatever the number of threads.
+
+mod lanes;
+mod queue;
+
+use std::num::NonZeroUsize;
+use std::panic::resume_unwind;
+use std::thread;
+
+pub use self::lanes::Samples;
+use self::queue::Queue;
+use crate::integrate::{DenseStep, IntegrationError, Integrator, Solution};
+use crate::scalar::Real;
+use crate::system::{Ode, State};
+
+/// How an ensemble is computed.
+///
+/// # Examples
+///
+/// Where a hundred pendulums are after ten seconds, one of which starts from
+/// nowhere:
+///
+/// ```
+/// use branched_pendulum::ensemble::Ensemble;
+/// use branched_pendulum::prelude::*;
+///
+/// let pendulum = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+///     rates[0] = y[1];
+///     rates[1] = -y[0].sin();
+/// });
+/// let starts: Vec<State<f64>> = (0..100)
+///     .map(|i| State::at_rest(0.0, &[if i == 50 { f64::NAN } else { 0.01 * f64::from(i) }]))
+///     .collect();
+/// let method = Dop853::new(Options::with_tolerance(1e-10));
+/// let ends = Ensemble::new().integrate(&method, &pendulum, &starts, 10.0);
+/// assert_eq!(ends.iter().filter(|end| end.is_ok()).count(), 99);
+/// assert!(matches!(ends[50], Err(IntegrationError::Input(_))));
+/// ```
+#[derive(Clone, Copy)]
+pub struct Ensemble<'a> {
+    threads: Option<NonZeroUsize>,
+    progress: Option<&'a (dyn Fn(usize) + Sync)>,
+}
+
+impl std::fmt::Debug for Ensemble<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            threads,
+            progress: _,
+        } = self;
+        formatter
+            .debug_struct("Ensemble")
+            .field("threads", threads)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Default for Ensemble<'_> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'a> Ensemble<'a> {
+    /// On as many threads as the system offers, without progress.
+    pub fn new() -> Self {
+        Self {
+            threads: None,
+            progress: None,
+        }
+    }
+
+    /// On so many threads, though not more than there are items.
+    pub fn threads(self, threads: NonZeroUsize) -> Self {
+        Self {
+            threads: Some(threads),
+            ..self
+        }
+    }
+
+    /// Calls `progress` with the number of items done, after each, from the
+    /// thread that did it: numbers may arrive out of order.
+    pub fn progress(self, progress: &'a (dyn Fn(usize) + Sync)) -> Self {
+        Self {
+            progress: Some(progress),
+            ..self
+        }
+    }
+
+    /// `work(index, item)` for every item; results in the order of the items.
+    ///
+    /// Items are handed out one at a time, so that long ones do not wait for
+    /// each other. A panic in `work` ends the whole call with that panic: what
+    /// can fail should return an error.
+    pub fn map<I: Sync, R: Send>(
+        &self,
+        items: &[I],
+        work: impl Fn(usize, &I) -> R + Sync,
+    ) -> Vec<R> {
+        self.on_threads(items.len(), |queue| {
+            let mut results = Vec::new();
+            while let Some(index) = queue.next() {
+                if let Some(item) = items.get(index) {
+                    results.push((index, work(index, item)));
+                    queue.done();
+                }
+            }
+            results
+        })
+    }
+
+    /// Runs `worker` on every thread, for results in the order of their indices.
+    fn on_threads<R: Send>(
+        &self,
+        items: usize,
+        worker: impl Fn(&Queue<'_>) -> Vec<(usize, R)> + Sync,
+    ) -> Vec<R> {
+        let queue = Queue::new(items, self.progress);
+        let worker = || worker(&queue);
+        let threads = self
+            .threads
+            .or_else(|| thread::available_parallelism().ok())
+            .map_or(1, NonZeroUsize::get)
+            .min(items);
+        let mut results: Vec<(usize, R)> = thread::scope(|scope| {
+            // This thread works too.
+            let others: Vec<_> = (1..threads).map(|_| scope.spawn(worker)).collect();
+            let mut results = worker();
+            for other in others {
+                match other.join() {
+                    Ok(more) => results.extend(more),
+                    Err(panic) => resume_unwind(panic),
+                }
+            }
+            results
+        });
+        results.sort_unstable_by_key(|&(index, _)| index);
+        results.into_iter().map(|(_, result)| result).collect()
+    }
+
+    /// Integrates the same system from every start to the time `end`.
+    pub fn integrate<T, O, M>(
+        &self,
+        method: &M,
+        ode: &O,
+        starts: &[State<T>],
+        end: T,
+    ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
+    where
+        T: Real + Send + Sync,
+        O: Ode<T> + Sync + ?Sized,
+        M: Integrator<T, O> + Sync,
+    {
+        let run_on = |_: &mut DenseStep<'_, T>| std::ops::ControlFlow::Continue(());
+        self.map(starts, |_, start| method.integrate(ode, start, end, run_on))
+    }
+}

@@ -1,0 +1,129 @@
+//! What all methods are tested on.
+
+mod agreement;
+mod bits;
+mod failures;
+mod model;
+mod models;
+
+use core::ops::ControlFlow;
+
+use self::model::{Lopsided, lopsided};
+use super::{Cases, LaneMethod, Outcome, Task, integrate};
+use crate::integrate::{
+    DenseStep, Dop853, Dopri5, IntegrationError, Integrator, Options, Solution, Taylor, Verner98,
+};
+use crate::scalar::{InstructionSet, Lane};
+use crate::system::{AbsoluteAngles, State};
+
+const END: f64 = 8.0;
+
+type End<T> = Result<Solution<T>, IntegrationError<T>>;
+
+/// Something to do with each of the methods.
+trait Each<T: Lane> {
+    fn each<M>(&mut self, method: &M)
+    where
+        M: LaneMethod<Lopsided<T>, T>,
+        for<'a> M: Integrator<T, AbsoluteAngles<'a, Lopsided<T>>>;
+}
+
+/// Does it with all methods, with these options.
+fn with_each<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
+    with_pairs(options, work);
+    work.each(&Taylor::new(options.clone()));
+}
+
+/// The same without the Taylor series.
+fn with_pairs<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
+    work.each(&Dopri5::new(options.clone()));
+    work.each(&Dop853::new(options.clone()));
+    work.each(&Verner98::new(options.clone()));
+}
+
+/// As many that no register divides them.
+fn starts<T: Lane>() -> Vec<State<T>> {
+    (0..43)
+        .map(|i| {
+            let first = 0.02 * f64::from(i);
+            State::at_rest(
+                T::from_f64(0.0625 * f64::from(i % 4)),
+                &[T::from_f64(first), T::from_f64(-0.5 * first)],
+            )
+        })
+        .collect()
+}
+
+fn times<T: Lane>() -> Vec<T> {
+    // From the latest start on, some in one step, some equal.
+    [0.1875, 0.1875, 0.19, 0.191, 1.0, 2.5, 2.5, 7.0, 8.0, 8.0]
+        .map(T::from_f64)
+        .to_vec()
+}
+
+/// Options that trajectories keep or fail by, and an error of each kind.
+fn strict_options() -> Vec<Options<f64>> {
+    let basic = Options::with_tolerance(1e-9);
+    vec![
+        basic.clone(),
+        Options {
+            step_limit: 20,
+            ..basic.clone()
+        },
+        Options {
+            min_step: 0.15,
+            ..basic.clone()
+        },
+        Options {
+            beta: 0.04,
+            ..basic.clone()
+        },
+        Options {
+            initial_step: Some(-1.0),
+            ..basic
+        },
+    ]
+}
+
+/// Every case through the times, and to the end.
+fn outcomes<T: Lane, M: LaneMethod<Lopsided<T>, T>>(
+    instructions: InstructionSet,
+    method: &M,
+    cases: Cases<'_, Lopsided<T>, T>,
+    times: &[T],
+    end: T,
+) -> Vec<Outcome<T>> {
+    let count = cases.len();
+    let task = Task {
+        instructions,
+        method,
+        cases,
+        times,
+        end: Some(end),
+    };
+    let mut queue = 0..count;
+    let mut outcomes = vec![None; count];
+    integrate(
+        &task,
+        || queue.next(),
+        |index, outcome| assert!(outcomes[index].replace(outcome).is_none()),
+    );
+    outcomes.into_iter().map(Option::unwrap).collect()
+}
+
+/// The end by the plain method.
+fn plain<M>(method: &M, model: &Lopsided<f64>, start: &State<f64>, end: f64) -> End<f64>
+where
+    for<'a> M: Integrator<f64, AbsoluteAngles<'a, Lopsided<f64>>>,
+{
+    let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
+    method.integrate(&AbsoluteAngles(model), start, end, go_on)
+}
+
+/// Debug texts are as many digits as it takes: equal bits.
+fn assert_same<T: Lane>(a: &[Outcome<T>], b: &[Outcome<T>]) {
+    assert_eq!(a.len(), b.len());
+    for (a, b) in a.iter().zip(b) {
+        assert_eq!(format!("{a:?}"), format!("{b:?}"));
+    }
+}
