@@ -1,16 +1,16 @@
 //! Many states of one tree, each in a lane.
 //!
 //! Where a [`Batch`](crate::batch::Batch) has a register of each number, the links
-//! need no neighbours: the tree is gone through depth first, from the leaves to the
-//! root and back, so that what a subtree answers is read soon after it was formed.
-//! What is formed on the way up and read on the way down is a stack: three numbers
-//! of each link, and as many as are kept of those with children.
+//! need no neighbours: one subtree goes up after the other, each so small that what is
+//! passed on in it stays in the first cache, then what is above them up and down, then
+//! the subtrees down, the last one first. Three values of each link are kept for the
+//! way down, and as many more of those with children.
 //!
 //! # Which bits
 //! The equations are those of one state, and so is the order of each sum: a state
 //! has the bits that it has alone.
 
-mod order;
+mod pieces;
 mod packing;
 mod table;
 mod turns;
@@ -49,7 +49,7 @@ where
         alpha: impl FnMut(usize, R),
     ) {
         let packing = PhantomData::<Packed<R>>;
-        walk::evaluate(packing, self.model, self.room, theta, omega, alpha);
+        let _ = walk::evaluate(packing, self.model, self.room, theta, omega, alpha);
     }
 }
 
@@ -68,7 +68,7 @@ where
         alpha: impl FnMut(usize, R),
     ) {
         let packing = PhantomData::<Packed<R>>;
-        table::evaluate(packing, self.model, self.room, theta, omega, alpha);
+        let _ = table::evaluate(packing, self.model, self.room, theta, omega, alpha);
     }
 }
 
@@ -102,7 +102,7 @@ where
         let pool = self.tree.pool();
         let mut room = pool.take(self.room(), T::from_f64(0.0));
         let packing = PhantomData::<Alone<T>>;
-        walk::evaluate(packing, self, &mut room, theta, omega, alpha);
+        let _ = walk::evaluate(packing, self, &mut room, theta, omega, alpha);
         pool.give_back(room);
     }
 
@@ -137,7 +137,7 @@ where
     ) {
         let mut room = self.pool.take(self.room(), T::from_f64(0.0));
         let packing = PhantomData::<Alone<T>>;
-        table::evaluate(packing, self, &mut room, theta, omega, alpha);
+        let _ = table::evaluate(packing, self, &mut room, theta, omega, alpha);
         self.pool.give_back(room);
     }
 

@@ -17,8 +17,8 @@ pub(in crate::generations) trait Packing {
     /// A number for each state.
     fn splat(number: Self::Number) -> Self::Value;
 
-    /// The value that these numbers are; NaN where there are too few.
-    fn read(numbers: &[Self::Number]) -> Self::Value;
+    /// The value that these numbers are; none where there are too few.
+    fn read(numbers: &[Self::Number]) -> Option<Self::Value>;
 
     /// Writes its numbers.
     fn write(value: Self::Value, numbers: &mut [Self::Number]);
@@ -39,11 +39,8 @@ impl<T: Scalar> Packing for Alone<T> {
     }
 
     #[inline(always)]
-    fn read(numbers: &[T]) -> T {
-        match numbers.first() {
-            Some(number) => *number,
-            None => T::from_f64(f64::NAN),
-        }
+    fn read(numbers: &[T]) -> Option<T> {
+        numbers.first().copied()
     }
 
     #[inline(always)]
@@ -69,11 +66,8 @@ impl<R: Register> Packing for Packed<R> {
     }
 
     #[inline(always)]
-    fn read(numbers: &[R::Lane]) -> R {
-        match R::load(numbers) {
-            Some(value) => value,
-            None => R::from_f64(f64::NAN),
-        }
+    fn read(numbers: &[R::Lane]) -> Option<R> {
+        R::load(numbers)
     }
 
     #[inline(always)]
@@ -83,36 +77,38 @@ impl<R: Register> Packing for Packed<R> {
 }
 
 /// Rows of `N` values.
-pub(in crate::generations) struct Rows<'a, T>(pub(in crate::generations) &'a mut [T]);
+pub(in crate::generations) struct Rows<'a, T, const N: usize>(
+    pub(in crate::generations) &'a mut [T],
+);
 
-impl<T: Scalar> Rows<'_, T> {
+impl<T: Scalar, const N: usize> Rows<'_, T, N> {
+    /// The first `M` values of a row; none behind the end.
     #[inline(always)]
-    pub(in crate::generations) fn load<P: Packing<Number = T>, const N: usize>(
+    pub(in crate::generations) fn load<P: Packing<Number = T>, const M: usize>(
         &self,
         row: usize,
-    ) -> [P::Value; N] {
-        let start = row * N * P::COUNT;
-        let numbers = self.0.get(start..start + N * P::COUNT).unwrap_or_default();
-        let mut values = [P::Value::from_f64(f64::NAN); N];
+    ) -> Option<[P::Value; M]> {
+        let numbers = self.0.get(row * N * P::COUNT..)?.get(..M * P::COUNT)?;
+        let mut values = [P::Value::from_f64(0.0); M];
         for (i, value) in values.iter_mut().enumerate() {
-            *value = P::read(numbers.get(i * P::COUNT..).unwrap_or_default());
+            *value = P::read(numbers.get(i * P::COUNT..)?)?;
         }
-        values
+        Some(values)
     }
 
+    /// Writes these; none behind the end.
     #[inline(always)]
-    pub(in crate::generations) fn store<P: Packing<Number = T>, const N: usize>(
+    pub(in crate::generations) fn store<P: Packing<Number = T>, const M: usize>(
         &mut self,
         row: usize,
-        values: [P::Value; N],
-    ) {
-        let start = row * N * P::COUNT;
-        let Some(numbers) = self.0.get_mut(start..start + N * P::COUNT) else {
-            return;
-        };
+        values: [P::Value; M],
+    ) -> Option<()> {
+        let numbers = self.0.get_mut(row * N * P::COUNT..)?;
+        let numbers = numbers.get_mut(..M * P::COUNT)?;
         for (i, value) in values.into_iter().enumerate() {
-            P::write(value, numbers.get_mut(i * P::COUNT..).unwrap_or_default());
+            P::write(value, numbers.get_mut(i * P::COUNT..)?);
         }
+        Some(())
     }
 }
 

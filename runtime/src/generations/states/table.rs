@@ -27,16 +27,17 @@ pub(super) fn evaluate<N, P, T, const C: usize, const R: usize, const K: usize>(
     theta: impl Fn(usize) -> N::Value,
     omega: impl Fn(usize) -> N::Value,
     alpha: impl FnMut(usize, N::Value),
-) where
+) -> Option<()>
+where
     N: Packing<Number = T>,
     P: Recursion<C, R, R, K>,
     T: Scalar,
 {
     // Where nothing acts in joints, rows are shorter.
     if P::JOINTS {
-        rows::<N, P, T, C, R, K, 5>(packing, model, room, theta, omega, alpha);
+        rows::<N, P, T, C, R, K, 5>(packing, model, room, theta, omega, alpha)
     } else {
-        rows::<N, P, T, C, R, K, 3>(packing, model, room, theta, omega, alpha);
+        rows::<N, P, T, C, R, K, 3>(packing, model, room, theta, omega, alpha)
     }
 }
 
@@ -48,7 +49,8 @@ fn rows<N, P, T, const C: usize, const R: usize, const K: usize, const M: usize>
     theta: impl Fn(usize) -> N::Value,
     omega: impl Fn(usize) -> N::Value,
     mut alpha: impl FnMut(usize, N::Value),
-) where
+) -> Option<()>
+where
     N: Packing<Number = T>,
     P: Recursion<C, R, R, K>,
     T: Scalar,
@@ -61,27 +63,30 @@ fn rows<N, P, T, const C: usize, const R: usize, const K: usize, const M: usize>
     let links = links.zip(&model.depths).enumerate();
     let room = &mut room;
     let depths = model.deepest() + 1;
-    let mut sums = Rows(take(room, depths * R * N::COUNT));
-    let mut ends = Rows(take(room, depths * 2 * N::COUNT));
-    let mut kept = Rows(take(room, parents.len() * K * N::COUNT));
+    let mut sums = Rows::<_, R>(take(room, depths * R * N::COUNT));
+    let mut ends = Rows::<_, 2>(take(room, depths * 2 * N::COUNT));
+    let mut kept = Rows::<_, K>(take(room, parents.len() * K * N::COUNT));
     let mut turns = Turns::<N, M>::new(core::mem::take(room));
 
     // Places on the stack: of all links, and of those with children.
     let (mut place, mut slot) = (0, 0);
-    let mut next = parents.len();
+    let (mut next, mut formed) = (parents.len(), 0);
     let zero = [N::Value::from_f64(0.0); R];
     for depth in 0..depths {
-        sums.store::<N, R>(depth, zero);
+        sums.store::<N, R>(depth, zero)?;
     }
     for (link, ((constants, hanging), &depth)) in links.clone().rev() {
-        let form = || {
-            next = next.checked_sub(1)?;
-            Some((next, (next > 0).then(|| parent_of(next))))
-        };
-        turns.form(place + 1, form, &theta, &omega);
+        if formed <= place {
+            let form = || {
+                next = next.saturating_sub(1);
+                (next, (next > 0).then(|| parent_of(next)))
+            };
+            turns.form(formed, STEP, form, &theta, &omega)?;
+            formed += STEP;
+        }
         let constants = splat::<N, C>(constants);
         let [square, ratio, _] = splat::<N, HANGING>(hanging);
-        let motion = turns.motion(place);
+        let motion = turns.motion(place)?;
         place += 1;
         let (mut answers, across, along);
         if is_leaf(link) {
@@ -89,10 +94,10 @@ fn rows<N, P, T, const C: usize, const R: usize, const K: usize, const M: usize>
             (across, along) = (-square, -ratio);
         } else {
             let own;
-            (answers, own) = P::inner(&constants, motion, sums.load::<N, R>(depth as usize));
+            (answers, own) = P::inner(&constants, motion, sums.load::<N, R>(depth as usize)?);
             // For the next one of that depth.
-            sums.store::<N, R>(depth as usize, zero);
-            kept.store::<N, K>(slot, own);
+            sums.store::<N, R>(depth as usize, zero)?;
+            kept.store::<N, K>(slot, own)?;
             slot += 1;
             (across, along) = (square, ratio);
         }
@@ -100,7 +105,7 @@ fn rows<N, P, T, const C: usize, const R: usize, const K: usize, const M: usize>
             break;
         };
         let factors = [square, across, square, along, ratio];
-        let sum = sums.load::<N, R>(above);
+        let sum = sums.load::<N, R>(above)?;
         for i in 0..R {
             answers[i] = match factors.get(i) {
                 Some(&factor) => factor.mul_add(answers[i], sum[i]),
@@ -108,17 +113,17 @@ fn rows<N, P, T, const C: usize, const R: usize, const K: usize, const M: usize>
                 None => answers[i] + sum[i],
             };
         }
-        sums.store::<N, R>(above, answers);
+        sums.store::<N, R>(above, answers)?;
     }
 
     for (link, ((constants, hanging), &depth)) in links {
         let constants = splat::<N, C>(constants);
         place -= 1;
-        let motion = turns.motion(place);
+        let motion = turns.motion(place)?;
         let pivot = match (depth as usize).checked_sub(1) {
             Some(above) => {
                 let reach = N::splat(hanging[2]);
-                let [x, y] = ends.load::<N, 2>(above);
+                let [x, y] = ends.load::<N, 2>(above)?;
                 [reach * x, reach * y]
             }
             None => splat::<N, 2>(&model.root),
@@ -127,11 +132,12 @@ fn rows<N, P, T, const C: usize, const R: usize, const K: usize, const M: usize>
             P::turn_leaf(&constants, motion, pivot)
         } else {
             slot -= 1;
-            let own = kept.load::<N, K>(slot);
+            let own = kept.load::<N, K>(slot)?;
             let (acceleration, end) = P::turn(&constants, motion, own, pivot);
-            ends.store::<N, 2>(depth as usize, end);
+            ends.store::<N, 2>(depth as usize, end)?;
             acceleration
         };
         alpha(link, acceleration);
     }
+    Some(())
 }

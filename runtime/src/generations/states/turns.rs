@@ -1,4 +1,4 @@
-//! Sines and cosines of the links that come next.
+//! Sines and cosines of links, and what else their equations read.
 
 use core::marker::PhantomData;
 
@@ -13,9 +13,7 @@ pub(super) const STEP: usize = 4;
 /// Rows of `M` values: sine, cosine, velocity of a link, and where `M` is 5, angle
 /// and velocity relative to its parent.
 pub(super) struct Turns<'a, P: Packing, const M: usize> {
-    rows: Rows<'a, P::Number>,
-    /// How many there are.
-    formed: usize,
+    rows: Rows<'a, P::Number, M>,
     packing: PhantomData<P>,
 }
 
@@ -24,65 +22,66 @@ impl<'a, P: Packing, const M: usize> Turns<'a, P, M> {
     pub(super) fn new(room: &'a mut [P::Number]) -> Self {
         Self {
             rows: Rows(room),
-            formed: 0,
             packing: PhantomData,
         }
     }
 
-    /// Forms them of the links that `next` gives, each with its parent, until there
-    /// are `count`.
+    /// Forms the rows from `first` on, `STEP` at a time, as many as said or some more,
+    /// of the links that `next` gives, each with its parent.
     #[inline(always)]
     pub(super) fn form(
         &mut self,
+        first: usize,
         count: usize,
-        mut next: impl FnMut() -> Option<(usize, Option<usize>)>,
+        mut next: impl FnMut() -> (usize, Option<usize>),
         theta: &impl Fn(usize) -> P::Value,
         omega: &impl Fn(usize) -> P::Value,
-    ) {
-        while self.formed < count {
+    ) -> Option<()> {
+        let mut row = first;
+        while row < first + count {
             let mut links = [(0, None); STEP];
             let mut angles = [P::Value::from_f64(0.0); STEP];
             for i in 0..STEP {
-                // Behind the last link there is room for what nobody reads.
-                links[i] = next().unwrap_or((0, None));
+                links[i] = next();
                 angles[i] = theta(links[i].0);
             }
             let (sines, cosines) = P::Value::sin_cos_each(&angles);
             for i in 0..STEP {
                 let (link, parent) = links[i];
                 let velocity = omega(link);
-                let mut row = [velocity; M];
-                row[0] = sines[i];
-                row[1] = cosines[i];
+                let mut values = [velocity; M];
+                values[0] = sines[i];
+                values[1] = cosines[i];
                 if M == 5 {
                     let (mut bend, mut rate) = (angles[i], velocity);
                     if let Some(parent) = parent {
                         bend = bend - theta(parent);
                         rate = rate - omega(parent);
                     }
-                    row[3] = bend;
-                    row[4] = rate;
+                    values[3] = bend;
+                    values[4] = rate;
                 }
-                self.rows.store::<P, M>(self.formed + i, row);
+                self.rows.store::<P, M>(row + i, values)?;
             }
-            self.formed += STEP;
+            row += STEP;
         }
+        Some(())
     }
 
-    /// The motion of the link whose sine was formed at that place.
+    /// The motion in a row.
     #[inline(always)]
-    pub(super) fn motion(&self, place: usize) -> Motion<P::Value> {
-        let row = self.rows.load::<P, M>(place);
+    pub(super) fn motion(&self, row: usize) -> Option<Motion<P::Value>> {
+        let values = self.rows.load::<P, M>(row)?;
         let [bend, bend_rate] = match M {
-            5 => [row[3], row[4]],
-            _ => [row[2]; 2],
+            5 => [values[3], values[4]],
+            _ => [values[2]; 2],
         };
-        Motion {
-            sine: row[0],
-            cosine: row[1],
-            omega: row[2],
+        Some(Motion {
+            sine: values[0],
+            cosine: values[1],
+            omega: values[2],
             bend,
             bend_rate,
-        }
+        })
     }
 }
