@@ -3,9 +3,9 @@
 use crate::generations::part::Stage;
 use crate::generations::plan::Plan;
 
-/// Subtrees of up to so many links: what is passed on in one, with its motion, fits
-/// into the first cache.
-const LINKS: usize = 63;
+/// Subtrees of up to so many links: what is passed on in one, with its motion, stays
+/// in the first caches. A quarter or a half of it takes as long.
+const LINKS: usize = 127;
 
 /// Consecutive generations below one link: a subtree, or what is above all of them.
 #[derive(Clone, Copy, Debug)]

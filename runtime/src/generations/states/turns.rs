@@ -8,7 +8,7 @@ use crate::scalar::Scalar;
 
 /// Registers of sines that are formed in step: while the result of one operation is
 /// awaited, the others keep the processor busy.
-pub(super) const STEP: usize = 4;
+pub(super) const STEP: usize = 2;
 
 /// Rows of `M` values: sine, cosine, velocity of a link, and where `M` is 5, angle
 /// and velocity relative to its parent.
