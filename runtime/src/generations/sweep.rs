@@ -365,4 +365,4 @@ impl<T: Scalar, const C: usize, const R: usize, const K: usize> Level<'_, T, C, 
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

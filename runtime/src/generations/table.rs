@@ -457,3 +457,6 @@ impl<P, T: fmt::Debug, const C: usize, const R: usize, const K: usize> fmt::Debu
             .finish_non_exhaustive()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -10,8 +10,8 @@
 //! The equations are those of one state, and so is the order of each sum: a state
 //! has the bits that it has alone.
 
-mod pieces;
 mod packing;
+mod pieces;
 mod table;
 mod turns;
 mod walk;
@@ -80,10 +80,7 @@ where
 {
     /// The same tree on other scalars; computed on as many threads.
     #[must_use]
-    pub fn rescale<S: Scalar>(
-        &self,
-        convert: impl Fn(T) -> S,
-    ) -> Generations<P, S, C, L, R, K> {
+    pub fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Generations<P, S, C, L, R, K> {
         Generations {
             tree: self.tree.rescale(convert),
             recursion: PhantomData,
@@ -158,7 +155,9 @@ where
     }
 
     fn deepest(&self) -> usize {
-        self.order.last().map_or(0, |&link| depth(&self.depths, link))
+        self.order
+            .last()
+            .map_or(0, |&link| depth(&self.depths, link))
     }
 
     /// How many values a state takes in a batch.

@@ -102,7 +102,10 @@ impl<'a> Pieces<'a> {
         let all = plan.links();
         let links = |stage: &Stage| (all - stage.whole) / stage.count.max(1);
         let small = |stage: &Stage| links(stage) <= LINKS;
-        let cut = stages.iter().position(small).map_or(stems, |cut| cut.min(stems));
+        let cut = stages
+            .iter()
+            .position(small)
+            .map_or(stems, |cut| cut.min(stems));
         let (stage, last) = (stages.get(cut)?, stages.last()?);
         Some(Self {
             stages,

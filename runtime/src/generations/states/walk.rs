@@ -48,16 +48,7 @@ where
 }
 
 #[inline(always)]
-fn pieces<
-    N,
-    P,
-    T,
-    const C: usize,
-    const L: usize,
-    const R: usize,
-    const K: usize,
-    const M: usize,
->(
+fn pieces<N, P, T, const C: usize, const L: usize, const R: usize, const K: usize, const M: usize>(
     packing: PhantomData<N>,
     model: &Generations<P, T, C, L, R, K>,
     mut room: &mut [T],
@@ -92,7 +83,8 @@ where
         walk.hand(&piece, pieces.above + index)?;
     }
     walk.inners_up(&top, top.inner)?;
-    walk.passed.store::<N, 2>(0, splat::<N, 2>(&model.tree.root))?;
+    walk.passed
+        .store::<N, 2>(0, splat::<N, 2>(&model.tree.root))?;
     walk.inners_down(&top, top.inner, &mut alpha)?;
     for index in (0..pieces.count).rev() {
         let piece = pieces.subtree(index);
