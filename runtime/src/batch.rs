@@ -55,8 +55,10 @@ use crate::system::{InRegisters, Rescale};
 
 /// Evaluates a pendulum for any number of states, a register at a time.
 ///
-/// Room for one state is allocated when it is built, and nothing later. Each
-/// state gets the bits that
+/// Room is allocated when it is built, and nothing later: for one state, and where the
+/// model is loops over a large tree, for some nine numbers a link of as many states as a
+/// register holds. (For fewer states than that, such a model allocates when it computes
+/// the first.) Each state gets the bits that
 /// [`accelerations_into`](crate::Pendulum::accelerations_into) gives it alone,
 /// whatever its place in the batch.
 #[derive(Clone, Debug)]

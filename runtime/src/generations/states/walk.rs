@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::packing::{Packing, Rows, splat};
-use super::pieces::{Piece, Pieces};
+use super::pieces::{Level, Piece, Pieces};
 use super::sum;
 use super::turns::{STEP, Turns};
 use crate::generations::Generations;
@@ -139,18 +139,18 @@ where
     ) -> Option<()> {
         let mut generation = piece.generations().start;
         let mut level = piece.level(generation)?;
-        let mut above = None;
+        let mut above: Option<Level> = None;
         let (mut index, mut under) = (0, 0);
         let first = level.turns;
         let next = || {
             let link = level.link(index);
             let parent = match above {
-                Some(above) => Some(super::pieces::Level::link(&above, under)),
+                Some(above) => Some(above.link(under)),
                 None => piece.above(),
             };
             index += 1;
             under += 1;
-            if above.is_some_and(|above: super::pieces::Level| under == above.length) {
+            if above.is_some_and(|above| under == above.length) {
                 under = 0;
             }
             if index == level.length {
