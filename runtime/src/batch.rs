@@ -50,13 +50,15 @@ use core::fmt;
 use crate::scalar::dispatch::{self, RegisterKernel};
 use crate::scalar::register::{Block, Register};
 use crate::scalar::{InstructionSet, Lane, Scalar};
-use crate::system::Rescale;
 use crate::system::rescale;
+use crate::system::{InRegisters, Rescale};
 
 /// Evaluates a pendulum for any number of states, a register at a time.
 ///
-/// Room for one state is allocated when it is built, and nothing later. Each
-/// state gets the bits that
+/// Room is allocated when it is built, and nothing later: for one state, and where the
+/// model is loops over a large tree, for some nine numbers a link of as many states as a
+/// register holds. (For fewer states than that, such a model allocates when it computes
+/// the first.) Each state gets the bits that
 /// [`accelerations_into`](crate::Pendulum::accelerations_into) gives it alone,
 /// whatever its place in the batch.
 #[derive(Clone, Debug)]
@@ -65,6 +67,8 @@ pub struct Batch<'m, P, T> {
     instructions: InstructionSet,
     /// One state: angles, velocities, accelerations.
     alone: [Vec<T>; 3],
+    /// What a register of states is computed in, where that is not registers.
+    room: Vec<T>,
 }
 
 impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
@@ -79,6 +83,7 @@ impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
             pendulum,
             instructions: InstructionSet::widest(),
             alone: core::array::from_fn(|_| alloc::vec![T::from_f64(0.0); P::LINKS]),
+            room: alloc::vec![T::from_f64(0.0); room::<T>(pendulum.room())],
         }
     }
 
@@ -125,6 +130,7 @@ impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
             pendulum: self.pendulum,
             time,
             count,
+            room: aligned(&mut self.room),
             theta,
             omega,
             alpha,
@@ -157,12 +163,31 @@ impl<P: Rescale<T>, T: Lane> Batch<'_, P, T> {
         if self.instructions == InstructionSet::Build {
             rescale::straight(self.pendulum, time, own_theta, own_omega, own_alpha);
         } else {
-            T::accelerate(self.pendulum, time, own_theta, own_omega, own_alpha);
+            let pendulum = self.pendulum;
+            pendulum.accelerations_into(time, own_theta, own_omega, own_alpha);
         }
         for (own, slice) in own_alpha.iter().zip(alpha) {
             rescale::put(slice.as_mut(), state, *own);
         }
     }
+}
+
+/// Bytes in the widest register, and in a line of the cache: what lies across two
+/// lines takes two accesses.
+const LINE: usize = 64;
+
+/// Numbers for so many values in the widest registers, wherever they start.
+fn room<T>(values: usize) -> usize {
+    match values {
+        0 => 0,
+        _ => (values + 1) * (LINE / size_of::<T>().max(1)),
+    }
+}
+
+/// From the first line on.
+fn aligned<T>(room: &mut [T]) -> &mut [T] {
+    let unaligned = room.as_ptr().align_offset(LINE);
+    room.get_mut(unaligned..).unwrap_or_default()
 }
 
 fn check(
@@ -202,6 +227,7 @@ struct Blocks<'a, P, T, In, On, Out> {
     pendulum: &'a P,
     time: T,
     count: usize,
+    room: &'a mut [T],
     theta: &'a [In],
     omega: &'a [On],
     alpha: &'a mut [Out],
@@ -241,7 +267,7 @@ where
         ) else {
             return next;
         };
-        let pendulum = self.pendulum.rescale(R::splat);
+        let mut pendulum = self.pendulum.in_registers::<R>(self.room);
         let time = R::splat(self.time);
         let nothing = R::splat(T::from_f64(f64::NAN)).to_chunk();
         while next < self.count {

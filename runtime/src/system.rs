@@ -19,6 +19,8 @@ use crate::scalar::Scalar;
 
 pub use canonical::{Canonical, CanonicalVariables};
 pub use first_integral::{CanonicalEnergy, FirstIntegral};
+#[doc(hidden)]
+pub use rescale::InRegisters;
 pub use rescale::Rescale;
 pub use taylor::{TaylorOde, TaylorPendulum};
 

@@ -395,6 +395,7 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let links = Literal::usize_unsuffixed(generations.links);
         let loops = self.generations_type();
+        let rescale = self.loop_rescale("generations");
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
                 const LINKS: usize = #links;
@@ -416,6 +417,8 @@ impl Emission<'_> {
                     self.generations.accelerations_into(theta, omega, alpha);
                 }
             }
+
+            #rescale
         }
     }
 

@@ -14,6 +14,7 @@ mod model;
 mod names;
 mod observables;
 mod parts;
+mod rescale;
 mod stub;
 mod table;
 mod taylor;

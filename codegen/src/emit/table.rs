@@ -148,6 +148,7 @@ impl Emission<'_> {
     fn table_pendulum(&self) -> TokenStream {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let names = self.scene.links.iter().map(|link| &link.name);
+        let rescale = self.loop_rescale("links");
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
                 const LINKS: usize = #links;
@@ -163,6 +164,8 @@ impl Emission<'_> {
                     self.links.accelerations_into(theta, omega, alpha);
                 }
             }
+
+            #rescale
         }
     }
 }

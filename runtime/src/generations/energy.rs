@@ -38,6 +38,31 @@ impl<T: Copy> EnergyConstants<T> {
     }
 }
 
+impl<T> EnergyConstants<T> {
+    /// On other scalars.
+    pub(super) fn map<S>(&self, convert: impl Fn(T) -> S) -> EnergyConstants<S>
+    where
+        T: Copy,
+    {
+        let &Self {
+            half_mass,
+            moment,
+            half_inertia,
+            lever,
+            gravity,
+            half_spring,
+        } = self;
+        EnergyConstants {
+            half_mass: convert(half_mass),
+            moment: convert(moment),
+            half_inertia: convert(half_inertia),
+            lever: convert(lever),
+            gravity: convert(gravity),
+            half_spring: convert(half_spring),
+        }
+    }
+}
+
 /// Sums, a few hundred terms at a time: the error of a long sum grows with its
 /// length.
 pub(super) struct Sum<T> {

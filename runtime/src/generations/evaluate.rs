@@ -52,6 +52,11 @@ impl Layout {
         }
     }
 
+    /// That of the same tree in numbers of another size.
+    pub(super) fn rescale<T>(&self, plan: &Plan) -> Self {
+        Self::new::<T>(plan, self.sizes)
+    }
+
     /// How many numbers an evaluation needs room for, on so many threads.
     pub(super) fn room<T>(&self, plan: &Plan, threads: usize) -> usize {
         let parts = match (&self.part, plan.cut) {

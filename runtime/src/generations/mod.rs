@@ -38,6 +38,7 @@ mod pool;
 mod prefetch;
 mod recursion;
 mod shared;
+mod states;
 mod sweep;
 mod table;
 mod table_energy;

@@ -69,6 +69,12 @@ impl Plan {
         }
     }
 
+    /// Of the whole tree.
+    #[inline(always)]
+    pub(super) fn stages(&self) -> &[Stage] {
+        &self.stages
+    }
+
     /// All of them.
     pub(super) fn links(&self) -> usize {
         self.start(self.generations())

@@ -59,6 +59,37 @@ impl<T: Copy> Pool<T> {
         result
     }
 
+    /// A buffer of at least `length` numbers, to be given back: for work that must
+    /// be compiled where it is asked for.
+    #[cfg(feature = "std")]
+    pub(super) fn take(&self, length: usize, zero: T) -> Vec<T> {
+        use std::sync::PoisonError;
+        let mut others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut buffer = others.pop().unwrap_or_default();
+        drop(others);
+        grown(&mut buffer, length, zero);
+        buffer
+    }
+
+    /// Keeps a buffer for the next evaluation.
+    #[cfg(feature = "std")]
+    pub(super) fn give_back(&self, buffer: Vec<T>) {
+        use std::sync::PoisonError;
+        let mut others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        others.push(buffer);
+    }
+
+    /// A buffer, allocated for this once.
+    #[cfg(not(feature = "std"))]
+    pub(super) fn take(&self, length: usize, zero: T) -> Vec<T> {
+        let mut buffer = Vec::new();
+        grown(&mut buffer, length, zero);
+        buffer
+    }
+
+    #[cfg(not(feature = "std"))]
+    pub(super) fn give_back(&self, _buffer: Vec<T>) {}
+
     /// The same, allocated for this once.
     #[cfg(not(feature = "std"))]
     pub(super) fn lend<R>(&self, length: usize, zero: T, work: impl FnOnce(&mut [T]) -> R) -> R {

@@ -313,4 +313,4 @@ where
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

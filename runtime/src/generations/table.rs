@@ -12,7 +12,7 @@ use super::vector::{SliceKernel, Step, Vector, Vectors, each};
 use crate::scalar::Scalar;
 
 /// The columns of a link's constants that say how it acts on its parent.
-const HANGING: usize = 3;
+pub(super) const HANGING: usize = 3;
 
 /// A large tree of irregular shape: the parent and the constants of each link, and
 /// room for evaluations.
@@ -34,28 +34,35 @@ const HANGING: usize = 3;
 /// (articulated-body algorithm), in the plane.
 pub struct Table<P, T, const C: usize, const R: usize, const K: usize> {
     /// Parents stand before their children, depth first; the root's own is 0.
-    parents: &'static [u32],
+    pub(super) parents: &'static [u32],
+    /// Their depths.
+    pub(super) depths: Vec<u32>,
     /// The links by depth: neighbours do not wait for each other.
-    order: Vec<u32>,
+    pub(super) order: Vec<u32>,
     /// What the equations of a link read.
-    constants: Vec<[T; C]>,
+    pub(super) constants: Vec<[T; C]>,
     /// The factors of what it answers, and of what it takes from its parent:
     /// `square`, `ratio`, `reach`.
-    hanging: Vec<[T; HANGING]>,
-    root: [T; 2],
-    energies: Vec<[T; 7]>,
-    pool: Pool<T>,
-    recursion: PhantomData<P>,
+    pub(super) hanging: Vec<[T; HANGING]>,
+    pub(super) root: [T; 2],
+    pub(super) energies: Vec<[T; 7]>,
+    pub(super) pool: Pool<T>,
+    pub(super) recursion: PhantomData<P>,
 }
 
-/// The links by their depth, those of one depth in their order.
-fn by_depth(parents: &[u32]) -> Vec<u32> {
-    let mut depths: Vec<usize> = Vec::with_capacity(parents.len());
+/// How many links are above each one.
+fn depths(parents: &[u32]) -> Vec<u32> {
+    let mut depths: Vec<u32> = Vec::with_capacity(parents.len());
     for &parent in parents {
         // The root comes first, and has none above.
         depths.push(depths.get(parent as usize).map_or(0, |depth| depth + 1));
     }
-    let mut order: Vec<u32> = (0..).take(parents.len()).collect();
+    depths
+}
+
+/// The links by their depth, those of one depth in their order.
+fn by_depth(depths: &[u32]) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..).take(depths.len()).collect();
     order.sort_by_key(|&link| depths.get(link as usize).copied());
     order
 }
@@ -105,9 +112,11 @@ where
             hanging.push([row[3], row[4], row[5]]);
             (row[3], row[4], row[5]) = (one, one, one);
         }
+        let depths = depths(parents);
         Self {
             parents,
-            order: by_depth(parents),
+            order: by_depth(&depths),
+            depths,
             constants,
             hanging,
             root,
@@ -378,6 +387,7 @@ impl<P, T: Clone, const C: usize, const R: usize, const K: usize> Clone for Tabl
     fn clone(&self) -> Self {
         let Self {
             parents,
+            depths,
             order,
             constants,
             hanging,
@@ -388,6 +398,7 @@ impl<P, T: Clone, const C: usize, const R: usize, const K: usize> Clone for Tabl
         } = self;
         Self {
             parents,
+            depths: depths.clone(),
             order: order.clone(),
             constants: constants.clone(),
             hanging: hanging.clone(),
@@ -405,6 +416,7 @@ impl<P, T: PartialEq, const C: usize, const R: usize, const K: usize> PartialEq
     fn eq(&self, other: &Self) -> bool {
         let Self {
             parents,
+            depths: _,
             order: _,
             constants,
             hanging,
@@ -427,6 +439,7 @@ impl<P, T: fmt::Debug, const C: usize, const R: usize, const K: usize> fmt::Debu
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             parents,
+            depths: _,
             order: _,
             constants,
             hanging,
@@ -444,3 +457,6 @@ impl<P, T: fmt::Debug, const C: usize, const R: usize, const K: usize> fmt::Debu
             .finish_non_exhaustive()
     }
 }
+
+#[cfg(test)]
+mod tests;

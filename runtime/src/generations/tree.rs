@@ -58,6 +58,31 @@ impl<T> Tree<T> {
     }
 }
 
+impl<T: Scalar> Tree<T> {
+    /// The same tree on other scalars.
+    pub(super) fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Tree<S> {
+        let layout = self.layout.rescale::<S>(&self.plan);
+        Tree {
+            threads: self.threads,
+            room: layout.room::<S>(&self.plan, self.threads),
+            layout,
+            plan: self.plan.clone(),
+            constants: self.constants.iter().map(|&x| convert(x)).collect(),
+            root: self.root.map(&convert),
+            energies: self.energies.iter().map(|row| row.map(&convert)).collect(),
+            pool: Pool::new(),
+        }
+    }
+
+    pub(super) fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    pub(super) fn pool(&self) -> &Pool<T> {
+        &self.pool
+    }
+}
+
 /// NaN instead of accelerations for slices of another length than there are links.
 fn accelerations_into<T: Scalar>(
     tree: &Tree<T>,

@@ -52,6 +52,8 @@ pub use dispatch::InstructionSet;
 pub use dual::Dual;
 pub use lanes::{Lane, Lanes};
 #[doc(hidden)]
+pub use register::Register;
+#[doc(hidden)]
 pub use turns::{Turned, Turns};
 pub use wide::Double;
 

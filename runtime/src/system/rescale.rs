@@ -2,7 +2,7 @@
 
 use crate::scalar::Scalar;
 use crate::scalar::dispatch::{self, Kernel};
-use crate::scalar::register::Fused;
+use crate::scalar::register::{Fused, Register};
 
 use super::Pendulum;
 
@@ -87,6 +87,51 @@ pub trait Rescale<T: Scalar>: Pendulum<T> {
         omega: impl Fn(usize) -> T,
         alpha: impl FnMut(usize, T),
     );
+
+    /// How many values [`in_registers`](Self::in_registers) needs room for.
+    #[doc(hidden)]
+    fn room(&self) -> usize {
+        0
+    }
+
+    /// What a [`Batch`](crate::batch::Batch) computes with: this pendulum in
+    /// registers, or where that would be large, something that takes its numbers
+    /// as they are needed.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn in_registers<R: Register<Lane = T>>(&self, room: &mut [T]) -> impl InRegisters<R> {
+        let _ = room;
+        Rescaled(self.rescale(R::splat))
+    }
+}
+
+/// A pendulum in registers.
+#[doc(hidden)]
+pub trait InRegisters<R> {
+    /// As [`Rescale::evaluate`].
+    fn evaluate(
+        &mut self,
+        time: R,
+        theta: impl Fn(usize) -> R,
+        omega: impl Fn(usize) -> R,
+        alpha: impl FnMut(usize, R),
+    );
+}
+
+/// Its constants are registers.
+struct Rescaled<P>(P);
+
+impl<R: Scalar, P: Rescale<R>> InRegisters<R> for Rescaled<P> {
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        time: R,
+        theta: impl Fn(usize) -> R,
+        omega: impl Fn(usize) -> R,
+        alpha: impl FnMut(usize, R),
+    ) {
+        self.0.evaluate(time, theta, omega, alpha);
+    }
 }
 
 /// The element at an index, or NaN beyond the end: in place of a panic in what

@@ -7,6 +7,7 @@ pub mod articulated;
 pub mod by_hand;
 pub mod dense;
 pub mod large;
+pub mod large_batches;
 pub mod measure;
 pub mod output;
 mod random;
@@ -26,7 +27,7 @@ What do the accelerations of one state cost, in emitted code one by one and in
 batches, against the system's sines and cosines alone, code written by hand for
 the paper's pendulum, a recursion that takes any tree as a table, and the
 textbook's dense matrix? How far is each from the truth? And what do large trees
-cost, in loops, by the number of threads, and irregular ones?
+cost, in loops, by the number of threads, and irregular ones, alone and in batches?
 
 Usage: evaluation-speed [--output FOLDER]
 
@@ -59,6 +60,7 @@ fn main() -> ExitCode {
     println!("{}", output::table(&rows));
     println!("{}", output::errors(&accuracy::all(STATES)));
     print!("{}", large::tables(&large::all(), &large::irregular()));
+    print!("{}", large_batches::table(&large_batches::all()));
     exit::of_run(
         "evaluation-speed",
         match folder {

@@ -83,9 +83,15 @@ pub fn all(repeats: usize) -> Vec<Row> {
 
 type Passes = [Option<Pass>; CONTENDERS.len()];
 
-fn count<const N: usize>() -> usize {
+/// States in one pass.
+#[must_use]
+pub fn states_of(links: usize) -> usize {
     // A multiple of all lanes: remainders are tested, not timed.
-    (NUMBERS / N).next_multiple_of(16)
+    (NUMBERS / links.max(1)).next_multiple_of(16)
+}
+
+fn count<const N: usize>() -> usize {
+    states_of(N)
 }
 
 fn inputs<const N: usize>() -> (Layouts, Layouts) {

@@ -1,0 +1,127 @@
+//! Many states of large trees: code in loops, a state in each lane.
+
+use std::fmt::Write;
+use std::hint::black_box;
+use std::time::Instant;
+
+use branched_pendulum::batch::Batch;
+use branched_pendulum::scalar::Lane;
+use branched_pendulum::{Pendulum, Rescale};
+
+use super::large::{Bush127, Bush500, Loops127, Loops1023};
+use super::measure::states_of;
+use super::states::random;
+
+/// Least times for one state of a large tree, ns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Generations or a table.
+    pub scene: &'static str,
+    /// Number of links.
+    pub links: usize,
+    /// One state after the other.
+    pub single: f64,
+    /// A batch.
+    pub batch: f64,
+    /// A batch in `f32`.
+    pub narrow: f64,
+}
+
+/// Measures all trees.
+#[must_use]
+pub fn all() -> Vec<Row> {
+    vec![
+        row("generations", &Loops127::new(), &Loops127::default()),
+        row("generations", &Loops1023::new(), &Loops1023::default()),
+        row("table", &Bush127::new(), &Bush127::default()),
+        row("table", &Bush500::new(), &Bush500::default()),
+    ]
+}
+
+fn row<P: Rescale<f64>, Q: Rescale<f32>>(scene: &'static str, model: &P, narrow: &Q) -> Row {
+    let links = <P as Pendulum<f64>>::LINKS;
+    let states = states_of(links);
+    let theta = random(1, links, states, std::f64::consts::PI);
+    let omega = random(2, links, states, 9.0);
+    let mut alpha = vec![0.0; links];
+    let mut single = || {
+        for (theta, omega) in theta.by_state.iter().zip(&omega.by_state) {
+            model.accelerations_into(
+                0.0,
+                black_box(theta),
+                black_box(omega),
+                black_box(&mut alpha),
+            );
+        }
+    };
+    let mut wide = pass(model, &theta.by_link, &omega.by_link, |x| x);
+    let mut short = pass(narrow, &theta.by_link, &omega.by_link, |x| x as f32);
+    // In turns: a change of the processor's clock meets all.
+    let mut least = [f64::INFINITY; 3];
+    for _ in 0..500_000 / (links * states).max(1) * 10 {
+        let passes: [&mut dyn FnMut(); 3] = [&mut single, &mut wide, &mut short];
+        for (least, pass) in least.iter_mut().zip(passes) {
+            let start = Instant::now();
+            pass();
+            *least = least.min(start.elapsed().as_secs_f64() * 1e9 / states as f64);
+        }
+    }
+    let [single, batch, narrow] = least;
+    Row {
+        scene,
+        links,
+        single,
+        batch,
+        narrow,
+    }
+}
+
+/// A pass over all states.
+fn pass<P: Rescale<T>, T: Lane>(
+    model: &P,
+    theta: &[Vec<f64>],
+    omega: &[Vec<f64>],
+    convert: fn(f64) -> T,
+) -> impl FnMut() {
+    let columns = |columns: &[Vec<f64>]| -> Vec<Vec<T>> {
+        let column = |column: &Vec<f64>| column.iter().map(|&x| convert(x)).collect();
+        columns.iter().map(column).collect()
+    };
+    let (theta, omega) = (columns(theta), columns(omega));
+    let mut alpha = theta.clone();
+    let mut batch = Batch::new(model);
+    move || {
+        let done = batch.accelerations(
+            T::from_f64(0.0),
+            black_box(&theta),
+            black_box(&omega),
+            black_box(&mut alpha),
+        );
+        debug_assert!(done.is_ok());
+    }
+}
+
+/// The table that the program prints.
+#[must_use]
+pub fn table(rows: &[Row]) -> String {
+    let mut text = "\nMany states of large trees: least time for one state, ns.\n\n".to_owned();
+    let _ = writeln!(
+        text,
+        "{:>12} {:>6} {:>10} {:>10} {:>10}",
+        "loops over", "links", "one state", "batch", "f32"
+    );
+    for row in rows {
+        let &Row {
+            scene,
+            links,
+            single,
+            batch,
+            narrow,
+        } = row;
+        let _ = writeln!(
+            text,
+            "{scene:>12} {links:>6} {single:>10.0} {batch:>10.0} {narrow:>10.0}"
+        );
+    }
+    text
+}
