@@ -42,7 +42,7 @@ impl Emission<'_> {
             true => "",
             false => " Energies can be asked for with `emit(energies)`.",
         };
-        doc_lines(&[
+        let mut lines = vec![
             String::new(),
             format!(
                 "A planar tree of {links} rigid links in {count} generations, {branching} under each link but the last ones. Angles are absolute, in radians from the downward vertical; SI units throughout."
@@ -53,7 +53,9 @@ impl Emission<'_> {
             format!(
                 "The code is loops over generations, O(links), in vectors of siblings, and on all cores where there are many. The first evaluation allocates room, later ones nothing.{energies}"
             ),
-        ])
+        ];
+        self.drive_lines(&mut lines);
+        doc_lines(&lines)
     }
 
     /// The numbers of constants, of a leaf's and an inner link's answers, and of
@@ -75,20 +77,23 @@ impl Emission<'_> {
     pub(super) fn generations_value(&self, constants: &Constants) -> TokenStream {
         let runtime = self.runtime();
         let [motion, motion_value] = self.constant_rows("motion", &constants.motion);
-        let [energy, energy_value] = match self.scene.requests.energies {
+        let [energy, energy_value] = match self.scene.requests.energies && !self.has_bodies() {
             true => self.constant_rows("energy", &constants.energy),
             false => [TokenStream::new(), quote!([])],
         };
         let root = self.scalar(&constants.root);
+        let (extra, fields) = self.loop_values(constants.per_lever.as_ref());
         quote! {
             #motion
             #energy
+            #extra
             Self {
                 generations: #runtime::generations::Generations::new(
                     #motion_value,
                     [T::from_f64(0.0), #root],
                     &#energy_value,
                 ),
+                #(#fields),*
             }
         }
     }
@@ -202,7 +207,8 @@ impl Emission<'_> {
             }
         });
         let node_answer = joints.then(|| quote!(, #in_joint));
-        let node_constants = read(&with(&["inertia", "moment"]));
+        let node_constants = read(&with(&["inertia", "moment", "root_torque"]));
+        let (torque_column, root_torque) = (self.torque_column(), self.root_torque());
         let (stem_constants, inner_constants) = (
             read(&["rest", "square", "ratio"]),
             read(&["rest", "square", "ratio"]),
@@ -244,6 +250,7 @@ impl Emission<'_> {
                     let f_y = (-square).mul_add((-trace).mul_add(cosine, pull_x), y);
                     let kappa = cosine.mul_add(f_x, sine * f_y);
                     #node_forces
+                    #root_torque
                     let inverse = V::from_f64(1.0) / whole;
                     let (g_x, g_y) = (b_x * inverse, b_y * inverse);
                     (
@@ -266,6 +273,7 @@ impl Emission<'_> {
                 const COPIES: &'static [usize] = &[#copies];
                 const NAMES: &'static [&'static str] = &[#names];
                 const JOINTS: bool = #joints;
+                #torque_column
 
                 #[inline(always)]
                 fn leaf<V: #runtime::Scalar>(
@@ -345,11 +353,16 @@ impl Emission<'_> {
         if !self.scene.requests.energies {
             return TokenStream::new();
         }
+        let frame = match self.frame_note() {
+            "" => None,
+            note => Some(quote!(#[doc = #note])),
+        };
         quote! {
             /// Kinetic energy, J, for angles `theta` (rad) and angular
             /// velocities `omega` (rad/s): ½ m **V**² + ½ I ω² of all links,
             /// from the velocities **V** of their centres of mass. NaN for
             /// slices of another length than there are links. O(links).
+            #frame
             #[must_use]
             pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
                 self.#loops.kinetic_energy(theta, omega)
@@ -369,7 +382,8 @@ impl Emission<'_> {
     fn generation_functions(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let loops = self.generations_type();
-        let energies = self.energies_of(&quote!(generations));
+        let energies = self.energies_of(&self.energy_field("generations"));
+        let drive = self.loop_drive();
         quote! {
             impl<T: #runtime::Scalar> #name<T> {
                 /// Index of the link that one comes to from the root by these
@@ -387,6 +401,7 @@ impl Emission<'_> {
                 }
 
                 #energies
+                #drive
             }
         }
     }
@@ -395,6 +410,7 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let links = Literal::usize_unsuffixed(generations.links);
         let loops = self.generations_type();
+        let (time, body) = (self.time_name(), self.loop_accelerations("generations"));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
                 const LINKS: usize = #links;
@@ -408,12 +424,12 @@ impl Emission<'_> {
 
                 fn accelerations_into(
                     &self,
-                    _time: T,
+                    #time: T,
                     theta: &[T],
                     omega: &[T],
                     alpha: &mut [T],
                 ) {
-                    self.generations.accelerations_into(theta, omega, alpha);
+                    #body
                 }
             }
         }
@@ -422,7 +438,7 @@ impl Emission<'_> {
     /// The energies of what the model's one field holds.
     pub(super) fn loop_energy(&self, field: &str) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let field = Ident::new(field, Span::call_site());
+        let field = self.energy_field(field);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
                 fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
@@ -463,6 +479,10 @@ fn equations_docs(table: bool, forces: Forces) -> Vec<String> {
         true => " Q is the torque of friction, drag and springs.",
         false => "",
     };
+    let root = match forces.root_torque {
+        true => " The torque on the root is a constant of its own, zero for other links.",
+        false => "",
+    };
     // One string a paragraph: `doc_lines` wraps them.
     [
         &format!(
@@ -484,7 +504,7 @@ fn equations_docs(table: bool, forces: Forces) -> Vec<String> {
         &format!(
             "Φ u is (Φ v − v tr Φ) turned by a right angle. Leaves have \
              Φ = m I/J + (m² d²/J) u uᵀ. What does not depend on the angles is in the \
-             constants.{torque}"
+             constants.{torque}{root}"
         ),
     ]
     .map(str::to_owned)

@@ -31,7 +31,7 @@ impl Emission<'_> {
             true => "",
             false => " Energies can be asked for with `emit(energies)`.",
         };
-        doc_lines(&[
+        let mut lines = vec![
             String::new(),
             format!(
                 "A planar tree of {count} rigid links. Angles are absolute, in radians from the downward vertical, in the order of `LINK_NAMES`; SI units throughout."
@@ -40,7 +40,9 @@ impl Emission<'_> {
             format!(
                 "The code is a loop over a table of links, O(links), of the equations that are shown where they stand. The first evaluation allocates room, later ones nothing.{energies}"
             ),
-        ])
+        ];
+        self.drive_lines(&mut lines);
+        doc_lines(&lines)
     }
 
     /// The type of the model's one field, `links`.
@@ -59,16 +61,18 @@ impl Emission<'_> {
             Literal::usize_unsuffixed(parent)
         });
         let [motion, motion_value] = self.constant_rows("motion", &table.motion);
-        let energies = self.scene.requests.energies;
+        let energies = self.scene.requests.energies && !self.has_bodies();
         let [energy, energy_value] = match energies {
             true => self.constant_rows("energy", &table.energy),
             false => [TokenStream::new(), quote!(#runtime::generations::rows(&[]))],
         };
         let root = self.scalar(&table.root);
+        let (extra, fields) = self.loop_values(table.per_lever.as_ref());
         quote! {
             static PARENTS: [u32; #count] = [#(#parents),*];
             #motion
             #energy
+            #extra
             Self {
                 links: #runtime::generations::Table::new(
                     &PARENTS,
@@ -76,6 +80,7 @@ impl Emission<'_> {
                     [T::from_f64(0.0), #root],
                     #energy_value,
                 ),
+                #(#fields),*
             }
         }
     }
@@ -127,9 +132,11 @@ impl Emission<'_> {
     fn table_functions(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let links = self.links();
-        let energies = self.energies_of(&quote!(links));
-        quote! {
-            impl<T: #runtime::Scalar> #name<T> {
+        let energies = self.energies_of(&self.energy_field("links"));
+        let drive = self.loop_drive();
+        let accelerations = match self.mechanics.drive {
+            Some(_) => self.driven_table_accelerations(),
+            None => quote! {
                 /// Angular accelerations (rad/s²) for angles `theta` (rad) and
                 /// angular velocities `omega` (rad/s), in fused arithmetic where
                 /// the machine has it. O(links).
@@ -139,8 +146,14 @@ impl Emission<'_> {
                     self.links.accelerations_into(theta, omega, &mut alpha);
                     alpha
                 }
+            },
+        };
+        quote! {
+            impl<T: #runtime::Scalar> #name<T> {
+                #accelerations
 
                 #energies
+                #drive
             }
         }
     }
@@ -148,6 +161,7 @@ impl Emission<'_> {
     fn table_pendulum(&self) -> TokenStream {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let names = self.scene.links.iter().map(|link| &link.name);
+        let (time, body) = (self.time_name(), self.loop_accelerations("links"));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
                 const LINKS: usize = #links;
@@ -155,12 +169,12 @@ impl Emission<'_> {
 
                 fn accelerations_into(
                     &self,
-                    _time: T,
+                    #time: T,
                     theta: &[T],
                     omega: &[T],
                     alpha: &mut [T],
                 ) {
-                    self.links.accelerations_into(theta, omega, alpha);
+                    #body
                 }
             }
         }

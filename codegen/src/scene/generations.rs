@@ -44,7 +44,6 @@ pub(super) struct Loops {
 pub(super) struct Asked<'a> {
     pub(super) resolved: &'a Resolved,
     pub(super) observables: bool,
-    pub(super) drive: bool,
 }
 
 /// Decides how the code of a rule is written. Where it is loops, leaves one
@@ -160,6 +159,7 @@ pub(super) fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'st
         transfer,
         budget,
         taylor,
+        drive: _,
         solve,
     } = &asked.resolved.requests;
     // Loops are the recursion.
@@ -172,7 +172,6 @@ pub(super) fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'st
         (budget.is_some(), "`emit(budget)`"),
         (*taylor, "`emit(taylor)`"),
         (asked.observables, "`observe(…)`"),
-        (asked.drive, "`drive(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),
     ];
@@ -205,6 +204,8 @@ pub struct Constants {
     pub energy: Vec<[Quantity; 6]>,
     /// −g over the first lever: what the root's equations take from above.
     pub root: Quantity,
+    /// One over the first lever, where there is a drive.
+    pub per_lever: Option<Quantity>,
 }
 
 /// Which torques act on the links, in one generation at least.
@@ -216,6 +217,9 @@ pub struct Forces {
     pub drag: bool,
     /// Torsion springs in pivots.
     pub spring: bool,
+    /// A torque on the root, which has the last column: zero here, and stated anew
+    /// by every evaluation.
+    pub root_torque: bool,
 }
 
 impl Forces {
@@ -228,6 +232,10 @@ impl Forces {
             friction: any(|link| &link.friction),
             drag: any(|link| &link.drag),
             spring: any(|link| &link.spring),
+            root_torque: scene
+                .drive
+                .as_ref()
+                .is_some_and(|drive| drive.torque.is_some()),
         }
     }
 
@@ -236,9 +244,21 @@ impl Forces {
         self.friction || self.spring
     }
 
-    /// Whether there are any.
+    /// Whether there are any but the torque on the root.
     pub fn any(self) -> bool {
         self.in_joints() || self.drag
+    }
+
+    /// The values of a link, in the order of the columns.
+    pub(super) fn values(self, link: &Link) -> impl Iterator<Item = Quantity> {
+        let values = [
+            (self.friction, value(&link.friction)),
+            (self.drag, value(&link.drag)),
+            (self.spring, value(&link.spring)),
+            (self.root_torque, Quantity::zero()),
+        ];
+        let there = values.into_iter().filter(|(there, _)| *there);
+        there.map(|(_, value)| value)
     }
 
     /// The names of the columns.
@@ -248,6 +268,7 @@ impl Forces {
             (self.friction, "friction"),
             (self.drag, "drag"),
             (self.spring, "spring"),
+            (self.root_torque, "root_torque"),
         ];
         columns.extend(
             forces
@@ -293,15 +314,7 @@ impl Constants {
                     inner(&about, &lever, &copies, &Turning::of(child)?, next)?
                 }
             };
-            for (there, force) in [
-                (forces.friction, &link.friction),
-                (forces.drag, &link.drag),
-                (forces.spring, &link.spring),
-            ] {
-                if there {
-                    row.push(value(force));
-                }
-            }
+            row.extend(forces.values(link));
             motion.push(row);
             below = Quantity::sum([about.mass, hanging]);
         }
@@ -313,6 +326,7 @@ impl Constants {
         Ok(Self {
             motion,
             energy,
+            per_lever: per_lever(scene, &lever)?,
             root: scene.gravity.clone().divided_by(lever)?.negative(),
         })
     }
@@ -322,11 +336,19 @@ impl Constants {
         let fits = |quantity: &Quantity| quantity.exact().is_none_or(|n| n.to_f64().is_finite());
         let motion = self.motion.iter().flat_map(|row| columns.iter().zip(row));
         let wrong = motion.into_iter().find(|(_, value)| !fits(value));
-        let energy = self.energy.iter().flatten().all(fits) && fits(&self.root);
+        let energy = self.energy.iter().flatten().all(fits)
+            && fits(&self.root)
+            && self.per_lever.iter().all(fits);
         wrong
             .map(|(name, _)| *name)
             .or((!energy).then_some("energy"))
     }
+}
+
+/// One over the root's unit of length, where there is a drive.
+pub(super) fn per_lever(scene: &Scene, lever: &Quantity) -> Result<Option<Quantity>, ExactError> {
+    let reciprocal = || Quantity::integer(1).divided_by(lever.clone());
+    scene.drive.as_ref().map(|_| reciprocal()).transpose()
 }
 
 /// A link about its pivot.

@@ -13,6 +13,7 @@
 //! - what `requests` asks for can be derived for this tree.
 
 mod bodies;
+mod body_rows;
 mod drive;
 mod expand;
 mod generations;
@@ -32,6 +33,7 @@ mod template;
 mod text;
 mod values;
 
+pub use body_rows::body_rows;
 pub use drive::{Drive, Signal, TimeFunction};
 pub use generations::{Constants, Forces, Generations};
 pub use observables::{
@@ -115,7 +117,10 @@ impl Scene {
             return std::borrow::Cow::Borrowed(self);
         }
         let mut first = Self {
-            requests: Requests::default(),
+            requests: Requests {
+                drive: self.drive.is_some(),
+                ..Requests::default()
+            },
             generations: None,
             table: None,
             ..self.clone()
@@ -280,6 +285,9 @@ pub struct Requests {
     pub budget: Option<BudgetRequest>,
     /// Taylor coefficients of the motion.
     pub taylor: bool,
+    /// The drive by itself, as the code of driven trees in loops reads it; never
+    /// asked for by a description.
+    pub drive: bool,
 }
 
 /// Which forms of the sectors' budget are asked for; at least one. The forms

@@ -3,7 +3,8 @@
 use proc_macro2::Span;
 
 use super::generations::{
-    Asked, Forces, Turning, at_parents_pivot, half, inner, leaf, product, unlooped, value,
+    Asked, Forces, Turning, at_parents_pivot, half, inner, leaf, per_lever, product, unlooped,
+    value,
 };
 use super::rule::Code;
 use super::template::Template;
@@ -28,6 +29,8 @@ pub struct Table {
     pub energy: Vec<[Quantity; 7]>,
     /// −g over the root's lever: what the root's equations take from above.
     pub root: Quantity,
+    /// One over the root's lever, where there is a drive.
+    pub per_lever: Option<Quantity>,
 }
 
 /// Whether the code is to be a loop over a table. Where it cannot be and must,
@@ -150,25 +153,17 @@ impl Table {
         }
         for ((row, link), rest) in motion.iter_mut().zip(links).zip(rests) {
             row[0] = Quantity::sum(rest);
-            let values = [
-                (forces.friction, &link.friction),
-                (forces.drag, &link.drag),
-                (forces.spring, &link.spring),
-            ];
-            let there = values.into_iter().filter(|(there, _)| *there);
-            row.extend(there.map(|(_, force)| value(force)));
+            row.extend(forces.values(link));
         }
         let energy = links.iter().zip(&bodies);
         let energy = energy.map(|(link, body)| energy_row(scene, link, body));
         let lever = levers.first().copied().flatten().cloned();
+        let lever = lever.unwrap_or_else(Quantity::zero);
         Ok(Self {
+            per_lever: per_lever(scene, &lever)?,
             motion,
             energy: energy.collect(),
-            root: scene
-                .gravity
-                .clone()
-                .divided_by(lever.unwrap_or_else(Quantity::zero))?
-                .negative(),
+            root: scene.gravity.clone().divided_by(lever)?.negative(),
         })
     }
 
@@ -184,6 +179,7 @@ impl Table {
         wrong
             .map(|(name, _)| *name)
             .or((!fits(&self.root)).then_some("gravity"))
+            .or((!self.per_lever.iter().all(fits)).then_some("lever"))
     }
 }
 

@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 
 use super::pool::Pool;
 use super::recursion::{Motion, Recursion};
+use super::root::RootDrive;
 use super::sweep::splat;
 use super::table_energy as energy;
 use super::vector::{SliceKernel, Step, Vector, Vectors, each};
@@ -120,6 +121,21 @@ where
     /// Writes the angular accelerations, as
     /// [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into).
     pub fn accelerations_into(&self, theta: &[T], omega: &[T], alpha: &mut [T]) {
+        self.evaluate(None, theta, omega, alpha);
+    }
+
+    /// The same for a driven tree, at a time of this drive.
+    pub fn driven_accelerations_into(
+        &self,
+        drive: RootDrive<T>,
+        theta: &[T],
+        omega: &[T],
+        alpha: &mut [T],
+    ) {
+        self.evaluate(Some(drive), theta, omega, alpha);
+    }
+
+    fn evaluate(&self, drive: Option<RootDrive<T>>, theta: &[T], omega: &[T], alpha: &mut [T]) {
         let zero = T::from_f64(0.0);
         if [theta.len(), omega.len(), alpha.len()] != [P::LINKS; 3] {
             alpha.fill(T::from_f64(f64::NAN));
@@ -128,6 +144,7 @@ where
         self.pool.lend((2 + R + K) * P::LINKS, zero, |buffer| {
             T::over_slices(Accelerations {
                 table: self,
+                drive,
                 theta,
                 omega,
                 alpha,
@@ -165,6 +182,7 @@ where
 /// One evaluation.
 struct Accelerations<'a, P, T, const C: usize, const R: usize, const K: usize> {
     table: &'a Table<P, T, C, R, K>,
+    drive: Option<RootDrive<T>>,
     theta: &'a [T],
     omega: &'a [T],
     alpha: &'a mut [T],
@@ -277,8 +295,11 @@ where
             sines,
             cosines,
         };
-        up::<P, T, W::One, C, R, K>(self.table, &state, below, kept);
-        down::<P, T, W::One, C, R, K>(self.table, &state, below, kept, self.alpha);
+        let drive = self.drive;
+        let torque = drive.map(|drive| drive.torque);
+        up::<P, T, W::One, C, R, K>(self.table, torque, &state, below, kept);
+        let root = RootDrive::above(self.table.root, drive);
+        down::<P, T, W::One, C, R, K>(self.table, root, &state, below, kept, self.alpha);
     }
 }
 
@@ -287,6 +308,7 @@ where
 #[inline(always)]
 fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
     table: &Table<P, T, C, R, K>,
+    torque: Option<T>,
     state: &State<'_, T>,
     below: &mut [T],
     kept: &mut [T],
@@ -302,7 +324,11 @@ fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
         else {
             return;
         };
-        let constants = splat::<T, V, C>(constants);
+        let constants = match torque {
+            Some(torque) if P::TORQUE && link == 0 => RootDrive::row(torque, constants),
+            _ => *constants,
+        };
+        let constants = splat::<T, V, C>(&constants);
         let [square, ratio, _] = splat::<T, V, HANGING>(hanging);
         let motion = state.motion::<V>(link, P::JOINTS);
         let (mut answers, across, along);
@@ -337,6 +363,7 @@ fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
 #[inline(always)]
 fn down<P, T, V, const C: usize, const R: usize, const K: usize>(
     table: &Table<P, T, C, R, K>,
+    root: [T; 2],
     state: &State<'_, T>,
     ends: &mut [T],
     kept: &[T],
@@ -355,7 +382,7 @@ fn down<P, T, V, const C: usize, const R: usize, const K: usize>(
         let constants = splat::<T, V, C>(constants);
         let motion = state.motion::<V>(link, P::JOINTS);
         let pivot = if link == 0 {
-            splat::<T, V, 2>(&table.root)
+            splat::<T, V, 2>(&root)
         } else {
             let reach = V::splat(hanging[2]);
             let [x, y] = load::<T, V, 2>(ends, state.parent(link));

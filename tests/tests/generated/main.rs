@@ -4,6 +4,7 @@ mod bits;
 mod fused;
 mod generations;
 mod hygiene;
+mod loops;
 mod machine_code;
 mod scalars;
 mod sectors;

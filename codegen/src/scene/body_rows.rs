@@ -1,0 +1,37 @@
+//! What energies, momentum and powers of a tree in loops are made of, where it is
+//! driven or has lateral offsets.
+
+use super::generations::{half, product, value};
+use super::{Link, Quantity, Scene};
+
+/// The numbers of each body, in the order in which the runtime's `Bodies` takes
+/// them, exact where no parameter is involved. SI units.
+pub fn body_rows(scene: &Scene) -> Vec<[Quantity; 12]> {
+    let links = scene.links.iter();
+    links.map(|link| body_row(&scene.gravity, link)).collect()
+}
+
+fn body_row(gravity: &Quantity, link: &Link) -> [Quantity; 12] {
+    let (com, pivot) = (&link.com, &link.pivot);
+    let moment = product([&link.mass, &com.along]);
+    let lateral = product([&link.mass, &com.lateral]);
+    let inertia = Quantity::sum([
+        link.inertia.clone(),
+        product([&moment, &com.along]),
+        product([&lateral, &com.lateral]),
+    ]);
+    [
+        half(&link.mass),
+        moment.clone(),
+        lateral.clone(),
+        half(&inertia),
+        pivot.along.clone(),
+        pivot.lateral.clone(),
+        product([gravity, &link.mass]),
+        product([gravity, &moment]),
+        product([gravity, &lateral]),
+        half(&value(&link.spring)),
+        value(&link.friction),
+        value(&link.drag),
+    ]
+}
