@@ -207,7 +207,7 @@ impl Emission<'_> {
             }
         });
         let node_answer = joints.then(|| quote!(, #in_joint));
-        let node_constants = read(&with(&["inertia", "moment", "root_torque"]));
+        let node_constants = read(&with(&["inertia", "moment", "lateral", "root_torque"]));
         let (torque_column, root_torque) = (self.torque_column(), self.root_torque());
         let (stem_constants, inner_constants) = (
             read(&["rest", "square", "ratio"]),
@@ -218,6 +218,9 @@ impl Emission<'_> {
             true => quote!(swing + (#torque) * inertia),
             false => quote!(swing),
         };
+        let unread = unread.filter(|_| !forces.lateral);
+        let (facing, faced, [lateral_b, lateral_f]) =
+            (self.facing(), self.faced(), self.lateral_moment());
         let docs = doc_lines(&equations_docs(self.scene.table.is_some(), forces));
         // Of commas: all tokens stand where the attribute does, see `emit`.
         let allow =
@@ -229,6 +232,8 @@ impl Emission<'_> {
 
             #allow
             impl #name {
+                #facing
+
                 #[inline(always)]
                 fn node<V: #runtime::Scalar>(
                     constants: &[V; #constants],
@@ -238,11 +243,13 @@ impl Emission<'_> {
                     #torque_parameter
                 ) -> ([V; #answers], [V; #kept]) {
                     #node_constants
+                    #faced
                     let (sine, cosine) = (link.sine, link.cosine);
                     let pull_x = xx.mul_add(cosine, xy * sine);
                     let pull_y = xy.mul_add(cosine, yy * sine);
                     let b_x = moment.mul_add(cosine, pull_x);
                     let b_y = moment.mul_add(sine, pull_y);
+                    #lateral_b
                     let whole = sine.mul_add(pull_y, cosine.mul_add(pull_x, inertia));
                     let square = link.omega * link.omega;
                     let trace = xx + yy + moment;
@@ -251,6 +258,7 @@ impl Emission<'_> {
                     let kappa = cosine.mul_add(f_x, sine * f_y);
                     #node_forces
                     #root_torque
+                    #lateral_f
                     let inverse = V::from_f64(1.0) / whole;
                     let (g_x, g_y) = (b_x * inverse, b_y * inverse);
                     (
@@ -282,6 +290,7 @@ impl Emission<'_> {
                 ) -> [V; #leaf_answers] {
                     #leaf_read
                     #unread
+                    #faced
                     let square = link.omega * link.omega;
                     #push
                     [
@@ -326,6 +335,7 @@ impl Emission<'_> {
                     [x, y]: [V; 2],
                 ) -> (V, [V; 2]) {
                     #turn_constants
+                    #faced
                     let alpha = g_x.mul_add(x, g_y.mul_add(y, -turn));
                     let square = link.omega * link.omega;
                     let end_x = square.mul_add(link.sine, (-alpha).mul_add(link.cosine, x));
@@ -341,6 +351,7 @@ impl Emission<'_> {
                 ) -> V {
                     #leaf_read
                     #unread
+                    #faced
                     let swing = link.cosine.mul_add(x, link.sine * y);
                     #turned_leaf
                 }
@@ -479,6 +490,12 @@ fn equations_docs(table: bool, forces: Forces) -> Vec<String> {
         true => " Q is the torque of friction, drag and springs.",
         false => "",
     };
+    let lateral = match forces.lateral {
+        true => {
+            " Offsets across the links: **v** and **u** are ℓ **v** − w **u** and ℓ **u** + w **v** of the children's pivot at (ℓ, w), of a leaf those of its centre of mass, in the link's unit of length; the first moment across that direction, `lateral`, adds −m q **u** to b and, after κ, −ω² m q **v** to f."
+        }
+        false => "",
+    };
     let root = match forces.root_torque {
         true => " The torque on the root is a constant of its own, zero for other links.",
         false => "",
@@ -504,7 +521,7 @@ fn equations_docs(table: bool, forces: Forces) -> Vec<String> {
         &format!(
             "Φ u is (Φ v − v tr Φ) turned by a right angle. Leaves have \
              Φ = m I/J + (m² d²/J) u uᵀ. What does not depend on the angles is in the \
-             constants.{torque}{root}"
+             constants.{torque}{root}{lateral}"
         ),
     ]
     .map(str::to_owned)

@@ -5,7 +5,7 @@ use super::Emission;
 use super::docs::doc_lines;
 use super::function::ident;
 use crate::program::Purpose;
-use crate::scene::{Forces, Quantity};
+use crate::scene::{Forces, Quantity, is_lateral};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -20,8 +20,62 @@ impl Emission<'_> {
 
     /// Whether energies are those of bodies, which have momentum too.
     pub(super) fn has_bodies(&self) -> bool {
-        let driven = self.scene.drive.is_some();
-        self.scene.requests.energies && driven
+        let beside = self.scene.drive.is_some() || is_lateral(self.scene);
+        self.scene.requests.energies && beside
+    }
+
+    /// Replaces a link's sine and cosine by those of the direction of its offsets.
+    pub(super) fn faced(&self) -> Option<TokenStream> {
+        let lateral = Forces::of(self.scene).lateral;
+        lateral.then(|| quote!(let link = Self::facing(constants, link);))
+    }
+
+    /// What does so.
+    pub(super) fn facing(&self) -> Option<TokenStream> {
+        let (runtime, forces) = (self.runtime(), Forces::of(self.scene));
+        let columns = forces.columns();
+        let names = columns.iter().map(|column| match *column {
+            "along" | "across" => {
+                let column = ident(column);
+                quote!(#column)
+            }
+            _ => quote!(_),
+        });
+        let count = Literal::usize_unsuffixed(columns.len());
+        forces.lateral.then(|| {
+            quote! {
+                #[inline(always)]
+                fn facing<V: #runtime::Scalar>(
+                    constants: &[V; #count],
+                    link: #runtime::generations::Motion<V>,
+                ) -> #runtime::generations::Motion<V> {
+                    let [#(#names),*] = *constants;
+                    #runtime::generations::Motion {
+                        sine: along.mul_add(link.sine, across * link.cosine),
+                        cosine: along.mul_add(link.cosine, -(across * link.sine)),
+                        ..link
+                    }
+                }
+            }
+        })
+    }
+
+    /// The first moment across these directions, in b and in f.
+    pub(super) fn lateral_moment(&self) -> [Option<TokenStream>; 2] {
+        if !Forces::of(self.scene).lateral {
+            return [None, None];
+        }
+        let of_b = quote! {
+            let b_x = (-lateral).mul_add(sine, b_x);
+            let b_y = lateral.mul_add(cosine, b_y);
+        };
+        // Not in κ: a body's own centripetal force passes through its pivot.
+        let of_f = quote! {
+            let sideways = square * lateral;
+            let f_x = (-sideways).mul_add(cosine, f_x);
+            let f_y = (-sideways).mul_add(sine, f_y);
+        };
+        [Some(of_b), Some(of_f)]
     }
 
     /// Where the model's energies come from: `links` or `generations`, or bodies.

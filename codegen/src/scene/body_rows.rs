@@ -2,6 +2,7 @@
 //! driven or has lateral offsets.
 
 use super::generations::{half, product, value};
+use super::offsets::is_lateral;
 use super::{Link, Quantity, Scene};
 
 /// The numbers of each body, in the order in which the runtime's `Bodies` takes
@@ -9,6 +10,13 @@ use super::{Link, Quantity, Scene};
 pub fn body_rows(scene: &Scene) -> Vec<[Quantity; 12]> {
     let links = scene.links.iter();
     links.map(|link| body_row(&scene.gravity, link)).collect()
+}
+
+/// Whether `f64` can hold them all, where the code has them.
+pub(super) fn bodies_fit(scene: &Scene) -> bool {
+    let asked = scene.requests.energies && (scene.drive.is_some() || is_lateral(scene));
+    let fits = |value: &Quantity| value.exact().is_none_or(|n| n.to_f64().is_finite());
+    !asked || body_rows(scene).iter().flatten().all(fits)
 }
 
 fn body_row(gravity: &Quantity, link: &Link) -> [Quantity; 12] {

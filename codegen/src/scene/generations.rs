@@ -3,11 +3,13 @@
 use proc_macro2::Span;
 
 use super::bodies::Body;
+use super::body_rows::bodies_fit;
+use super::offsets::{self, add_offsets, is_lateral, unit};
 use super::requests::Resolved;
 use super::rule::Code;
 use super::template::{MAX_LINKS, Template, WholeRule};
 use super::values::message_for;
-use super::{Link, Quantity, Requests, Scene, Solve};
+use super::{Link, Offset, Quantity, Requests, Scene, Solve};
 use crate::exact::ExactError;
 use crate::report::{Message, Report};
 
@@ -115,7 +117,9 @@ pub(super) fn generations(loops: Loops, scene: &Scene, report: &mut Report) -> O
             return None;
         }
     };
-    if let Some(name) = constants.unrepresentable(&Forces::of(scene).columns()) {
+    let energies = (!bodies_fit(scene)).then_some("energy");
+    let columns = Forces::of(scene).columns();
+    if let Some(name) = constants.unrepresentable(&columns).or(energies) {
         let name = name.to_owned();
         report.error(span, Message::ConstantRange { name });
         return None;
@@ -138,7 +142,15 @@ fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
             let Body {
                 mass, inertia, com, ..
             } = &template.body;
-            let parts = [mass, inertia, &com.along, &template.pivot.along];
+            let pivot = &template.pivot;
+            let parts = [
+                mass,
+                inertia,
+                &com.along,
+                &com.lateral,
+                &pivot.along,
+                &pivot.lateral,
+            ];
             parts.into_iter().any(|value| value.exact().is_none())
         });
     if parameters {
@@ -177,18 +189,13 @@ pub(super) fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'st
     ];
     // What brings others along comes last.
     let request = requests.into_iter().rev().find(|(wanted, _)| *wanted);
-    if let Some((_, what)) = request {
-        return Some(what);
-    }
-    let lateral = templates
-        .iter()
-        .any(|template| !template.body.com.lateral.is_zero() || !template.pivot.lateral.is_zero());
-    lateral.then_some("lateral offsets")
+    request.map(|(_, what)| what)
 }
 
 /// Their parent's lever is the unit of length.
 pub(super) fn at_parents_pivot(templates: &[Template]) -> Option<&'static str> {
-    let at_pivot = templates.iter().skip(1).any(|t| t.pivot.along.is_zero());
+    let mut children = templates.iter().skip(1);
+    let at_pivot = children.any(|template| unit(&template.pivot).is_zero());
     at_pivot.then_some("children that hang from their parent's pivot")
 }
 
@@ -220,6 +227,8 @@ pub struct Forces {
     /// A torque on the root, which has the last column: zero here, and stated anew
     /// by every evaluation.
     pub root_torque: bool,
+    /// No torque: whether offsets across the links have columns.
+    pub lateral: bool,
 }
 
 impl Forces {
@@ -236,6 +245,7 @@ impl Forces {
                 .drive
                 .as_ref()
                 .is_some_and(|drive| drive.torque.is_some()),
+            lateral: is_lateral(scene),
         }
     }
 
@@ -264,6 +274,9 @@ impl Forces {
     /// The names of the columns.
     pub fn columns(self) -> Vec<&'static str> {
         let mut columns = vec!["rest", "inertia", "moment", "square", "ratio", "reach"];
+        if self.lateral {
+            columns.extend(offsets::COLUMNS);
+        }
         let forces = [
             (self.friction, "friction"),
             (self.drag, "drag"),
@@ -295,7 +308,7 @@ impl Constants {
         let mut below = Quantity::zero();
         for (generation, link) in links.iter().enumerate().rev() {
             let child = links.get(generation + 1);
-            let lever = child.map_or_else(Quantity::zero, |child| child.pivot.along.clone());
+            let lever = child.map_or_else(Quantity::zero, |child| unit(&child.pivot).clone());
             let about = Turning::of(link)?;
             let hanging = product([&copies, &below]);
             let first_moment = Quantity::sum([about.moment.clone(), product([&lever, &hanging])]);
@@ -310,10 +323,13 @@ impl Constants {
             let mut row = match child {
                 None => leaf(&about)?,
                 Some(child) => {
-                    let next = links.get(generation + 2).map(|next| &next.pivot.along);
+                    let next = links.get(generation + 2).map(|next| unit(&next.pivot));
                     inner(&about, &lever, &copies, &Turning::of(child)?, next)?
                 }
             };
+            if forces.lateral {
+                add_offsets(&mut row, link, child.map(|child| &child.pivot))?;
+            }
             row.extend(forces.values(link));
             motion.push(row);
             below = Quantity::sum([about.mass, hanging]);
@@ -322,7 +338,7 @@ impl Constants {
         energy.reverse();
         let lever = links
             .get(1)
-            .map_or_else(Quantity::zero, |link| link.pivot.along.clone());
+            .map_or_else(Quantity::zero, |link| unit(&link.pivot).clone());
         Ok(Self {
             motion,
             energy,
@@ -354,9 +370,9 @@ pub(super) fn per_lever(scene: &Scene, lever: &Quantity) -> Result<Option<Quanti
 /// A link about its pivot.
 pub(super) struct Turning {
     pub(super) mass: Quantity,
-    /// m d.
+    /// m d, d in the unit of length of the centre of mass.
     pub(super) moment: Quantity,
-    /// I + m d².
+    /// I + m d² of both components.
     pub(super) inertia: Quantity,
     /// I.
     central: Quantity,
@@ -364,12 +380,15 @@ pub(super) struct Turning {
 
 impl Turning {
     pub(super) fn of(link: &Link) -> Result<Self, ExactError> {
-        let distance = &link.com.along;
-        let moment = product([&link.mass, distance]);
+        let Offset { along, lateral } = &link.com;
+        let mut inertia = vec![link.inertia.clone(), product([&link.mass, along, along])];
+        if !lateral.is_zero() {
+            inertia.push(product([&link.mass, lateral, lateral]));
+        }
         Ok(Self {
             mass: link.mass.clone(),
-            inertia: Quantity::sum([link.inertia.clone(), product([&moment, distance])]),
-            moment,
+            inertia: Quantity::sum(inertia),
+            moment: product([&link.mass, unit(&link.com)]),
             central: link.inertia.clone(),
         })
     }

@@ -20,6 +20,7 @@ mod generations;
 mod names;
 mod observable_text;
 mod observables;
+mod offsets;
 mod probe;
 mod properties;
 mod quantity;
@@ -39,6 +40,7 @@ pub use generations::{Constants, Forces, Generations};
 pub use observables::{
     Function, OBSERVABLE_SUFFIXES, Observable, Observed, Place, Variable, VariableKind,
 };
+pub use offsets::is_lateral;
 pub use quantity::Quantity;
 pub use resolve::resolve;
 pub use table::Table;

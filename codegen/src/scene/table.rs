@@ -2,10 +2,12 @@
 
 use proc_macro2::Span;
 
+use super::body_rows::bodies_fit;
 use super::generations::{
     Asked, Forces, Turning, at_parents_pivot, half, inner, leaf, per_lever, product, unlooped,
     value,
 };
+use super::offsets::{add_offsets, unit};
 use super::rule::Code;
 use super::template::Template;
 use super::values::message_for;
@@ -64,8 +66,8 @@ fn several_pivots(templates: &[Template]) -> Option<&'static str> {
     let mut levers = vec![None; templates.len()];
     let differ = templates.iter().any(|template| {
         let lever = template.parent.and_then(|parent| levers.get_mut(parent));
-        let along = &template.pivot.along;
-        lever.is_some_and(|lever| *lever.get_or_insert(along) != along)
+        let pivot = &template.pivot;
+        lever.is_some_and(|lever| *lever.get_or_insert(pivot) != pivot)
     });
     differ.then_some("children at several places of a link")
 }
@@ -79,7 +81,9 @@ pub(super) fn table(scene: &Scene, report: &mut Report) -> Option<Table> {
             return None;
         }
     };
-    if let Some(name) = table.unrepresentable(&Forces::of(scene).columns()) {
+    let energies = (!bodies_fit(scene)).then_some("energy");
+    let columns = Forces::of(scene).columns();
+    if let Some(name) = table.unrepresentable(&columns).or(energies) {
         let name = name.to_owned();
         report.error(Span::call_site(), Message::ConstantRange { name });
         return None;
@@ -114,7 +118,7 @@ impl Table {
         let mut levers = vec![None; links.len()];
         for link in links {
             if let Some(lever) = link.parent.and_then(|parent| levers.get_mut(parent.0)) {
-                *lever = Some(&link.pivot.along);
+                *lever = Some(&link.pivot);
             }
         }
         let bodies = links.iter().map(Turning::of);
@@ -126,7 +130,7 @@ impl Table {
                 Some(lever) => {
                     let mut row = vec![Quantity::zero(); 6];
                     row[1] = body.inertia.clone();
-                    row[2] = product([&body.moment, lever]);
+                    row[2] = product([&body.moment, unit(lever)]);
                     row
                 }
             });
@@ -140,10 +144,10 @@ impl Table {
             };
             let on = inner(
                 &bodies[parent.0],
-                &link.pivot.along,
+                unit(&link.pivot),
                 &one,
                 body,
-                levers[index],
+                levers[index].map(unit),
             )?;
             let [rest, _, _, factors @ ..] = on.as_slice() else {
                 continue;
@@ -151,13 +155,21 @@ impl Table {
             rests[parent.0].push(rest.clone());
             motion[index][3..].clone_from_slice(factors);
         }
-        for ((row, link), rest) in motion.iter_mut().zip(links).zip(rests) {
+        for (index, (row, rest)) in motion.iter_mut().zip(rests).enumerate() {
+            let link = &links[index];
             row[0] = Quantity::sum(rest);
+            if forces.lateral {
+                add_offsets(row, link, levers[index])?;
+            }
             row.extend(forces.values(link));
         }
         let energy = links.iter().zip(&bodies);
         let energy = energy.map(|(link, body)| energy_row(scene, link, body));
-        let lever = levers.first().copied().flatten().cloned();
+        let lever = levers
+            .first()
+            .copied()
+            .flatten()
+            .map(|lever| unit(lever).clone());
         let lever = lever.unwrap_or_else(Quantity::zero);
         Ok(Self {
             per_lever: per_lever(scene, &lever)?,
