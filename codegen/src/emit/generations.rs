@@ -220,7 +220,7 @@ impl Emission<'_> {
         };
         let unread = unread.filter(|_| !forces.lateral);
         let (facing, faced, [lateral_b, lateral_f]) =
-            (self.facing(), self.faced(), self.lateral_moment());
+            (self.facing(&columns), self.faced(), self.lateral_moment());
         let docs = doc_lines(&equations_docs(self.scene.table.is_some(), forces));
         // Of commas: all tokens stand where the attribute does, see `emit`.
         let allow =
@@ -466,7 +466,7 @@ impl Emission<'_> {
 
 /// The torque that acts on a link from outside of its subtree: friction and
 /// spring in its pivot, drag.
-fn torque(forces: Forces) -> TokenStream {
+pub(super) fn torque(forces: Forces) -> TokenStream {
     let joint = forces.in_joints().then(|| in_joint(forces));
     let drag = forces.drag.then(|| quote!(drag * link.omega));
     let parts = joint.into_iter().chain(drag);
@@ -474,7 +474,7 @@ fn torque(forces: Forces) -> TokenStream {
 }
 
 /// What a link's pivot does to its parent.
-fn in_joint(forces: Forces) -> TokenStream {
+pub(super) fn in_joint(forces: Forces) -> TokenStream {
     let friction = forces.friction.then(|| quote!(friction * link.bend_rate));
     let spring = forces.spring.then(|| quote!(spring * link.bend));
     let parts = friction.into_iter().chain(spring);

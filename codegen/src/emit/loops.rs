@@ -5,7 +5,7 @@ use super::Emission;
 use super::docs::doc_lines;
 use super::function::ident;
 use crate::program::Purpose;
-use crate::scene::{Forces, Quantity, is_lateral};
+use crate::scene::{Forces, Quantity, has_bodies};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -20,8 +20,7 @@ impl Emission<'_> {
 
     /// Whether energies are those of bodies, which have momentum too.
     pub(super) fn has_bodies(&self) -> bool {
-        let beside = self.scene.drive.is_some() || is_lateral(self.scene);
-        self.scene.requests.energies && beside
+        has_bodies(self.scene)
     }
 
     /// Replaces a link's sine and cosine by those of the direction of its offsets.
@@ -30,10 +29,9 @@ impl Emission<'_> {
         lateral.then(|| quote!(let link = Self::facing(constants, link);))
     }
 
-    /// What does so.
-    pub(super) fn facing(&self) -> Option<TokenStream> {
+    /// What does so, with constants of these columns.
+    pub(super) fn facing(&self, columns: &[&str]) -> Option<TokenStream> {
         let (runtime, forces) = (self.runtime(), Forces::of(self.scene));
-        let columns = forces.columns();
         let names = columns.iter().map(|column| match *column {
             "along" | "across" => {
                 let column = ident(column);

@@ -15,6 +15,7 @@ mod model;
 mod names;
 mod observables;
 mod parts;
+mod places;
 mod stub;
 mod table;
 mod taylor;

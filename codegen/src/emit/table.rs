@@ -10,9 +10,12 @@ use quote::quote;
 
 impl Emission<'_> {
     /// The equations and the functions of a model in a table.
-    pub(super) fn table(&self, _: &Table) -> TokenStream {
+    pub(super) fn table(&self, table: &Table) -> TokenStream {
         let none = TokenStream::new();
-        let equations = self.recursion(self.scene.links.len(), &none, &none);
+        let equations = match table.hanging {
+            Some(_) => self.placed_recursion(),
+            None => self.recursion(self.scene.links.len(), &none, &none),
+        };
         let functions = self.table_functions();
         let pendulum = self.table_pendulum();
         let energies = self.scene.requests.energies;
@@ -47,6 +50,10 @@ impl Emission<'_> {
 
     /// The type of the model's one field, `links`.
     pub(super) fn table_type(&self) -> TokenStream {
+        let placed = |table: &Table| table.hanging.is_some();
+        if self.scene.table.as_ref().is_some_and(placed) {
+            return self.placed_type();
+        }
         let (runtime, equations) = (self.runtime(), self.equations_name());
         let [constants, _, answers, kept] = self.recursion_sizes();
         quote!(#runtime::generations::Table<#equations, T, #constants, #answers, #kept>)
@@ -60,6 +67,19 @@ impl Emission<'_> {
             let parent = link.parent.map_or(0, |parent| parent.0);
             Literal::usize_unsuffixed(parent)
         });
+        let (extra, fields) = self.loop_values(table.per_lever.as_ref());
+        if let Some(hanging) = &table.hanging {
+            let [rows, value] = self.placed_value(table, hanging);
+            return quote! {
+                static PARENTS: [u32; #count] = [#(#parents),*];
+                #rows
+                #extra
+                Self {
+                    links: #value,
+                    #(#fields),*
+                }
+            };
+        }
         let [motion, motion_value] = self.constant_rows("motion", &table.motion);
         let energies = self.scene.requests.energies && !self.has_bodies();
         let [energy, energy_value] = match energies {
@@ -67,7 +87,6 @@ impl Emission<'_> {
             false => [TokenStream::new(), quote!(#runtime::generations::rows(&[]))],
         };
         let root = self.scalar(&table.root);
-        let (extra, fields) = self.loop_values(table.per_lever.as_ref());
         quote! {
             static PARENTS: [u32; #count] = [#(#parents),*];
             #motion

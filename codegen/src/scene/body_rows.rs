@@ -3,6 +3,7 @@
 
 use super::generations::{half, product, value};
 use super::offsets::is_lateral;
+use super::places::has_places;
 use super::{Link, Quantity, Scene};
 
 /// The numbers of each body, in the order in which the runtime's `Bodies` takes
@@ -12,11 +13,17 @@ pub fn body_rows(scene: &Scene) -> Vec<[Quantity; 12]> {
     links.map(|link| body_row(&scene.gravity, link)).collect()
 }
 
+/// Whether the energies of a scene in loops are those of bodies: a drive, an offset
+/// or a place of its own asks for it.
+pub fn has_bodies(scene: &Scene) -> bool {
+    let beside = || scene.drive.is_some() || is_lateral(scene) || has_places(scene);
+    scene.requests.energies && beside()
+}
+
 /// Whether `f64` can hold them all, where the code has them.
 pub(super) fn bodies_fit(scene: &Scene) -> bool {
-    let asked = scene.requests.energies && (scene.drive.is_some() || is_lateral(scene));
     let fits = |value: &Quantity| value.exact().is_none_or(|n| n.to_f64().is_finite());
-    !asked || body_rows(scene).iter().flatten().all(fits)
+    !has_bodies(scene) || body_rows(scene).iter().flatten().all(fits)
 }
 
 fn body_row(gravity: &Quantity, link: &Link) -> [Quantity; 12] {

@@ -193,7 +193,7 @@ pub(super) fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'st
 }
 
 /// Their parent's lever is the unit of length.
-pub(super) fn at_parents_pivot(templates: &[Template]) -> Option<&'static str> {
+fn at_parents_pivot(templates: &[Template]) -> Option<&'static str> {
     let mut children = templates.iter().skip(1);
     let at_pivot = children.any(|template| unit(&template.pivot).is_zero());
     at_pivot.then_some("children that hang from their parent's pivot")

@@ -21,6 +21,7 @@ mod names;
 mod observable_text;
 mod observables;
 mod offsets;
+mod places;
 mod probe;
 mod properties;
 mod quantity;
@@ -34,13 +35,13 @@ mod template;
 mod text;
 mod values;
 
-pub use body_rows::body_rows;
+pub use body_rows::{body_rows, has_bodies};
 pub use drive::{Drive, Signal, TimeFunction};
 pub use generations::{Constants, Forces, Generations};
 pub use observables::{
     Function, OBSERVABLE_SUFFIXES, Observable, Observed, Place, Variable, VariableKind,
 };
-pub use offsets::is_lateral;
+pub use places::columns as placed_columns;
 pub use quantity::Quantity;
 pub use resolve::resolve;
 pub use table::Table;

@@ -20,7 +20,7 @@ pub(super) const COLUMNS: [&str; 3] = ["along", "across", "lateral"];
 const MOMENT: usize = 2;
 
 /// Whether any centre of mass or pivot is beside a link's axis.
-pub fn is_lateral(scene: &Scene) -> bool {
+pub(super) fn is_lateral(scene: &Scene) -> bool {
     let beside = |offset: &Offset| !offset.lateral.is_zero();
     let mut links = scene.links.iter();
     links.any(|link| beside(&link.com) || beside(&link.pivot))
@@ -60,7 +60,7 @@ pub(super) fn add_offsets(
 }
 
 /// The columns of a leaf.
-fn leaf_columns(com: &Offset) -> Result<[Quantity; 3], ExactError> {
+pub(super) fn leaf_columns(com: &Offset) -> Result<[Quantity; 3], ExactError> {
     let [along, across] = direction(com)?;
     Ok([along, across, Quantity::zero()])
 }

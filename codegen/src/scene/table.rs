@@ -4,10 +4,10 @@ use proc_macro2::Span;
 
 use super::body_rows::bodies_fit;
 use super::generations::{
-    Asked, Forces, Turning, at_parents_pivot, half, inner, leaf, per_lever, product, unlooped,
-    value,
+    Asked, Forces, Turning, half, inner, leaf, per_lever, product, unlooped, value,
 };
 use super::offsets::{add_offsets, unit};
+use super::places::{HANGING, columns, has_places, placed};
 use super::rule::Code;
 use super::template::Template;
 use super::values::message_for;
@@ -24,11 +24,17 @@ const MOST_UNROLLED: usize = 100;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// What the equations of each link read, in the order of
-    /// [`Forces::columns`]. `square`, `ratio` and `reach` are those of the link
+    /// [`Forces::columns`] or, where there is `hanging`, of
+    /// [`placed_columns`](super::placed_columns). `square`, `ratio` and `reach` are those of the link
     /// on its parent; zero for the root.
     pub motion: Vec<Vec<Quantity>>,
     /// What its energies read, in the order of [`Table::ENERGY`].
     pub energy: Vec<[Quantity; 7]>,
+    /// What each link is to its parent, where links carry children at several
+    /// places: factors `square`, `ratio` and `reach` as above, the isotropic part of
+    /// Φ, the place along and across the parent. Lengths are in metres then, and
+    /// energies those of bodies.
+    pub hanging: Option<Vec<[Quantity; 6]>>,
     /// −g over the root's lever: what the root's equations take from above.
     pub root: Quantity,
     /// One over the root's lever, where there is a drive.
@@ -50,26 +56,13 @@ pub(super) fn wanted(
         None if links > MOST_UNROLLED => None,
         None => return false,
     };
-    let obstacle = unlooped(templates, asked)
-        .or_else(|| at_parents_pivot(templates))
-        .or_else(|| several_pivots(templates));
+    let obstacle = unlooped(templates, asked);
     // What is unreadable may look like an obstacle.
     if let (Some(what), Some(span), true) = (obstacle, span, report.is_empty()) {
         let what = what.to_owned();
         report.error(span, Message::NoLoops { what });
     }
     obstacle.is_none()
-}
-
-/// The distance of its children is a link's unit of length.
-fn several_pivots(templates: &[Template]) -> Option<&'static str> {
-    let mut levers = vec![None; templates.len()];
-    let differ = templates.iter().any(|template| {
-        let lever = template.parent.and_then(|parent| levers.get_mut(parent));
-        let pivot = &template.pivot;
-        lever.is_some_and(|lever| *lever.get_or_insert(pivot) != pivot)
-    });
-    differ.then_some("children at several places of a link")
 }
 
 /// The constants of a scene; `None` after reporting what is wrong.
@@ -82,7 +75,11 @@ pub(super) fn table(scene: &Scene, report: &mut Report) -> Option<Table> {
         }
     };
     let energies = (!bodies_fit(scene)).then_some("energy");
-    let columns = Forces::of(scene).columns();
+    let forces = Forces::of(scene);
+    let columns = match table.hanging {
+        Some(_) => columns(forces),
+        None => forces.columns(),
+    };
     if let Some(name) = table.unrepresentable(&columns).or(energies) {
         let name = name.to_owned();
         report.error(Span::call_site(), Message::ConstantRange { name });
@@ -105,13 +102,15 @@ impl Table {
         "half_spring",
     ];
 
-    /// Of a scene all children of whose links hang at one distance other than
-    /// zero.
+    /// Of a scene.
     ///
     /// # Errors
     /// [`ExactError`] where a number gets too long, or a leaf has no inertia about
     /// its pivot.
     fn of(scene: &Scene) -> Result<Self, ExactError> {
+        if has_places(scene) {
+            return placed(scene);
+        }
         let (forces, links) = (Forces::of(scene), &scene.links);
         let one = Quantity::integer(1);
         // Distance of a link's children; none for a leaf.
@@ -175,6 +174,7 @@ impl Table {
             per_lever: per_lever(scene, &lever)?,
             motion,
             energy: energy.collect(),
+            hanging: None,
             root: scene.gravity.clone().divided_by(lever)?.negative(),
         })
     }
@@ -187,7 +187,12 @@ impl Table {
             .energy
             .iter()
             .flat_map(|row| Self::ENERGY.iter().zip(row));
-        let wrong = motion.chain(energy).find(|(_, value)| !fits(value));
+        let hanging = self.hanging.iter().flatten();
+        let hanging = hanging.flat_map(|row| HANGING.iter().zip(row));
+        let wrong = motion
+            .chain(energy)
+            .chain(hanging)
+            .find(|(_, value)| !fits(value));
         wrong
             .map(|(name, _)| *name)
             .or((!fits(&self.root)).then_some("gravity"))

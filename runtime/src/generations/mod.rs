@@ -34,6 +34,7 @@ mod evaluate;
 mod memory;
 mod name;
 mod part;
+mod places;
 mod plan;
 mod pool;
 mod prefetch;
@@ -58,6 +59,7 @@ pub use bodies::{Bodies, Hanging};
 #[doc(hidden)]
 pub use evaluate::Kernels;
 pub use name::LinkName;
+pub use places::{PlacedRecursion, PlacedTable};
 pub use recursion::{Motion, Recursion};
 pub use root::RootDrive;
 pub use table::{Table, rows};

@@ -7,7 +7,7 @@ use crate::scalar::Scalar;
 ///
 /// There the pivot's acceleration **a** acts on every link as gravity does, so
 /// that the root takes **a** + (0, g) from above instead of (0, g), and the
-/// torque τ is a part of the root's κ (`docs/physics.md`, sections 2 and 7).
+/// torque τ is a part of the root's κ (`docs/physics.md`, sections 7 and 10).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RootDrive<T> {
     /// What the acceleration of the pivot adds to what the root takes from above:

@@ -387,3 +387,6 @@ impl<T: Scalar, const C: usize, const R: usize, const K: usize> Level<'_, T, C, 
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod driven_tests;

@@ -50,7 +50,7 @@ pub struct Table<P, T, const C: usize, const R: usize, const K: usize> {
 }
 
 /// The links by their depth, those of one depth in their order.
-fn by_depth(parents: &[u32]) -> Vec<u32> {
+pub(super) fn by_depth(parents: &[u32]) -> Vec<u32> {
     let mut depths: Vec<usize> = Vec::with_capacity(parents.len());
     for &parent in parents {
         // The root comes first, and has none above.
@@ -190,10 +190,10 @@ struct Accelerations<'a, P, T, const C: usize, const R: usize, const K: usize> {
 }
 
 /// Sines and cosines.
-struct Turns<'a, T> {
-    theta: &'a [T],
-    sines: &'a mut [T],
-    cosines: &'a mut [T],
+pub(super) struct Turns<'a, T> {
+    pub(super) theta: &'a [T],
+    pub(super) sines: &'a mut [T],
+    pub(super) cosines: &'a mut [T],
 }
 
 impl<T: Scalar, V: Vector<T>> Step<V> for Turns<'_, T> {
@@ -207,28 +207,28 @@ impl<T: Scalar, V: Vector<T>> Step<V> for Turns<'_, T> {
 }
 
 /// What does not change on the way through the links.
-struct State<'a, T> {
-    parents: &'a [u32],
-    theta: &'a [T],
-    omega: &'a [T],
-    sines: &'a [T],
-    cosines: &'a [T],
+pub(super) struct State<'a, T> {
+    pub(super) parents: &'a [u32],
+    pub(super) theta: &'a [T],
+    pub(super) omega: &'a [T],
+    pub(super) sines: &'a [T],
+    pub(super) cosines: &'a [T],
 }
 
 impl<T: Scalar> State<'_, T> {
     #[inline(always)]
-    fn parent(&self, link: usize) -> usize {
+    pub(super) fn parent(&self, link: usize) -> usize {
         self.parents.get(link).map_or(0, |&parent| parent as usize)
     }
 
     /// Links stand depth first: a link's first child comes next.
     #[inline(always)]
-    fn is_leaf(&self, link: usize) -> bool {
+    pub(super) fn is_leaf(&self, link: usize) -> bool {
         link + 1 >= self.parents.len() || self.parent(link + 1) != link
     }
 
     #[inline(always)]
-    fn motion<V: Vector<T>>(&self, link: usize, joints: bool) -> Motion<V> {
+    pub(super) fn motion<V: Vector<T>>(&self, link: usize, joints: bool) -> Motion<V> {
         let (theta, omega) = (V::load(self.theta, link), V::load(self.omega, link));
         let (mut bend, mut bend_rate) = (theta, omega);
         if joints && link > 0 {
@@ -248,7 +248,7 @@ impl<T: Scalar> State<'_, T> {
 
 /// Loads `N` numbers of a link.
 #[inline(always)]
-fn load<T: Scalar, V: Vector<T>, const N: usize>(all: &[T], link: usize) -> [V; N] {
+pub(super) fn load<T: Scalar, V: Vector<T>, const N: usize>(all: &[T], link: usize) -> [V; N] {
     let own = all.get(link * N..link * N + N).unwrap_or_default();
     let mut values = [V::from_f64(0.0); N];
     for (i, value) in values.iter_mut().enumerate() {
@@ -259,7 +259,11 @@ fn load<T: Scalar, V: Vector<T>, const N: usize>(all: &[T], link: usize) -> [V; 
 
 /// Stores `N` numbers of a link.
 #[inline(always)]
-fn store<T: Scalar, V: Vector<T>, const N: usize>(values: [V; N], all: &mut [T], link: usize) {
+pub(super) fn store<T: Scalar, V: Vector<T>, const N: usize>(
+    values: [V; N],
+    all: &mut [T],
+    link: usize,
+) {
     let own = all.get_mut(link * N..link * N + N).unwrap_or_default();
     for (i, value) in values.into_iter().enumerate() {
         value.store(own, i);

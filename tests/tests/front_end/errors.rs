@@ -295,7 +295,7 @@ const CASES: &[(&str, &str)] = &[
     ),
     (
         "no_table",
-        "#[branched_pendulum(gravity = 1, code = loops, a: rod(mass = 1, length = 1) [
+        "#[branched_pendulum(gravity = 1, code = loops, emit(momenta), a: rod(mass = 1, length = 1) [
     b: rod(mass = 1, length = 1), c: rod(mass = 1, length = 1, at = 0.5)])] struct Pendulum;",
     ),
     (

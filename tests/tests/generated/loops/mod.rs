@@ -4,6 +4,7 @@
 
 mod driven;
 mod offsets;
+mod places;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum_codegen::scene::{Offset, Quantity, Scene};
