@@ -394,8 +394,9 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let loops = self.generations_type();
         let energies = self.energies_of(&self.energy_field("generations"));
-        let drive = self.loop_drive();
+        let (allow, drive) = (self.drive_lint(), self.loop_drive());
         quote! {
+            #allow
             impl<T: #runtime::Scalar> #name<T> {
                 /// Index of the link that one comes to from the root by these
                 /// copies, each counted from 0; the root's path is empty. None

@@ -230,11 +230,18 @@ impl Emission<'_> {
         }
     }
 
+    /// What functions of a drive need: all tokens stand where the attribute does,
+    /// see `emit`.
+    pub(super) fn drive_lint(&self) -> Option<TokenStream> {
+        let driven = self.mechanics.drive.is_some();
+        driven.then(|| quote!(#[allow(clippy::possible_missing_comma)]))
+    }
+
     /// The drive as a function of time, and where energies are asked for its power
     /// and that of friction.
     pub(super) fn loop_drive(&self) -> TokenStream {
-        let entries = self.program.entries.iter();
-        let Some(entry) = entries.filter(|e| e.purpose == Purpose::Drive).last() else {
+        let mut entries = self.program.entries.iter();
+        let Some(entry) = entries.find(|entry| entry.purpose == Purpose::Drive) else {
             return TokenStream::new();
         };
         let drive = self.function(entry);

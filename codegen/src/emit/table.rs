@@ -152,7 +152,7 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let links = self.links();
         let energies = self.energies_of(&self.energy_field("links"));
-        let drive = self.loop_drive();
+        let (allow, drive) = (self.drive_lint(), self.loop_drive());
         let accelerations = match self.mechanics.drive {
             Some(_) => self.driven_table_accelerations(),
             None => quote! {
@@ -168,6 +168,7 @@ impl Emission<'_> {
             },
         };
         quote! {
+            #allow
             impl<T: #runtime::Scalar> #name<T> {
                 #accelerations
 
