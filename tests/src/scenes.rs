@@ -5,6 +5,8 @@
 pub mod chain;
 #[path = "../fixtures/scenes/driven.rs"]
 pub mod driven;
+#[path = "../fixtures/scenes/driven_loops.rs"]
+pub mod driven_loops;
 #[path = "../fixtures/scenes/driven_series.rs"]
 pub mod driven_series;
 #[path = "../fixtures/scenes/free_series.rs"]

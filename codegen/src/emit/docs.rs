@@ -223,6 +223,9 @@ impl Emission<'_> {
             Purpose::AntiphaseDrivePower(n) => vec![
                 format!("Power Σ ∂H_d/∂p Q (in W) of the drive on H_d of `{}` at `time` (in s), by the inertial forces of the moving pivot; a torque on the root has none.", difference(n)),
             ],
+            Purpose::Drive => vec![
+                "The drive at `time` (in s): acceleration a_x, a_y (in m/s²) of the root's pivot, torque τ (in N m) on the root.".into(),
+            ],
             Purpose::DrivePower => vec![
                 "Power Σ Q_i ω_i (in W) of the drive on the whole tree at `time` (in s): dE/dt of E = K + U without friction.".into(),
             ],
@@ -234,7 +237,7 @@ impl Emission<'_> {
     }
 
     /// Formulas as a text block and, folded away, as LaTeX.
-    fn show(&self, formulas: &[Formula], lines: &mut Vec<String>) {
+    pub(super) fn show(&self, formulas: &[Formula], lines: &mut Vec<String>) {
         let texts: Vec<String> = formulas
             .iter()
             .map(|f| format!("{} = {}", f.left, self.text(&f.right)))

@@ -68,6 +68,7 @@ impl Emission<'_> {
                 None => Vec::new(),
             },
             Purpose::AntiphaseDrivePower(n) => self.power_formulas(&mechanics.transfers[n].drive),
+            Purpose::Drive => self.drive_formulas(),
             Purpose::DrivePower => match mechanics.drive.as_ref().and_then(|d| d.power.as_ref()) {
                 Some(power) => self.power_formulas(power),
                 None => Vec::new(),

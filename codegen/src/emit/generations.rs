@@ -42,7 +42,7 @@ impl Emission<'_> {
             true => "",
             false => " Energies can be asked for with `emit(energies)`.",
         };
-        doc_lines(&[
+        let mut lines = vec![
             String::new(),
             format!(
                 "A planar tree of {links} rigid links in {count} generations, {branching} under each link but the last ones. Angles are absolute, in radians from the downward vertical; SI units throughout."
@@ -53,7 +53,9 @@ impl Emission<'_> {
             format!(
                 "The code is loops over generations, O(links), in vectors of siblings, and on all cores where there are many. The first evaluation allocates room, later ones nothing.{energies}"
             ),
-        ])
+        ];
+        self.drive_lines(&mut lines);
+        doc_lines(&lines)
     }
 
     /// The numbers of constants, of a leaf's and an inner link's answers, and of
@@ -75,20 +77,23 @@ impl Emission<'_> {
     pub(super) fn generations_value(&self, constants: &Constants) -> TokenStream {
         let runtime = self.runtime();
         let [motion, motion_value] = self.constant_rows("motion", &constants.motion);
-        let [energy, energy_value] = match self.scene.requests.energies {
+        let [energy, energy_value] = match self.scene.requests.energies && !self.has_bodies() {
             true => self.constant_rows("energy", &constants.energy),
             false => [TokenStream::new(), quote!([])],
         };
         let root = self.scalar(&constants.root);
+        let (extra, fields) = self.loop_values(constants.per_lever.as_ref());
         quote! {
             #motion
             #energy
+            #extra
             Self {
                 generations: #runtime::generations::Generations::new(
                     #motion_value,
                     [T::from_f64(0.0), #root],
                     &#energy_value,
                 ),
+                #(#fields),*
             }
         }
     }
@@ -202,7 +207,8 @@ impl Emission<'_> {
             }
         });
         let node_answer = joints.then(|| quote!(, #in_joint));
-        let node_constants = read(&with(&["inertia", "moment"]));
+        let node_constants = read(&with(&["inertia", "moment", "lateral", "root_torque"]));
+        let (torque_column, root_torque) = (self.torque_column(), self.root_torque());
         let (stem_constants, inner_constants) = (
             read(&["rest", "square", "ratio"]),
             read(&["rest", "square", "ratio"]),
@@ -212,6 +218,9 @@ impl Emission<'_> {
             true => quote!(swing + (#torque) * inertia),
             false => quote!(swing),
         };
+        let unread = unread.filter(|_| !forces.lateral);
+        let (facing, faced, [lateral_b, lateral_f]) =
+            (self.facing(&columns), self.faced(), self.lateral_moment());
         let docs = doc_lines(&equations_docs(self.scene.table.is_some(), forces));
         // Of commas: all tokens stand where the attribute does, see `emit`.
         let allow =
@@ -223,6 +232,8 @@ impl Emission<'_> {
 
             #allow
             impl #name {
+                #facing
+
                 #[inline(always)]
                 fn node<V: #runtime::Scalar>(
                     constants: &[V; #constants],
@@ -232,11 +243,13 @@ impl Emission<'_> {
                     #torque_parameter
                 ) -> ([V; #answers], [V; #kept]) {
                     #node_constants
+                    #faced
                     let (sine, cosine) = (link.sine, link.cosine);
                     let pull_x = xx.mul_add(cosine, xy * sine);
                     let pull_y = xy.mul_add(cosine, yy * sine);
                     let b_x = moment.mul_add(cosine, pull_x);
                     let b_y = moment.mul_add(sine, pull_y);
+                    #lateral_b
                     let whole = sine.mul_add(pull_y, cosine.mul_add(pull_x, inertia));
                     let square = link.omega * link.omega;
                     let trace = xx + yy + moment;
@@ -244,6 +257,8 @@ impl Emission<'_> {
                     let f_y = (-square).mul_add((-trace).mul_add(cosine, pull_x), y);
                     let kappa = cosine.mul_add(f_x, sine * f_y);
                     #node_forces
+                    #root_torque
+                    #lateral_f
                     let inverse = V::from_f64(1.0) / whole;
                     let (g_x, g_y) = (b_x * inverse, b_y * inverse);
                     (
@@ -266,6 +281,7 @@ impl Emission<'_> {
                 const COPIES: &'static [usize] = &[#copies];
                 const NAMES: &'static [&'static str] = &[#names];
                 const JOINTS: bool = #joints;
+                #torque_column
 
                 #[inline(always)]
                 fn leaf<V: #runtime::Scalar>(
@@ -274,6 +290,7 @@ impl Emission<'_> {
                 ) -> [V; #leaf_answers] {
                     #leaf_read
                     #unread
+                    #faced
                     let square = link.omega * link.omega;
                     #push
                     [
@@ -318,6 +335,7 @@ impl Emission<'_> {
                     [x, y]: [V; 2],
                 ) -> (V, [V; 2]) {
                     #turn_constants
+                    #faced
                     let alpha = g_x.mul_add(x, g_y.mul_add(y, -turn));
                     let square = link.omega * link.omega;
                     let end_x = square.mul_add(link.sine, (-alpha).mul_add(link.cosine, x));
@@ -333,6 +351,7 @@ impl Emission<'_> {
                 ) -> V {
                     #leaf_read
                     #unread
+                    #faced
                     let swing = link.cosine.mul_add(x, link.sine * y);
                     #turned_leaf
                 }
@@ -345,11 +364,16 @@ impl Emission<'_> {
         if !self.scene.requests.energies {
             return TokenStream::new();
         }
+        let frame = match self.frame_note() {
+            "" => None,
+            note => Some(quote!(#[doc = #note])),
+        };
         quote! {
             /// Kinetic energy, J, for angles `theta` (rad) and angular
             /// velocities `omega` (rad/s): ½ m **V**² + ½ I ω² of all links,
             /// from the velocities **V** of their centres of mass. NaN for
             /// slices of another length than there are links. O(links).
+            #frame
             #[must_use]
             pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
                 self.#loops.kinetic_energy(theta, omega)
@@ -369,8 +393,10 @@ impl Emission<'_> {
     fn generation_functions(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let loops = self.generations_type();
-        let energies = self.energies_of(&quote!(generations));
+        let energies = self.energies_of(&self.energy_field("generations"));
+        let (allow, drive) = (self.drive_lint(), self.loop_drive());
         quote! {
+            #allow
             impl<T: #runtime::Scalar> #name<T> {
                 /// Index of the link that one comes to from the root by these
                 /// copies, each counted from 0; the root's path is empty. None
@@ -387,6 +413,7 @@ impl Emission<'_> {
                 }
 
                 #energies
+                #drive
             }
         }
     }
@@ -396,6 +423,7 @@ impl Emission<'_> {
         let links = Literal::usize_unsuffixed(generations.links);
         let loops = self.generations_type();
         let rescale = self.loop_rescale("generations");
+        let (time, body) = (self.time_name(), self.loop_accelerations("generations"));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
                 const LINKS: usize = #links;
@@ -409,12 +437,12 @@ impl Emission<'_> {
 
                 fn accelerations_into(
                     &self,
-                    _time: T,
+                    #time: T,
                     theta: &[T],
                     omega: &[T],
                     alpha: &mut [T],
                 ) {
-                    self.generations.accelerations_into(theta, omega, alpha);
+                    #body
                 }
             }
 
@@ -425,7 +453,7 @@ impl Emission<'_> {
     /// The energies of what the model's one field holds.
     pub(super) fn loop_energy(&self, field: &str) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let field = Ident::new(field, Span::call_site());
+        let field = self.energy_field(field);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
                 fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
@@ -442,7 +470,7 @@ impl Emission<'_> {
 
 /// The torque that acts on a link from outside of its subtree: friction and
 /// spring in its pivot, drag.
-fn torque(forces: Forces) -> TokenStream {
+pub(super) fn torque(forces: Forces) -> TokenStream {
     let joint = forces.in_joints().then(|| in_joint(forces));
     let drag = forces.drag.then(|| quote!(drag * link.omega));
     let parts = joint.into_iter().chain(drag);
@@ -450,7 +478,7 @@ fn torque(forces: Forces) -> TokenStream {
 }
 
 /// What a link's pivot does to its parent.
-fn in_joint(forces: Forces) -> TokenStream {
+pub(super) fn in_joint(forces: Forces) -> TokenStream {
     let friction = forces.friction.then(|| quote!(friction * link.bend_rate));
     let spring = forces.spring.then(|| quote!(spring * link.bend));
     let parts = friction.into_iter().chain(spring);
@@ -464,6 +492,16 @@ fn equations_docs(table: bool, forces: Forces) -> Vec<String> {
     };
     let torque = match forces.any() {
         true => " Q is the torque of friction, drag and springs.",
+        false => "",
+    };
+    let lateral = match forces.lateral {
+        true => {
+            " Offsets across the links: **v** and **u** are ℓ **v** − w **u** and ℓ **u** + w **v** of the children's pivot at (ℓ, w), of a leaf those of its centre of mass, in the link's unit of length; the first moment across that direction, `lateral`, adds −m q **u** to b and, after κ, −ω² m q **v** to f."
+        }
+        false => "",
+    };
+    let root = match forces.root_torque {
+        true => " The torque on the root is a constant of its own, zero for other links.",
         false => "",
     };
     // One string a paragraph: `doc_lines` wraps them.
@@ -487,7 +525,7 @@ fn equations_docs(table: bool, forces: Forces) -> Vec<String> {
         &format!(
             "Φ u is (Φ v − v tr Φ) turned by a right angle. Leaves have \
              Φ = m I/J + (m² d²/J) u uᵀ. What does not depend on the angles is in the \
-             constants.{torque}"
+             constants.{torque}{root}{lateral}"
         ),
     ]
     .map(str::to_owned)

@@ -10,10 +10,12 @@ mod function;
 mod gather;
 mod generations;
 mod late;
+mod loops;
 mod model;
 mod names;
 mod observables;
 mod parts;
+mod places;
 mod rescale;
 mod stub;
 mod table;
@@ -101,7 +103,10 @@ impl Emission<'_> {
     /// named ones behind them, in order.
     fn stored_constants(&self) -> Vec<ConstantId> {
         let mut stored = BTreeSet::new();
-        for entry in &self.program.entries {
+        // Of loops' programs the drive alone is code.
+        let entries = self.program.entries.iter();
+        let loops = self.scene.in_loops();
+        for entry in entries.filter(|entry| !loops || entry.purpose == Purpose::Drive) {
             for value in self.program.needed(&entry.outputs) {
                 if let Op::Constant(id) = self.program.definition(value).op {
                     stored.insert(id);
@@ -135,7 +140,9 @@ impl Emission<'_> {
         if let ConstantOp::Parameter(_) = definition.op {
             let others = |name: &str| {
                 let mut constants = setup.iter().filter(|(other, _)| *other != id);
-                name == "parameters" || constants.any(|(_, constant)| constant.name == name)
+                name == "parameters"
+                    || self.is_loop_field(name)
+                    || constants.any(|(_, constant)| constant.name == name)
             };
             while others(&name) {
                 name = format!("parameter_{name}");

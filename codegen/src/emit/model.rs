@@ -23,10 +23,10 @@ impl Emission<'_> {
         });
         let fields: Vec<TokenStream> = if self.scene.generations.is_some() {
             let loops = self.generations_type();
-            vec![quote!(generations: #loops)]
+            self.loop_fields(quote!(generations: #loops))
         } else if self.scene.table.is_some() {
             let table = self.table_type();
-            vec![quote!(links: #table)]
+            self.loop_fields(quote!(links: #table))
         } else {
             fields.collect()
         };
@@ -83,20 +83,25 @@ impl Emission<'_> {
         if let Some(table) = &self.scene.table {
             return self.table_value(table);
         }
-        let stored = self.stored_constants();
-        let mut known = BTreeMap::new();
-        let mut lines = Vec::new();
-        for &id in &stored {
-            let field = self.field(id);
-            let value = self.constant_value(id, &known);
-            lines.push(quote!(let #field = #value;));
-            known.insert(id, field);
-        }
-        let fields = stored.iter().map(|&id| self.field(id));
+        let (lines, fields) = self.constant_lines();
         quote! {
             #(#lines)*
             Self { #(#fields),* }
         }
+    }
+
+    /// `let` lines for all stored constants, and the names of their fields.
+    pub(super) fn constant_lines(&self) -> (Vec<TokenStream>, Vec<Ident>) {
+        let mut known = BTreeMap::new();
+        let (mut lines, mut fields) = (Vec::new(), Vec::new());
+        for id in self.stored_constants() {
+            let field = self.field(id);
+            let value = self.constant_value(id, &known);
+            lines.push(quote!(let #field = #value;));
+            fields.push(field.clone());
+            known.insert(id, field);
+        }
+        (lines, fields)
     }
 
     fn constant_value(&self, id: ConstantId, known: &BTreeMap<ConstantId, Ident>) -> TokenStream {

@@ -8,6 +8,10 @@ impl Emission<'_> {
     /// `impl Rescale`, by what the model's one field holds: generic functions, which
     /// cost a scene nothing that does not call them.
     pub(super) fn loop_rescale(&self, field: &str) -> TokenStream {
+        let placed = self.scene.table.as_ref().is_some_and(|table| table.hanging.is_some());
+        if self.scene.drive.is_some() || self.has_bodies() || placed {
+            return TokenStream::new();
+        }
         let (name, runtime) = (&self.item.ident, self.runtime());
         let field = Ident::new(field, Span::call_site());
         quote! {

@@ -10,9 +10,12 @@ use quote::quote;
 
 impl Emission<'_> {
     /// The equations and the functions of a model in a table.
-    pub(super) fn table(&self, _: &Table) -> TokenStream {
+    pub(super) fn table(&self, table: &Table) -> TokenStream {
         let none = TokenStream::new();
-        let equations = self.recursion(self.scene.links.len(), &none, &none);
+        let equations = match table.hanging {
+            Some(_) => self.placed_recursion(),
+            None => self.recursion(self.scene.links.len(), &none, &none),
+        };
         let functions = self.table_functions();
         let pendulum = self.table_pendulum();
         let energies = self.scene.requests.energies;
@@ -31,7 +34,7 @@ impl Emission<'_> {
             true => "",
             false => " Energies can be asked for with `emit(energies)`.",
         };
-        doc_lines(&[
+        let mut lines = vec![
             String::new(),
             format!(
                 "A planar tree of {count} rigid links. Angles are absolute, in radians from the downward vertical, in the order of `LINK_NAMES`; SI units throughout."
@@ -40,11 +43,17 @@ impl Emission<'_> {
             format!(
                 "The code is a loop over a table of links, O(links), of the equations that are shown where they stand. The first evaluation allocates room, later ones nothing.{energies}"
             ),
-        ])
+        ];
+        self.drive_lines(&mut lines);
+        doc_lines(&lines)
     }
 
     /// The type of the model's one field, `links`.
     pub(super) fn table_type(&self) -> TokenStream {
+        let placed = |table: &Table| table.hanging.is_some();
+        if self.scene.table.as_ref().is_some_and(placed) {
+            return self.placed_type();
+        }
         let (runtime, equations) = (self.runtime(), self.equations_name());
         let [constants, _, answers, kept] = self.recursion_sizes();
         quote!(#runtime::generations::Table<#equations, T, #constants, #answers, #kept>)
@@ -58,8 +67,21 @@ impl Emission<'_> {
             let parent = link.parent.map_or(0, |parent| parent.0);
             Literal::usize_unsuffixed(parent)
         });
+        let (extra, fields) = self.loop_values(table.per_lever.as_ref());
+        if let Some(hanging) = &table.hanging {
+            let [rows, value] = self.placed_value(table, hanging);
+            return quote! {
+                static PARENTS: [u32; #count] = [#(#parents),*];
+                #rows
+                #extra
+                Self {
+                    links: #value,
+                    #(#fields),*
+                }
+            };
+        }
         let [motion, motion_value] = self.constant_rows("motion", &table.motion);
-        let energies = self.scene.requests.energies;
+        let energies = self.scene.requests.energies && !self.has_bodies();
         let [energy, energy_value] = match energies {
             true => self.constant_rows("energy", &table.energy),
             false => [TokenStream::new(), quote!(#runtime::generations::rows(&[]))],
@@ -69,6 +91,7 @@ impl Emission<'_> {
             static PARENTS: [u32; #count] = [#(#parents),*];
             #motion
             #energy
+            #extra
             Self {
                 links: #runtime::generations::Table::new(
                     &PARENTS,
@@ -76,6 +99,7 @@ impl Emission<'_> {
                     [T::from_f64(0.0), #root],
                     #energy_value,
                 ),
+                #(#fields),*
             }
         }
     }
@@ -127,9 +151,11 @@ impl Emission<'_> {
     fn table_functions(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let links = self.links();
-        let energies = self.energies_of(&quote!(links));
-        quote! {
-            impl<T: #runtime::Scalar> #name<T> {
+        let energies = self.energies_of(&self.energy_field("links"));
+        let (allow, drive) = (self.drive_lint(), self.loop_drive());
+        let accelerations = match self.mechanics.drive {
+            Some(_) => self.driven_table_accelerations(),
+            None => quote! {
                 /// Angular accelerations (rad/s²) for angles `theta` (rad) and
                 /// angular velocities `omega` (rad/s), in fused arithmetic where
                 /// the machine has it. O(links).
@@ -139,8 +165,15 @@ impl Emission<'_> {
                     self.links.accelerations_into(theta, omega, &mut alpha);
                     alpha
                 }
+            },
+        };
+        quote! {
+            #allow
+            impl<T: #runtime::Scalar> #name<T> {
+                #accelerations
 
                 #energies
+                #drive
             }
         }
     }
@@ -149,6 +182,7 @@ impl Emission<'_> {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let names = self.scene.links.iter().map(|link| &link.name);
         let rescale = self.loop_rescale("links");
+        let (time, body) = (self.time_name(), self.loop_accelerations("links"));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
                 const LINKS: usize = #links;
@@ -156,12 +190,12 @@ impl Emission<'_> {
 
                 fn accelerations_into(
                     &self,
-                    _time: T,
+                    #time: T,
                     theta: &[T],
                     omega: &[T],
                     alpha: &mut [T],
                 ) {
-                    self.links.accelerations_into(theta, omega, alpha);
+                    #body
                 }
             }
 

@@ -4,7 +4,7 @@ use super::entries::EntryList;
 use super::lower::{Door, Lowering};
 use super::{Argument, Purpose, Shape, ValueId};
 use crate::mechanics::expression::SymbolId;
-use crate::mechanics::{Drive, Temporal};
+use crate::mechanics::{Drive, Mechanics, Temporal};
 
 impl Lowering<'_> {
     /// The value of a symbol that depends on time alone.
@@ -41,6 +41,27 @@ impl EntryList<'_, '_> {
         let time = self.lowering.mechanics.drive.as_ref();
         let time = time.map(|_| Argument::Time);
         time.into_iter().chain(arguments.iter().copied()).collect()
+    }
+
+    /// The drive as a function of time alone: acceleration of the root's pivot,
+    /// torque on the root. What is not given is zero.
+    pub(super) fn drive(&mut self, mechanics: &Mechanics, drive: &Drive) {
+        let mut door = Door::new(&mechanics.absolute, Argument::Theta, None, None);
+        let along = |axis: &str| {
+            let motion = drive.pivot.iter().find(|motion| motion.name == axis);
+            motion.and_then(|motion| motion.acceleration)
+        };
+        let outputs = [along("x"), along("y"), drive.torque].map(|symbol| match symbol {
+            Some(symbol) => self.lowering.temporal(&mut door, symbol),
+            None => self.lowering.builder.integer(0),
+        });
+        self.push(
+            "drive",
+            Purpose::Drive,
+            &[Argument::Time],
+            outputs.to_vec(),
+            Shape::Vector,
+        );
     }
 
     /// The powers of drive and friction, which balance the energy.

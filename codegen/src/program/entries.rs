@@ -31,6 +31,9 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> (Vec<Entry>
         list.budgets(scene, sectors, request);
     }
     list.observables(scene, mechanics);
+    if let (Some(drive), true) = (&mechanics.drive, scene.requests.drive) {
+        list.drive(mechanics, drive);
+    }
     if scene.requests.taylor {
         list.taylor(mechanics);
     }

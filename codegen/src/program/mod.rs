@@ -260,6 +260,8 @@ pub enum Purpose {
     TransferMatrix,
     /// Power of the drive on H_d.
     AntiphaseDrivePower(usize),
+    /// The drive itself: acceleration of the root's pivot, torque on the root.
+    Drive,
     /// Power of the drive on the whole tree.
     DrivePower,
     /// Power of friction and drag on the whole tree.

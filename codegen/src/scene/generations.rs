@@ -3,11 +3,13 @@
 use proc_macro2::Span;
 
 use super::bodies::Body;
+use super::body_rows::bodies_fit;
+use super::offsets::{self, add_offsets, is_lateral, unit};
 use super::requests::Resolved;
 use super::rule::Code;
 use super::template::{MAX_LINKS, Template, WholeRule};
 use super::values::message_for;
-use super::{Link, Quantity, Requests, Scene, Solve};
+use super::{Link, Offset, Quantity, Requests, Scene, Solve};
 use crate::exact::ExactError;
 use crate::report::{Message, Report};
 
@@ -44,7 +46,6 @@ pub(super) struct Loops {
 pub(super) struct Asked<'a> {
     pub(super) resolved: &'a Resolved,
     pub(super) observables: bool,
-    pub(super) drive: bool,
 }
 
 /// Decides how the code of a rule is written. Where it is loops, leaves one
@@ -116,7 +117,9 @@ pub(super) fn generations(loops: Loops, scene: &Scene, report: &mut Report) -> O
             return None;
         }
     };
-    if let Some(name) = constants.unrepresentable(&Forces::of(scene).columns()) {
+    let energies = (!bodies_fit(scene)).then_some("energy");
+    let columns = Forces::of(scene).columns();
+    if let Some(name) = constants.unrepresentable(&columns).or(energies) {
         let name = name.to_owned();
         report.error(span, Message::ConstantRange { name });
         return None;
@@ -139,7 +142,15 @@ fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
             let Body {
                 mass, inertia, com, ..
             } = &template.body;
-            let parts = [mass, inertia, &com.along, &template.pivot.along];
+            let pivot = &template.pivot;
+            let parts = [
+                mass,
+                inertia,
+                &com.along,
+                &com.lateral,
+                &pivot.along,
+                &pivot.lateral,
+            ];
             parts.into_iter().any(|value| value.exact().is_none())
         });
     if parameters {
@@ -160,6 +171,7 @@ pub(super) fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'st
         transfer,
         budget,
         taylor,
+        drive: _,
         solve,
     } = &asked.resolved.requests;
     // Loops are the recursion.
@@ -172,24 +184,18 @@ pub(super) fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'st
         (budget.is_some(), "`emit(budget)`"),
         (*taylor, "`emit(taylor)`"),
         (asked.observables, "`observe(…)`"),
-        (asked.drive, "`drive(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),
     ];
     // What brings others along comes last.
     let request = requests.into_iter().rev().find(|(wanted, _)| *wanted);
-    if let Some((_, what)) = request {
-        return Some(what);
-    }
-    let lateral = templates
-        .iter()
-        .any(|template| !template.body.com.lateral.is_zero() || !template.pivot.lateral.is_zero());
-    lateral.then_some("lateral offsets")
+    request.map(|(_, what)| what)
 }
 
 /// Their parent's lever is the unit of length.
-pub(super) fn at_parents_pivot(templates: &[Template]) -> Option<&'static str> {
-    let at_pivot = templates.iter().skip(1).any(|t| t.pivot.along.is_zero());
+fn at_parents_pivot(templates: &[Template]) -> Option<&'static str> {
+    let mut children = templates.iter().skip(1);
+    let at_pivot = children.any(|template| unit(&template.pivot).is_zero());
     at_pivot.then_some("children that hang from their parent's pivot")
 }
 
@@ -205,6 +211,8 @@ pub struct Constants {
     pub energy: Vec<[Quantity; 6]>,
     /// −g over the first lever: what the root's equations take from above.
     pub root: Quantity,
+    /// One over the first lever, where there is a drive.
+    pub per_lever: Option<Quantity>,
 }
 
 /// Which torques act on the links, in one generation at least.
@@ -216,6 +224,11 @@ pub struct Forces {
     pub drag: bool,
     /// Torsion springs in pivots.
     pub spring: bool,
+    /// A torque on the root, which has the last column: zero here, and stated anew
+    /// by every evaluation.
+    pub root_torque: bool,
+    /// No torque: whether offsets across the links have columns.
+    pub lateral: bool,
 }
 
 impl Forces {
@@ -228,6 +241,11 @@ impl Forces {
             friction: any(|link| &link.friction),
             drag: any(|link| &link.drag),
             spring: any(|link| &link.spring),
+            root_torque: scene
+                .drive
+                .as_ref()
+                .is_some_and(|drive| drive.torque.is_some()),
+            lateral: is_lateral(scene),
         }
     }
 
@@ -236,18 +254,34 @@ impl Forces {
         self.friction || self.spring
     }
 
-    /// Whether there are any.
+    /// Whether there are any but the torque on the root.
     pub fn any(self) -> bool {
         self.in_joints() || self.drag
+    }
+
+    /// The values of a link, in the order of the columns.
+    pub(super) fn values(self, link: &Link) -> impl Iterator<Item = Quantity> {
+        let values = [
+            (self.friction, value(&link.friction)),
+            (self.drag, value(&link.drag)),
+            (self.spring, value(&link.spring)),
+            (self.root_torque, Quantity::zero()),
+        ];
+        let there = values.into_iter().filter(|(there, _)| *there);
+        there.map(|(_, value)| value)
     }
 
     /// The names of the columns.
     pub fn columns(self) -> Vec<&'static str> {
         let mut columns = vec!["rest", "inertia", "moment", "square", "ratio", "reach"];
+        if self.lateral {
+            columns.extend(offsets::COLUMNS);
+        }
         let forces = [
             (self.friction, "friction"),
             (self.drag, "drag"),
             (self.spring, "spring"),
+            (self.root_torque, "root_torque"),
         ];
         columns.extend(
             forces
@@ -274,7 +308,7 @@ impl Constants {
         let mut below = Quantity::zero();
         for (generation, link) in links.iter().enumerate().rev() {
             let child = links.get(generation + 1);
-            let lever = child.map_or_else(Quantity::zero, |child| child.pivot.along.clone());
+            let lever = child.map_or_else(Quantity::zero, |child| unit(&child.pivot).clone());
             let about = Turning::of(link)?;
             let hanging = product([&copies, &below]);
             let first_moment = Quantity::sum([about.moment.clone(), product([&lever, &hanging])]);
@@ -289,19 +323,14 @@ impl Constants {
             let mut row = match child {
                 None => leaf(&about)?,
                 Some(child) => {
-                    let next = links.get(generation + 2).map(|next| &next.pivot.along);
+                    let next = links.get(generation + 2).map(|next| unit(&next.pivot));
                     inner(&about, &lever, &copies, &Turning::of(child)?, next)?
                 }
             };
-            for (there, force) in [
-                (forces.friction, &link.friction),
-                (forces.drag, &link.drag),
-                (forces.spring, &link.spring),
-            ] {
-                if there {
-                    row.push(value(force));
-                }
+            if forces.lateral {
+                add_offsets(&mut row, link, child.map(|child| &child.pivot))?;
             }
+            row.extend(forces.values(link));
             motion.push(row);
             below = Quantity::sum([about.mass, hanging]);
         }
@@ -309,10 +338,11 @@ impl Constants {
         energy.reverse();
         let lever = links
             .get(1)
-            .map_or_else(Quantity::zero, |link| link.pivot.along.clone());
+            .map_or_else(Quantity::zero, |link| unit(&link.pivot).clone());
         Ok(Self {
             motion,
             energy,
+            per_lever: per_lever(scene, &lever)?,
             root: scene.gravity.clone().divided_by(lever)?.negative(),
         })
     }
@@ -322,19 +352,27 @@ impl Constants {
         let fits = |quantity: &Quantity| quantity.exact().is_none_or(|n| n.to_f64().is_finite());
         let motion = self.motion.iter().flat_map(|row| columns.iter().zip(row));
         let wrong = motion.into_iter().find(|(_, value)| !fits(value));
-        let energy = self.energy.iter().flatten().all(fits) && fits(&self.root);
+        let energy = self.energy.iter().flatten().all(fits)
+            && fits(&self.root)
+            && self.per_lever.iter().all(fits);
         wrong
             .map(|(name, _)| *name)
             .or((!energy).then_some("energy"))
     }
 }
 
+/// One over the root's unit of length, where there is a drive.
+pub(super) fn per_lever(scene: &Scene, lever: &Quantity) -> Result<Option<Quantity>, ExactError> {
+    let reciprocal = || Quantity::integer(1).divided_by(lever.clone());
+    scene.drive.as_ref().map(|_| reciprocal()).transpose()
+}
+
 /// A link about its pivot.
 pub(super) struct Turning {
     pub(super) mass: Quantity,
-    /// m d.
+    /// m d, d in the unit of length of the centre of mass.
     pub(super) moment: Quantity,
-    /// I + m d².
+    /// I + m d² of both components.
     pub(super) inertia: Quantity,
     /// I.
     central: Quantity,
@@ -342,12 +380,15 @@ pub(super) struct Turning {
 
 impl Turning {
     pub(super) fn of(link: &Link) -> Result<Self, ExactError> {
-        let distance = &link.com.along;
-        let moment = product([&link.mass, distance]);
+        let Offset { along, lateral } = &link.com;
+        let mut inertia = vec![link.inertia.clone(), product([&link.mass, along, along])];
+        if !lateral.is_zero() {
+            inertia.push(product([&link.mass, lateral, lateral]));
+        }
         Ok(Self {
             mass: link.mass.clone(),
-            inertia: Quantity::sum([link.inertia.clone(), product([&moment, distance])]),
-            moment,
+            inertia: Quantity::sum(inertia),
+            moment: product([&link.mass, unit(&link.com)]),
             central: link.inertia.clone(),
         })
     }

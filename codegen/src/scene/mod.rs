@@ -13,12 +13,15 @@
 //! - what `requests` asks for can be derived for this tree.
 
 mod bodies;
+mod body_rows;
 mod drive;
 mod expand;
 mod generations;
 mod names;
 mod observable_text;
 mod observables;
+mod offsets;
+mod places;
 mod probe;
 mod properties;
 mod quantity;
@@ -32,11 +35,13 @@ mod template;
 mod text;
 mod values;
 
+pub use body_rows::{body_rows, has_bodies};
 pub use drive::{Drive, Signal, TimeFunction};
 pub use generations::{Constants, Forces, Generations};
 pub use observables::{
     Function, OBSERVABLE_SUFFIXES, Observable, Observed, Place, Variable, VariableKind,
 };
+pub use places::columns as placed_columns;
 pub use quantity::Quantity;
 pub use resolve::resolve;
 pub use table::Table;
@@ -115,7 +120,10 @@ impl Scene {
             return std::borrow::Cow::Borrowed(self);
         }
         let mut first = Self {
-            requests: Requests::default(),
+            requests: Requests {
+                drive: self.drive.is_some(),
+                ..Requests::default()
+            },
             generations: None,
             table: None,
             ..self.clone()
@@ -280,6 +288,9 @@ pub struct Requests {
     pub budget: Option<BudgetRequest>,
     /// Taylor coefficients of the motion.
     pub taylor: bool,
+    /// The drive by itself, as the code of driven trees in loops reads it; never
+    /// asked for by a description.
+    pub drive: bool,
 }
 
 /// Which forms of the sectors' budget are asked for; at least one. The forms

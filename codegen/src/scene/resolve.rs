@@ -39,7 +39,6 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     let asked = Asked {
         resolved: &resolved,
         observables: !description.observables.is_empty(),
-        drive: drive.is_some(),
     };
     let code = resolve_code(description.code.as_ref(), report);
     let loops = match whole {

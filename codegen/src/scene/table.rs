@@ -2,9 +2,12 @@
 
 use proc_macro2::Span;
 
+use super::body_rows::bodies_fit;
 use super::generations::{
-    Asked, Forces, Turning, at_parents_pivot, half, inner, leaf, product, unlooped, value,
+    Asked, Forces, Turning, half, inner, leaf, per_lever, product, unlooped, value,
 };
+use super::offsets::{add_offsets, unit};
+use super::places::{HANGING, columns, has_places, placed};
 use super::rule::Code;
 use super::template::Template;
 use super::values::message_for;
@@ -21,13 +24,21 @@ const MOST_UNROLLED: usize = 100;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// What the equations of each link read, in the order of
-    /// [`Forces::columns`]. `square`, `ratio` and `reach` are those of the link
+    /// [`Forces::columns`] or, where there is `hanging`, of
+    /// [`placed_columns`](super::placed_columns). `square`, `ratio` and `reach` are those of the link
     /// on its parent; zero for the root.
     pub motion: Vec<Vec<Quantity>>,
     /// What its energies read, in the order of [`Table::ENERGY`].
     pub energy: Vec<[Quantity; 7]>,
+    /// What each link is to its parent, where links carry children at several
+    /// places: factors `square`, `ratio` and `reach` as above, the isotropic part of
+    /// Φ, the place along and across the parent. Lengths are in metres then, and
+    /// energies those of bodies.
+    pub hanging: Option<Vec<[Quantity; 6]>>,
     /// −g over the root's lever: what the root's equations take from above.
     pub root: Quantity,
+    /// One over the root's lever, where there is a drive.
+    pub per_lever: Option<Quantity>,
 }
 
 /// Whether the code is to be a loop over a table. Where it cannot be and must,
@@ -45,26 +56,13 @@ pub(super) fn wanted(
         None if links > MOST_UNROLLED => None,
         None => return false,
     };
-    let obstacle = unlooped(templates, asked)
-        .or_else(|| at_parents_pivot(templates))
-        .or_else(|| several_pivots(templates));
+    let obstacle = unlooped(templates, asked);
     // What is unreadable may look like an obstacle.
     if let (Some(what), Some(span), true) = (obstacle, span, report.is_empty()) {
         let what = what.to_owned();
         report.error(span, Message::NoLoops { what });
     }
     obstacle.is_none()
-}
-
-/// The distance of its children is a link's unit of length.
-fn several_pivots(templates: &[Template]) -> Option<&'static str> {
-    let mut levers = vec![None; templates.len()];
-    let differ = templates.iter().any(|template| {
-        let lever = template.parent.and_then(|parent| levers.get_mut(parent));
-        let along = &template.pivot.along;
-        lever.is_some_and(|lever| *lever.get_or_insert(along) != along)
-    });
-    differ.then_some("children at several places of a link")
 }
 
 /// The constants of a scene; `None` after reporting what is wrong.
@@ -76,7 +74,13 @@ pub(super) fn table(scene: &Scene, report: &mut Report) -> Option<Table> {
             return None;
         }
     };
-    if let Some(name) = table.unrepresentable(&Forces::of(scene).columns()) {
+    let energies = (!bodies_fit(scene)).then_some("energy");
+    let forces = Forces::of(scene);
+    let columns = match table.hanging {
+        Some(_) => columns(forces),
+        None => forces.columns(),
+    };
+    if let Some(name) = table.unrepresentable(&columns).or(energies) {
         let name = name.to_owned();
         report.error(Span::call_site(), Message::ConstantRange { name });
         return None;
@@ -98,20 +102,22 @@ impl Table {
         "half_spring",
     ];
 
-    /// Of a scene all children of whose links hang at one distance other than
-    /// zero.
+    /// Of a scene.
     ///
     /// # Errors
     /// [`ExactError`] where a number gets too long, or a leaf has no inertia about
     /// its pivot.
     fn of(scene: &Scene) -> Result<Self, ExactError> {
+        if has_places(scene) {
+            return placed(scene);
+        }
         let (forces, links) = (Forces::of(scene), &scene.links);
         let one = Quantity::integer(1);
         // Distance of a link's children; none for a leaf.
         let mut levers = vec![None; links.len()];
         for link in links {
             if let Some(lever) = link.parent.and_then(|parent| levers.get_mut(parent.0)) {
-                *lever = Some(&link.pivot.along);
+                *lever = Some(&link.pivot);
             }
         }
         let bodies = links.iter().map(Turning::of);
@@ -123,7 +129,7 @@ impl Table {
                 Some(lever) => {
                     let mut row = vec![Quantity::zero(); 6];
                     row[1] = body.inertia.clone();
-                    row[2] = product([&body.moment, lever]);
+                    row[2] = product([&body.moment, unit(lever)]);
                     row
                 }
             });
@@ -137,10 +143,10 @@ impl Table {
             };
             let on = inner(
                 &bodies[parent.0],
-                &link.pivot.along,
+                unit(&link.pivot),
                 &one,
                 body,
-                levers[index],
+                levers[index].map(unit),
             )?;
             let [rest, _, _, factors @ ..] = on.as_slice() else {
                 continue;
@@ -148,27 +154,28 @@ impl Table {
             rests[parent.0].push(rest.clone());
             motion[index][3..].clone_from_slice(factors);
         }
-        for ((row, link), rest) in motion.iter_mut().zip(links).zip(rests) {
+        for (index, (row, rest)) in motion.iter_mut().zip(rests).enumerate() {
+            let link = &links[index];
             row[0] = Quantity::sum(rest);
-            let values = [
-                (forces.friction, &link.friction),
-                (forces.drag, &link.drag),
-                (forces.spring, &link.spring),
-            ];
-            let there = values.into_iter().filter(|(there, _)| *there);
-            row.extend(there.map(|(_, force)| value(force)));
+            if forces.lateral {
+                add_offsets(row, link, levers[index])?;
+            }
+            row.extend(forces.values(link));
         }
         let energy = links.iter().zip(&bodies);
         let energy = energy.map(|(link, body)| energy_row(scene, link, body));
-        let lever = levers.first().copied().flatten().cloned();
+        let lever = levers
+            .first()
+            .copied()
+            .flatten()
+            .map(|lever| unit(lever).clone());
+        let lever = lever.unwrap_or_else(Quantity::zero);
         Ok(Self {
+            per_lever: per_lever(scene, &lever)?,
             motion,
             energy: energy.collect(),
-            root: scene
-                .gravity
-                .clone()
-                .divided_by(lever.unwrap_or_else(Quantity::zero))?
-                .negative(),
+            hanging: None,
+            root: scene.gravity.clone().divided_by(lever)?.negative(),
         })
     }
 
@@ -180,10 +187,16 @@ impl Table {
             .energy
             .iter()
             .flat_map(|row| Self::ENERGY.iter().zip(row));
-        let wrong = motion.chain(energy).find(|(_, value)| !fits(value));
+        let hanging = self.hanging.iter().flatten();
+        let hanging = hanging.flat_map(|row| HANGING.iter().zip(row));
+        let wrong = motion
+            .chain(energy)
+            .chain(hanging)
+            .find(|(_, value)| !fits(value));
         wrong
             .map(|(name, _)| *name)
             .or((!fits(&self.root)).then_some("gravity"))
+            .or((!self.per_lever.iter().all(fits)).then_some("lever"))
     }
 }
 

@@ -166,6 +166,7 @@ impl Display for Requests {
             transfer,
             budget,
             taylor,
+            drive: _,
         } = self;
         write!(f, "accelerations")?;
         if let Some(solve) = solve {

@@ -7,6 +7,7 @@ use super::memory::{Extent, LINE, Sizes, line, take};
 use super::part::Part;
 use super::plan::{Plan, WIDTH};
 use super::recursion::Recursion;
+use super::root::RootDrive;
 use super::shared::Shared;
 use super::sweep::{self, Sweep};
 use super::tree::Tree;
@@ -93,6 +94,7 @@ fn lasting(plan: &Plan, part: &Extent, each: usize) -> usize {
 struct Evaluation<'a, T: 'static> {
     tree: &'a Tree<T>,
     kernels: &'a Kernels<T>,
+    drive: Option<RootDrive<T>>,
     theta: &'a [T],
     omega: &'a [T],
 }
@@ -112,6 +114,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             omega: self.omega,
             storage: extent.storage(lasting, passing),
             root: None,
+            torque: None,
             alpha,
         }
     }
@@ -129,8 +132,9 @@ impl<T: Scalar> Evaluation<'_, T> {
     /// answers are in memory.
     fn top(&self, memory: [&mut [T]; 2], alpha: Shared<'_, T>) {
         let mut sweep = self.sweep(self.tree.plan.top(), &self.tree.layout.top, memory, alpha);
+        sweep.torque = self.drive.map(|drive| drive.torque);
         self.up(&mut sweep);
-        sweep.root = Some(self.tree.root);
+        sweep.root = Some(RootDrive::above(self.tree.root, self.drive));
         (self.kernels.down)(&mut sweep);
     }
 
@@ -225,6 +229,7 @@ fn copy<T: Copy>(to: &mut [T], from: &[T]) {
 pub(super) fn accelerations<T: Scalar>(
     tree: &Tree<T>,
     kernels: &Kernels<T>,
+    drive: Option<RootDrive<T>>,
     theta: &[T],
     omega: &[T],
     alpha: &mut [T],
@@ -233,6 +238,7 @@ pub(super) fn accelerations<T: Scalar>(
     let evaluation = Evaluation {
         tree,
         kernels,
+        drive,
         theta,
         omega,
     };

@@ -27,16 +27,19 @@
 //! R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
 //! (articulated-body algorithm), in the plane; `docs/physics.md`, section 2.
 
+mod bodies;
 mod columns;
 mod energy;
 mod evaluate;
 mod memory;
 mod name;
 mod part;
+mod places;
 mod plan;
 mod pool;
 mod prefetch;
 mod recursion;
+mod root;
 mod shared;
 mod states;
 mod sweep;
@@ -53,10 +56,13 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::num::NonZeroUsize;
 
+pub use bodies::{Bodies, Hanging};
 #[doc(hidden)]
 pub use evaluate::Kernels;
 pub use name::LinkName;
+pub use places::{PlacedRecursion, PlacedTable};
 pub use recursion::{Motion, Recursion};
+pub use root::RootDrive;
 pub use table::{Table, rows};
 #[doc(hidden)]
 pub use tree::{Loops, Tree};
@@ -124,6 +130,18 @@ where
     pub fn accelerations_into(&self, theta: &[T], omega: &[T], alpha: &mut [T]) {
         let kernels = Kernels::of::<P, C, L, R, K>();
         (T::loops().accelerations_into)(&self.tree, &kernels, theta, omega, alpha);
+    }
+
+    /// The same for a driven tree, at a time of this drive.
+    pub fn driven_accelerations_into(
+        &self,
+        drive: RootDrive<T>,
+        theta: &[T],
+        omega: &[T],
+        alpha: &mut [T],
+    ) {
+        let kernels = Kernels::of::<P, C, L, R, K>();
+        (T::loops().driven_accelerations_into)(&self.tree, &kernels, drive, theta, omega, alpha);
     }
 
     /// Kinetic energy, J. NaN for slices of another length than there are links.

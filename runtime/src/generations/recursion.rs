@@ -46,6 +46,11 @@ pub trait Recursion<const C: usize, const L: usize, const R: usize, const K: usi
     /// Whether the functions read [`Motion::bend`] and [`Motion::bend_rate`].
     const JOINTS: bool;
 
+    /// Whether the last column of the constants is a torque on the root, which
+    /// every evaluation states anew ([`RootDrive`](super::RootDrive)); it is zero
+    /// for the other links.
+    const TORQUE: bool = false;
+
     /// What a leaf answers.
     fn leaf<V: Scalar>(constants: &[V; C], link: Motion<V>) -> [V; L];
 

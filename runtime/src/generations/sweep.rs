@@ -9,6 +9,7 @@ use super::columns::{Columns, Copies};
 use super::memory::Storage;
 use super::part::{Part, Place};
 use super::recursion::Recursion;
+use super::root::RootDrive;
 use super::shared::Shared;
 use super::vector::{SliceKernel, Vector, Vectors, each};
 use crate::scalar::Scalar;
@@ -27,6 +28,8 @@ pub(super) struct Sweep<'a, T> {
     pub(super) storage: Storage<'a, T>,
     /// Acceleration of the root's pivot, where the root is in the part.
     pub(super) root: Option<[T; 2]>,
+    /// Torque on the root, where the root is in the part.
+    pub(super) torque: Option<T>,
     pub(super) alpha: Shared<'a, T>,
 }
 
@@ -126,6 +129,8 @@ struct Typed<'a, P, T, const C: usize, const L: usize, const R: usize, const K: 
     answers: Columns<'a, T, R>,
     kept: Columns<'a, T, K>,
     root: Option<[T; 2]>,
+    /// The constants of a root with a torque on it.
+    root_row: Option<[T; C]>,
     alpha: Shared<'a, T>,
     recursion: PhantomData<P>,
 }
@@ -143,10 +148,16 @@ where
             constants,
             storage,
             root,
+            torque,
             alpha,
             ..
         } = sweep;
         let lead = storage.lead;
+        let constants: &[[T; C]] = constants.as_chunks().0;
+        let root_row = match (P::TORQUE, *torque, constants.first()) {
+            (true, Some(torque), Some(row)) => Some(RootDrive::row(torque, row)),
+            _ => None,
+        };
         let links = Links {
             turns: storage.turns.from(lead)?,
             bends: match P::JOINTS {
@@ -157,20 +168,30 @@ where
         };
         Some(Self {
             part: *part,
-            constants: constants.as_chunks().0,
+            constants,
             links,
             answers: Columns::new(storage.answers, storage.slots),
             kept: Columns::new(storage.kept, storage.slots),
             root: *root,
+            root_row,
             alpha: *alpha,
             recursion: PhantomData,
         })
     }
 
+    /// The constants of a generation.
+    #[inline(always)]
+    fn row(&self, generation: usize) -> Option<&[T; C]> {
+        match &self.root_row {
+            Some(row) if P::TORQUE && generation == 0 => Some(row),
+            _ => self.constants.get(generation),
+        }
+    }
+
     /// What neighbours are computed from.
     #[inline(always)]
     fn level<V: Vector<T>>(&self, stage: usize, run: usize) -> Option<Level<'a, T, C, R, K>> {
-        let constants = *self.constants.get(self.part.first + stage)?;
+        let constants = *self.row(self.part.first + stage)?;
         let (stage, below) = (
             self.part.stages.get(stage)?,
             self.part.stages.get(stage + 1)?,
@@ -259,7 +280,7 @@ where
                     sums[i] = sums[i] + answers[i].behind(copy * stage.count);
                 }
             }
-            let constants = splat(self.constants.get(part.first + generation)?);
+            let constants = splat(self.row(part.first + generation)?);
             let kept;
             (answers, kept) = P::inner(&constants, self.links.motion(stage.own)?, sums);
             self.kept.store(stage.slot, kept)?;
@@ -314,3 +335,6 @@ where
 
 #[cfg(test)]
 pub(super) mod tests;
+
+#[cfg(test)]
+mod driven_tests;

@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 
 use super::pool::Pool;
 use super::recursion::{Motion, Recursion};
+use super::root::RootDrive;
 use super::sweep::splat;
 use super::table_energy as energy;
 use super::vector::{SliceKernel, Step, Vector, Vectors, each};
@@ -51,7 +52,7 @@ pub struct Table<P, T, const C: usize, const R: usize, const K: usize> {
 }
 
 /// How many links are above each one.
-fn depths(parents: &[u32]) -> Vec<u32> {
+pub(super) fn depths(parents: &[u32]) -> Vec<u32> {
     let mut depths: Vec<u32> = Vec::with_capacity(parents.len());
     for &parent in parents {
         // The root comes first, and has none above.
@@ -61,7 +62,7 @@ fn depths(parents: &[u32]) -> Vec<u32> {
 }
 
 /// The links by their depth, those of one depth in their order.
-fn by_depth(depths: &[u32]) -> Vec<u32> {
+pub(super) fn by_depth(depths: &[u32]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..).take(depths.len()).collect();
     order.sort_by_key(|&link| depths.get(link as usize).copied());
     order
@@ -129,6 +130,21 @@ where
     /// Writes the angular accelerations, as
     /// [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into).
     pub fn accelerations_into(&self, theta: &[T], omega: &[T], alpha: &mut [T]) {
+        self.accelerate(None, theta, omega, alpha);
+    }
+
+    /// The same for a driven tree, at a time of this drive.
+    pub fn driven_accelerations_into(
+        &self,
+        drive: RootDrive<T>,
+        theta: &[T],
+        omega: &[T],
+        alpha: &mut [T],
+    ) {
+        self.accelerate(Some(drive), theta, omega, alpha);
+    }
+
+    fn accelerate(&self, drive: Option<RootDrive<T>>, theta: &[T], omega: &[T], alpha: &mut [T]) {
         let zero = T::from_f64(0.0);
         if [theta.len(), omega.len(), alpha.len()] != [P::LINKS; 3] {
             alpha.fill(T::from_f64(f64::NAN));
@@ -137,6 +153,7 @@ where
         self.pool.lend((2 + R + K) * P::LINKS, zero, |buffer| {
             T::over_slices(Accelerations {
                 table: self,
+                drive,
                 theta,
                 omega,
                 alpha,
@@ -174,6 +191,7 @@ where
 /// One evaluation.
 struct Accelerations<'a, P, T, const C: usize, const R: usize, const K: usize> {
     table: &'a Table<P, T, C, R, K>,
+    drive: Option<RootDrive<T>>,
     theta: &'a [T],
     omega: &'a [T],
     alpha: &'a mut [T],
@@ -181,10 +199,10 @@ struct Accelerations<'a, P, T, const C: usize, const R: usize, const K: usize> {
 }
 
 /// Sines and cosines.
-struct Turns<'a, T> {
-    theta: &'a [T],
-    sines: &'a mut [T],
-    cosines: &'a mut [T],
+pub(super) struct Turns<'a, T> {
+    pub(super) theta: &'a [T],
+    pub(super) sines: &'a mut [T],
+    pub(super) cosines: &'a mut [T],
 }
 
 impl<T: Scalar, V: Vector<T>> Step<V> for Turns<'_, T> {
@@ -198,28 +216,28 @@ impl<T: Scalar, V: Vector<T>> Step<V> for Turns<'_, T> {
 }
 
 /// What does not change on the way through the links.
-struct State<'a, T> {
-    parents: &'a [u32],
-    theta: &'a [T],
-    omega: &'a [T],
-    sines: &'a [T],
-    cosines: &'a [T],
+pub(super) struct State<'a, T> {
+    pub(super) parents: &'a [u32],
+    pub(super) theta: &'a [T],
+    pub(super) omega: &'a [T],
+    pub(super) sines: &'a [T],
+    pub(super) cosines: &'a [T],
 }
 
 impl<T: Scalar> State<'_, T> {
     #[inline(always)]
-    fn parent(&self, link: usize) -> usize {
+    pub(super) fn parent(&self, link: usize) -> usize {
         self.parents.get(link).map_or(0, |&parent| parent as usize)
     }
 
     /// Links stand depth first: a link's first child comes next.
     #[inline(always)]
-    fn is_leaf(&self, link: usize) -> bool {
+    pub(super) fn is_leaf(&self, link: usize) -> bool {
         link + 1 >= self.parents.len() || self.parent(link + 1) != link
     }
 
     #[inline(always)]
-    fn motion<V: Vector<T>>(&self, link: usize, joints: bool) -> Motion<V> {
+    pub(super) fn motion<V: Vector<T>>(&self, link: usize, joints: bool) -> Motion<V> {
         let (theta, omega) = (V::load(self.theta, link), V::load(self.omega, link));
         let (mut bend, mut bend_rate) = (theta, omega);
         if joints && link > 0 {
@@ -239,7 +257,7 @@ impl<T: Scalar> State<'_, T> {
 
 /// Loads `N` numbers of a link.
 #[inline(always)]
-fn load<T: Scalar, V: Vector<T>, const N: usize>(all: &[T], link: usize) -> [V; N] {
+pub(super) fn load<T: Scalar, V: Vector<T>, const N: usize>(all: &[T], link: usize) -> [V; N] {
     let own = all.get(link * N..link * N + N).unwrap_or_default();
     let mut values = [V::from_f64(0.0); N];
     for (i, value) in values.iter_mut().enumerate() {
@@ -250,7 +268,11 @@ fn load<T: Scalar, V: Vector<T>, const N: usize>(all: &[T], link: usize) -> [V; 
 
 /// Stores `N` numbers of a link.
 #[inline(always)]
-fn store<T: Scalar, V: Vector<T>, const N: usize>(values: [V; N], all: &mut [T], link: usize) {
+pub(super) fn store<T: Scalar, V: Vector<T>, const N: usize>(
+    values: [V; N],
+    all: &mut [T],
+    link: usize,
+) {
     let own = all.get_mut(link * N..link * N + N).unwrap_or_default();
     for (i, value) in values.into_iter().enumerate() {
         value.store(own, i);
@@ -286,8 +308,11 @@ where
             sines,
             cosines,
         };
-        up::<P, T, W::One, C, R, K>(self.table, &state, below, kept);
-        down::<P, T, W::One, C, R, K>(self.table, &state, below, kept, self.alpha);
+        let drive = self.drive;
+        let torque = drive.map(|drive| drive.torque);
+        up::<P, T, W::One, C, R, K>(self.table, torque, &state, below, kept);
+        let root = RootDrive::above(self.table.root, drive);
+        down::<P, T, W::One, C, R, K>(self.table, root, &state, below, kept, self.alpha);
     }
 }
 
@@ -296,6 +321,7 @@ where
 #[inline(always)]
 fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
     table: &Table<P, T, C, R, K>,
+    torque: Option<T>,
     state: &State<'_, T>,
     below: &mut [T],
     kept: &mut [T],
@@ -311,7 +337,11 @@ fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
         else {
             return;
         };
-        let constants = splat::<T, V, C>(constants);
+        let constants = match torque {
+            Some(torque) if P::TORQUE && link == 0 => RootDrive::row(torque, constants),
+            _ => *constants,
+        };
+        let constants = splat::<T, V, C>(&constants);
         let [square, ratio, _] = splat::<T, V, HANGING>(hanging);
         let motion = state.motion::<V>(link, P::JOINTS);
         let (mut answers, across, along);
@@ -346,6 +376,7 @@ fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
 #[inline(always)]
 fn down<P, T, V, const C: usize, const R: usize, const K: usize>(
     table: &Table<P, T, C, R, K>,
+    root: [T; 2],
     state: &State<'_, T>,
     ends: &mut [T],
     kept: &[T],
@@ -364,7 +395,7 @@ fn down<P, T, V, const C: usize, const R: usize, const K: usize>(
         let constants = splat::<T, V, C>(constants);
         let motion = state.motion::<V>(link, P::JOINTS);
         let pivot = if link == 0 {
-            splat::<T, V, 2>(&table.root)
+            splat::<T, V, 2>(&root)
         } else {
             let reach = V::splat(hanging[2]);
             let [x, y] = load::<T, V, 2>(ends, state.parent(link));

@@ -7,6 +7,7 @@ use super::evaluate::{Kernels, Layout, accelerations};
 use super::memory::Sizes;
 use super::plan::Plan;
 use super::pool::Pool;
+use super::root::RootDrive;
 use super::threads;
 use crate::scalar::Scalar;
 
@@ -99,7 +100,25 @@ fn accelerations_into<T: Scalar>(
         return;
     }
     tree.pool.lend(tree.room, T::from_f64(0.0), |buffer| {
-        accelerations(tree, kernels, theta, omega, alpha, buffer);
+        accelerations(tree, kernels, None, theta, omega, alpha, buffer);
+    });
+}
+
+/// The same under a drive.
+fn driven_accelerations_into<T: Scalar>(
+    tree: &Tree<T>,
+    kernels: &Kernels<T>,
+    drive: RootDrive<T>,
+    theta: &[T],
+    omega: &[T],
+    alpha: &mut [T],
+) {
+    if [theta.len(), omega.len(), alpha.len()] != [tree.plan.links(); 3] {
+        alpha.fill(T::from_f64(f64::NAN));
+        return;
+    }
+    tree.pool.lend(tree.room, T::from_f64(0.0), |buffer| {
+        accelerations(tree, kernels, Some(drive), theta, omega, alpha, buffer);
     });
 }
 
@@ -126,12 +145,16 @@ type Grow<T> = fn(&[usize], Sizes, Vec<T>, [T; 2], &[[T; 6]]) -> Tree<T>;
 /// Computes accelerations from angles and velocities.
 type Accelerate<T> = fn(&Tree<T>, &Kernels<T>, &[T], &[T], &mut [T]);
 
+/// The same under a drive.
+type AccelerateDriven<T> = fn(&Tree<T>, &Kernels<T>, RootDrive<T>, &[T], &[T], &mut [T]);
+
 /// What is done to a tree of any equations. For `f64` and `f32` these functions
 /// are compiled with this crate, once, and not with every model.
 #[derive(Debug)]
 pub struct Loops<T: 'static> {
     pub(super) tree: Grow<T>,
     pub(super) accelerations_into: Accelerate<T>,
+    pub(super) driven_accelerations_into: AccelerateDriven<T>,
     pub(super) kinetic_energy: fn(&Tree<T>, &[T], &[T]) -> T,
     pub(super) potential_energy: fn(&Tree<T>, &[T]) -> T,
 }
@@ -142,6 +165,7 @@ impl<T: Scalar> Loops<T> {
         Self {
             tree,
             accelerations_into,
+            driven_accelerations_into,
             kinetic_energy,
             potential_energy,
         }

@@ -360,6 +360,7 @@ fn large_rules_get_loops_unless_something_stands_against_it() {
     assert_eq!(links("count = 7, code = unrolled)"), None);
     assert_eq!(links("count = 7), emit(modes)"), None);
     assert_eq!(links("count = 7), emit(energies)"), Some(127));
-    assert_eq!(links("count = 7, com = (0.5, 0.1))"), None);
+    assert_eq!(links("count = 7, com = (0.5, 0.1))"), Some(127));
+    assert_eq!(links("count = 7), drive(y = sin(t))"), Some(127));
     assert_eq!(links("count = 20)"), Some((1 << 20) - 1));
 }

@@ -5,6 +5,7 @@ mod fused;
 mod generations;
 mod hygiene;
 mod loop_states;
+mod loops;
 mod machine_code;
 mod scalars;
 mod sectors;

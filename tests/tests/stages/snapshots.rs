@@ -164,6 +164,28 @@ fn driven() {
     );
 }
 
+/// The equations of a link with offsets, under the root of a driven tree.
+#[test]
+fn driven_loops() {
+    insta::assert_snapshot!(
+        "driven_loops_scene",
+        scene("driven_loops").scene.to_string()
+    );
+    functions(
+        "driven_loops",
+        &[
+            "facing",
+            "node",
+            "leaf",
+            "turn",
+            "turn_leaf",
+            "drive",
+            "drive_power",
+            "accelerations_into",
+        ],
+    );
+}
+
 /// Functions of budgets are too long to be read; their costs are not.
 #[test]
 fn nested() {

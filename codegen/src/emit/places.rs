@@ -1,0 +1,258 @@
+//! Tables of links that carry children at several places: the equations of one
+//! link, and what holds them.
+
+use super::Emission;
+use super::docs::doc_lines;
+use super::function::ident;
+use super::generations::{in_joint, torque};
+use crate::scene::{Forces, Quantity, Table, placed_columns};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+impl Emission<'_> {
+    /// The numbers of constants, of a link's answers, of what it is about its
+    /// parent's pivot, and of what is kept.
+    fn placed_sizes(&self) -> [Literal; 4] {
+        let forces = Forces::of(self.scene);
+        let torque = usize::from(forces.in_joints());
+        let constants = placed_columns(forces).len();
+        [constants, 5 + torque, 9 + torque, 3].map(Literal::usize_unsuffixed)
+    }
+
+    /// The type of the model's field `links`.
+    pub(super) fn placed_type(&self) -> TokenStream {
+        let (runtime, equations) = (self.runtime(), self.equations_name());
+        let sizes = self.placed_sizes();
+        quote!(#runtime::generations::PlacedTable<#equations, T, #(#sizes),*>)
+    }
+
+    /// The table's constants, and its value; its parents are `PARENTS`.
+    pub(super) fn placed_value(
+        &self,
+        table: &Table,
+        hanging: &[[Quantity; 6]],
+    ) -> [TokenStream; 2] {
+        let runtime = self.runtime();
+        let [motion, motion_value] = self.constant_rows("motion", &table.motion);
+        let [hanging, hanging_value] = self.constant_rows("hanging", hanging);
+        let root = self.scalar(&table.root);
+        [
+            quote!(#motion #hanging),
+            quote! {
+                #runtime::generations::PlacedTable::new(
+                    &PARENTS,
+                    #motion_value,
+                    #hanging_value,
+                    [T::from_f64(0.0), #root],
+                )
+            },
+        ]
+    }
+
+    /// The equations of one link.
+    pub(super) fn placed_recursion(&self) -> TokenStream {
+        let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
+        let forces = Forces::of(self.scene);
+        let columns = placed_columns(forces);
+        let sizes = self.placed_sizes();
+        let [constants, answers, sums, kept] = sizes.clone();
+        let links = Literal::usize_unsuffixed(self.scene.links.len());
+        let joints = forces.in_joints();
+        let read = |used: &[&str]| {
+            let used = used.iter().chain(&["friction", "drag", "spring"]);
+            let used: Vec<&str> = used.copied().collect();
+            let columns = columns.iter().map(|column| match used.contains(column) {
+                true => {
+                    let column = ident(column);
+                    quote!(#column)
+                }
+                false => quote!(_),
+            });
+            quote!(let [#(#columns),*] = *constants;)
+        };
+        let leaf_constants = match (forces.any(), forces.lateral) {
+            (true, _) => read(&["inertia"]),
+            (false, true) => TokenStream::new(),
+            (false, false) => quote!(let _ = constants;),
+        };
+        let inner_constants = read(&["inertia", "moment", "lateral", "root_torque"]);
+        let facing = self
+            .facing(&columns)
+            .map(|facing| quote!(impl #name { #facing }));
+        let faced = self.faced();
+        let [lateral_b, lateral_f] = self.lateral_moment();
+        let (torque_column, root_torque) = (self.torque_column(), self.root_torque());
+        let (torque, in_joint) = (torque(forces), in_joint(forces));
+        let (push, leaf_x, leaf_y, turned_leaf) = match forces.any() {
+            true => (
+                // Q / J
+                Some(quote!(let push = (#torque) * inertia;)),
+                quote!(square * link.sine - push * link.cosine),
+                quote!(square.mul_add(link.cosine, push * link.sine)),
+                quote!(swing + (#torque) * inertia),
+            ),
+            false => (
+                None,
+                quote!(square * link.sine),
+                quote!(square * link.cosine),
+                quote!(swing),
+            ),
+        };
+        let own_torque = joints.then(|| quote!(, #in_joint));
+        let below_torque = joints.then(|| quote!(, torque));
+        let inner_forces = forces.any().then(|| {
+            let from_below = joints.then(|| quote!(+ torque));
+            quote!(let kappa = kappa - (#torque #from_below);)
+        });
+        let docs = doc_lines(&docs(forces));
+        let allow =
+            quote!(#[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]);
+        quote! {
+            #docs
+            #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+            #vis struct #name;
+
+            #facing
+
+            #allow
+            impl #runtime::generations::PlacedRecursion<#(#sizes),*> for #name {
+                const LINKS: usize = #links;
+                const JOINTS: bool = #joints;
+                #torque_column
+
+                #[inline(always)]
+                fn leaf<V: #runtime::Scalar>(
+                    constants: &[V; #constants],
+                    link: #runtime::generations::Motion<V>,
+                ) -> [V; #answers] {
+                    #leaf_constants
+                    #faced
+                    let square = link.omega * link.omega;
+                    #push
+                    [
+                        link.sine * link.sine,
+                        link.cosine * link.sine,
+                        link.cosine * link.cosine,
+                        #leaf_x,
+                        #leaf_y
+                        #own_torque
+                    ]
+                }
+
+                #[inline(always)]
+                fn hang<V: #runtime::Scalar>(
+                    link: #runtime::generations::Motion<V>,
+                    [along, across]: [V; 2],
+                    [xx, xy, yy, x, y #below_torque]: [V; #answers],
+                ) -> [V; #sums] {
+                    let sine = along.mul_add(link.sine, across * link.cosine);
+                    let cosine = along.mul_add(link.cosine, -(across * link.sine));
+                    let pull_x = xx.mul_add(cosine, xy * sine);
+                    let pull_y = xy.mul_add(cosine, yy * sine);
+                    let whole = sine.mul_add(pull_y, cosine * pull_x);
+                    let square = link.omega * link.omega;
+                    let trace = xx + yy;
+                    let f_x = square.mul_add((-trace).mul_add(sine, pull_y), x);
+                    let f_y = (-square).mul_add((-trace).mul_add(cosine, pull_x), y);
+                    let kappa = cosine.mul_add(f_x, sine * f_y);
+                    [xx, xy, yy, pull_x, pull_y, whole, f_x, f_y, kappa #below_torque]
+                }
+
+                #[inline(always)]
+                fn inner<V: #runtime::Scalar>(
+                    constants: &[V; #constants],
+                    link: #runtime::generations::Motion<V>,
+                    below: [V; #sums],
+                ) -> ([V; #answers], [V; #kept]) {
+                    #inner_constants
+                    let [xx, xy, yy, pull_x, pull_y, whole, f_x, f_y, kappa #below_torque] = below;
+                    let (sine, cosine) = (link.sine, link.cosine);
+                    let b_x = moment.mul_add(cosine, pull_x);
+                    let b_y = moment.mul_add(sine, pull_y);
+                    #lateral_b
+                    let square = link.omega * link.omega;
+                    let swing = square * moment;
+                    let f_x = (-swing).mul_add(sine, f_x);
+                    let f_y = swing.mul_add(cosine, f_y);
+                    #lateral_f
+                    #inner_forces
+                    #root_torque
+                    let inverse = V::from_f64(1.0) / (inertia + whole);
+                    let (g_x, g_y) = (b_x * inverse, b_y * inverse);
+                    (
+                        [
+                            (-b_x).mul_add(g_x, xx),
+                            (-b_x).mul_add(g_y, xy),
+                            (-b_y).mul_add(g_y, yy),
+                            (-g_x).mul_add(kappa, f_x),
+                            (-g_y).mul_add(kappa, f_y)
+                            #own_torque
+                        ],
+                        [g_x, g_y, kappa * inverse],
+                    )
+                }
+
+                #[inline(always)]
+                fn turn<V: #runtime::Scalar>(
+                    link: #runtime::generations::Motion<V>,
+                    [g_x, g_y, turn]: [V; #kept],
+                    [x, y]: [V; 2],
+                ) -> (V, [V; 2]) {
+                    let alpha = g_x.mul_add(x, g_y.mul_add(y, -turn));
+                    let square = link.omega * link.omega;
+                    let turn_x = square.mul_add(link.sine, -(alpha * link.cosine));
+                    let turn_y = (-square).mul_add(link.cosine, -(alpha * link.sine));
+                    (alpha, [turn_x, turn_y])
+                }
+
+                #[inline(always)]
+                fn turn_leaf<V: #runtime::Scalar>(
+                    constants: &[V; #constants],
+                    link: #runtime::generations::Motion<V>,
+                    [x, y]: [V; 2],
+                ) -> V {
+                    #leaf_constants
+                    #faced
+                    let swing = link.cosine.mul_add(x, link.sine * y);
+                    #turned_leaf
+                }
+            }
+        }
+    }
+}
+
+fn docs(forces: Forces) -> Vec<String> {
+    let torque = match forces.any() {
+        true => " Q is the torque of friction, drag and springs.",
+        false => "",
+    };
+    let root = match forces.root_torque {
+        true => " The torque on the root is a constant of its own, zero for other links.",
+        false => "",
+    };
+    let lateral = match forces.lateral {
+        true => {
+            " A first moment m e across the link adds −m e u to b and −ω² m e v to the force. A leaf's **u** and **v** are those of its centre of mass, in its unit of length."
+        }
+        false => "",
+    };
+    [
+        "The equations of one link: articulated-body recursion in the plane (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7), for children at several places.",
+        "",
+        "A subtree answers an acceleration **a** of its pivot with a force Φ **a** + **β**. With **v** = (cos θ, sin θ), **u** = (sin θ, −cos θ), a child at ℓ along and w across the link, **v**_j = ℓ **v** − w **u** and **u**_j = ℓ **u** + w **v**:",
+        "",
+        "```text",
+        "q_j = β_j − ω² Φ_j u_j",
+        "b = m d v + Σ Φ_j v_j,   J = I + m d² + Σ v_j·Φ_j v_j",
+        "f = Σ q_j − ω² m d u,   κ = Σ v_j·q_j − Q,   g = b / J",
+        "Φ ← m + Σ Φ_j − b gᵀ,   β ← f − g κ",
+        "ω̇ = −g·a − κ / J,   a_j = a + ω̇ v_j − ω² u_j",
+        "```",
+        "",
+        &format!(
+            "Leaves have Φ = m I/J + (m² d²/J) u uᵀ. What does not depend on the angles is in the constants.{torque}{root}{lateral}"
+        ),
+    ]
+    .map(str::to_owned)
+    .to_vec()
+}

@@ -1,0 +1,145 @@
+//! Torques on the root and moving pivots.
+
+use branched_pendulum::prelude::*;
+use branched_pendulum::scalar::Double;
+use branched_pendulum_tests::random::Random;
+
+use super::{Powered, agree, array, balance, pair, powered};
+
+pair!(TurnedLoops, TurnedUnrolled, TURNED:
+    tree: generations(count = 5, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7),
+    drive(torque = 0.4 * cos(3 * t))
+);
+powered!(TurnedLoops, TurnedUnrolled);
+pair!(ShakenLoops, ShakenUnrolled, SHAKEN:
+    tree: generations(count = 4, branching = 3, mass = 0.2, com = 0.05, inertia = 1e-4,
+        joint = 0.2, mass_ratio = 0.4, length_ratio = 0.8, friction = 2e-4, drag = 1e-4,
+        spring = 3e-3),
+    drive(x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t))
+);
+powered!(ShakenLoops, ShakenUnrolled, braked);
+pair!(ShortLoops, ShortUnrolled, SHORT:
+    tree: generations(count = 2, branching = 5, shape = disc, mass = 0.3, length = 0.2,
+        radius = 0.05, friction = 1e-3),
+    drive(torque = 0.4 * cos(3 * t), x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t))
+);
+powered!(ShortLoops, ShortUnrolled, braked);
+pair!(ChainLoops, ChainUnrolled, CHAIN:
+    tree: generations(count = 9, branching = 1, shape = point, mass = 0.2, length = 0.1,
+        drag = 1e-4),
+    drive(torque = 0.4 * cos(3 * t), x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t))
+);
+powered!(ChainLoops, ChainUnrolled, braked);
+pair!(BushTable, BushUnrolled, BUSH:
+    trunk: rod(mass = 0.3, length = 0.4) [
+        twig: point(mass = 0.05, length = 0.2),
+        bough: rod(mass = 0.1, length = 0.3) [
+            stick: rod(mass = 0.03, length = 0.1) * 3,
+            leaf: disc(mass = 0.01, length = 0.05, radius = 0.02),
+        ],
+    ],
+    drive(torque = 0.4 * cos(3 * t), x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t))
+);
+powered!(BushTable, BushUnrolled);
+pair!(SprungTable, SprungUnrolled, SPRUNG:
+    trunk(mass = 0.2, com = -0.03, inertia = 1e-3, joint = -0.2, friction = 1e-4) [
+        arm: rod(mass = 0.1, length = 0.25, spring = 0.01) [
+            hand(mass = 0.04, com = 0.1, inertia = 0, drag = 2e-4),
+            fork: generations(count = 3, branching = 2, shape = rod, mass = 0.02, length = 0.1,
+                length_ratio = 0.8, friction = 1e-5),
+        ] * 2,
+        tail: point(mass = 0.03, length = 0.3, spring = 0.02),
+    ],
+    drive(x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t))
+);
+powered!(SprungTable, SprungUnrolled, braked);
+
+#[test]
+fn driven_loops_agree_with_code_written_out_and_with_the_oracle() {
+    let (loops, unrolled) = (TurnedLoops::<f64>::new(), TurnedUnrolled::<f64>::new());
+    agree(&loops, &unrolled, TURNED, [true, false]);
+    balance(&loops, &unrolled);
+    let (loops, unrolled) = (ShakenLoops::<f64>::new(), ShakenUnrolled::<f64>::new());
+    agree(&loops, &unrolled, SHAKEN, [false, true]);
+    balance(&loops, &unrolled);
+    let (loops, unrolled) = (ShortLoops::<f64>::new(), ShortUnrolled::<f64>::new());
+    agree(&loops, &unrolled, SHORT, [true, true]);
+    balance(&loops, &unrolled);
+    let (loops, unrolled) = (ChainLoops::<f64>::new(), ChainUnrolled::<f64>::new());
+    agree(&loops, &unrolled, CHAIN, [true, true]);
+    balance(&loops, &unrolled);
+}
+
+#[test]
+fn driven_tables_agree_with_code_written_out_and_with_the_oracle() {
+    let (table, unrolled) = (BushTable::<f64>::new(), BushUnrolled::<f64>::new());
+    agree(&table, &unrolled, BUSH, [true, true]);
+    balance(&table, &unrolled);
+    let (table, unrolled) = (SprungTable::<f64>::new(), SprungUnrolled::<f64>::new());
+    agree(&table, &unrolled, SPRUNG, [false, true]);
+    balance(&table, &unrolled);
+}
+
+/// 32,767 links, taken apart: the root is not in the parts.
+#[branched_pendulum(
+    gravity = g,
+    tree: generations(count = 15, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.9),
+    drive(torque = links * cos(bodies * t), x = 0.1 * sin(per_lever * t)),
+    emit(energies),
+)]
+struct Many;
+
+#[test]
+fn a_large_driven_tree_is_the_same_in_other_scalars_and_on_more_threads() {
+    let n = <Many as Pendulum<f64>>::LINKS;
+    assert_eq!(n, 32_767);
+    let mut model = Many::new(ManyParameters {
+        g: 9.8125,
+        links: 2.0,
+        bodies: 3.0,
+        per_lever: 7.0,
+    })
+    .unwrap();
+    let mut random = Random::new(3);
+    let (theta, omega) = (random.around_zero(n, 3.0), random.around_zero(n, 2.0));
+    let mut alpha = vec![f64::NAN; n];
+    model.accelerations_into(0.5, &theta, &omega, &mut alpha);
+    model.set_threads(std::num::NonZeroUsize::new(2).unwrap());
+    let mut threaded = vec![f64::NAN; n];
+    model.accelerations_into(0.5, &theta, &omega, &mut threaded);
+    assert!(alpha.iter().zip(&threaded).all(|(a, b)| a == b));
+
+    let exact = ManyParameters {
+        g: 9.8125,
+        links: 2.0,
+        bodies: 3.0,
+        per_lever: 7.0,
+    };
+    let wide = |numbers: &[f64]| -> Vec<Double> {
+        numbers.iter().copied().map(Double::from_f64).collect()
+    };
+    let mut doubles = vec![Double::from_f64(0.0); n];
+    Many::<Double>::from_parameters(ManyParameters {
+        g: Double::from_f64(exact.g),
+        links: Double::from_f64(exact.links),
+        bodies: Double::from_f64(exact.bodies),
+        per_lever: Double::from_f64(exact.per_lever),
+    })
+    .accelerations_into(
+        Double::from_f64(0.5),
+        &wide(&theta),
+        &wide(&omega),
+        &mut doubles,
+    );
+    let largest = alpha.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+    for (alpha, double) in alpha.iter().zip(&doubles) {
+        assert!((alpha - double.to_f64()).abs() < 1e-10 * largest);
+    }
+    // The drive reaches the root.
+    let mut later = vec![f64::NAN; n];
+    model.accelerations_into(0.75, &theta, &omega, &mut later);
+    assert!((later[0] - alpha[0]).abs() > 0.1);
+    assert_eq!(model.drive(0.0), [-0.0, 0.0, 2.0]);
+}
