@@ -76,13 +76,15 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
             return None;
         }
         let mut vectors = [V::from_f64(0.0); M];
-        for (i, vector) in vectors.iter_mut().enumerate() {
+        let mut i = 0;
+        while i < M {
             // SAFETY: in the slice there are `N` columns, `stride` apart, of which
             // each has `rows` numbers from `start` on; by `new`, and kept by `from`
             // and `window`. `has` has seen that `LANES` from `at` on are among them.
             // The slice is borrowed mutably for as long as the views live, which are
             // all in one thread, and no other reference is there now.
-            *vector = unsafe { V::read(self.start.add(i * self.stride + at)) };
+            vectors[i] = unsafe { V::read(self.start.add(i * self.stride + at)) };
+            i += 1;
         }
         Some(vectors)
     }
@@ -93,15 +95,17 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
     pub(super) fn store<V: Vector<T>, const M: usize>(
         self,
         at: usize,
-        vectors: [V; M],
+        vectors: &[V; M],
     ) -> Option<()> {
         const { assert!(M <= N, "there are not so many columns") };
         if !self.has::<V>(at) {
             return None;
         }
-        for (i, vector) in vectors.into_iter().enumerate() {
+        let mut i = 0;
+        while i < M {
             // SAFETY: as for `load`.
-            unsafe { vector.write(self.start.add(i * self.stride + at)) };
+            unsafe { vectors[i].write(self.start.add(i * self.stride + at)) };
+            i += 1;
         }
         Some(())
     }
@@ -186,22 +190,26 @@ impl<T: Copy, V: Vector<T>, const N: usize> AtCopies<'_, T, V, N> {
         const { assert!(M <= N, "there are not so many columns") };
         let start = self.next()?;
         let mut vectors = [V::from_f64(0.0); M];
-        for (i, vector) in vectors.iter_mut().enumerate() {
+        let mut i = 0;
+        while i < M {
             // SAFETY: as for `Columns::load`. `copies` has seen that all windows lie in
             // the columns, `at` that a vector from here on lies in a window.
-            *vector = unsafe { V::read(start.add(i * self.stride)) };
+            vectors[i] = unsafe { V::read(start.add(i * self.stride)) };
+            i += 1;
         }
         Some(vectors)
     }
 
     /// Writes the next one's first `M` columns.
     #[inline(always)]
-    pub(super) fn store<const M: usize>(&mut self, vectors: [V; M]) -> Option<()> {
+    pub(super) fn store<const M: usize>(&mut self, vectors: &[V; M]) -> Option<()> {
         const { assert!(M <= N, "there are not so many columns") };
         let start = self.next()?;
-        for (i, vector) in vectors.into_iter().enumerate() {
+        let mut i = 0;
+        while i < M {
             // SAFETY: likewise.
-            unsafe { vector.write(start.add(i * self.stride)) };
+            unsafe { vectors[i].write(start.add(i * self.stride)) };
+            i += 1;
         }
         Some(())
     }
