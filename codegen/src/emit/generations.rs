@@ -209,10 +209,7 @@ impl Emission<'_> {
         let node_answer = joints.then(|| quote!(, #in_joint));
         let node_constants = read(&with(&["inertia", "moment", "lateral", "root_torque"]));
         let (torque_column, root_torque) = (self.torque_column(), self.root_torque());
-        let (stem_constants, inner_constants) = (
-            read(&["rest", "square", "ratio"]),
-            read(&["rest", "square", "ratio"]),
-        );
+        let inner_constants = read(&["rest", "square", "ratio"]);
         let turn_constants = read(&["reach"]);
         let turned_leaf = match forces.any() {
             true => quote!(swing + (#torque) * inertia),
@@ -304,15 +301,10 @@ impl Emission<'_> {
                 }
 
                 #[inline(always)]
-                fn stem<V: #runtime::Scalar>(
-                    constants: &[V; #constants],
-                    link: #runtime::generations::Motion<V>,
-                    below: [V; #leaf_answers],
-                ) -> ([V; #answers], [V; #kept]) {
-                    #stem_constants
-                    let [xx, xy, yy, x, y #torque_argument] = below;
-                    let phi = [square.mul_add(xx, rest), -(square * xy), square.mul_add(yy, rest)];
-                    Self::node(constants, link, phi, [-(ratio * x), ratio * y] #torque_argument)
+                fn joined<V: #runtime::Scalar>(
+                    [xx, xy, yy, x, y #torque_argument]: [V; #leaf_answers],
+                ) -> [V; #answers] {
+                    [xx, -xy, yy, -x, y #torque_argument]
                 }
 
                 #[inline(always)]

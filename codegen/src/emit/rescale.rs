@@ -8,7 +8,11 @@ impl Emission<'_> {
     /// `impl Rescale`, by what the model's one field holds: generic functions, which
     /// cost a scene nothing that does not call them.
     pub(super) fn loop_rescale(&self, field: &str) -> TokenStream {
-        let placed = self.scene.table.as_ref().is_some_and(|table| table.hanging.is_some());
+        let placed = self
+            .scene
+            .table
+            .as_ref()
+            .is_some_and(|table| table.hanging.is_some());
         if self.scene.drive.is_some() || self.has_bodies() || placed {
             return TokenStream::new();
         }

@@ -58,8 +58,15 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
     /// several windows, one question is enough for all.
     #[inline(always)]
     pub(super) fn window(self, at: usize, rows: usize) -> Option<Self> {
-        let rest = self.from(at)?;
-        (rows <= rest.rows).then_some(Self { rows, ..rest })
+        if rows > self.rows || at > self.rows - rows {
+            return None;
+        }
+        Some(Self {
+            // SAFETY: `at` rows lie behind the start.
+            start: unsafe { self.start.add(at) },
+            rows,
+            ..self
+        })
     }
 
     #[inline(always)]
@@ -75,16 +82,12 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         if !self.has::<V>(at) {
             return None;
         }
-        let mut vectors = [V::from_f64(0.0); M];
-        for (i, vector) in vectors.iter_mut().enumerate() {
-            // SAFETY: in the slice there are `N` columns, `stride` apart, of which
-            // each has `rows` numbers from `start` on; by `new`, and kept by `from`
-            // and `window`. `has` has seen that `LANES` from `at` on are among them.
-            // The slice is borrowed mutably for as long as the views live, which are
-            // all in one thread, and no other reference is there now.
-            *vector = unsafe { V::read(self.start.add(i * self.stride + at)) };
-        }
-        Some(vectors)
+        // SAFETY: in the slice there are `N` columns, `stride` apart, of which each has
+        // `rows` numbers from `start` on; by `new`, and kept by `from` and `window`.
+        // `has` has seen that `LANES` from `at` on are among them. The slice is borrowed
+        // mutably for as long as the views live, which are all in one thread, and no
+        // other reference is there now.
+        Some(unsafe { read(self.start.add(at), self.stride) })
     }
 
     /// Writes the vectors at `at` of the first `M` columns; none where they would
@@ -93,17 +96,47 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
     pub(super) fn store<V: Vector<T>, const M: usize>(
         self,
         at: usize,
-        vectors: [V; M],
+        vectors: &[V; M],
     ) -> Option<()> {
         const { assert!(M <= N, "there are not so many columns") };
         if !self.has::<V>(at) {
             return None;
         }
-        for (i, vector) in vectors.into_iter().enumerate() {
-            // SAFETY: as for `load`.
-            unsafe { vector.write(self.start.add(i * self.stride + at)) };
-        }
+        // SAFETY: as for `load`.
+        unsafe { write(vectors, self.start.add(at), self.stride) };
         Some(())
+    }
+}
+
+/// The vectors at `start`, and so on, `stride` numbers apart.
+///
+/// # Safety
+/// They may be read there.
+// A plain loop: iterators are many lines to compile, with each model.
+#[inline(always)]
+unsafe fn read<T, V: Vector<T>, const M: usize>(start: *const T, stride: usize) -> [V; M] {
+    const { assert!(M > 0, "there is a first column") };
+    // SAFETY, for all: the caller's.
+    let mut vectors = [unsafe { V::read(start) }; M];
+    let mut i = 1;
+    while i < M {
+        vectors[i] = unsafe { V::read(start.add(i * stride)) };
+        i += 1;
+    }
+    vectors
+}
+
+/// Writes vectors to `start`, and so on, `stride` numbers apart.
+///
+/// # Safety
+/// They may be written there.
+#[inline(always)]
+unsafe fn write<T, V: Vector<T>, const M: usize>(vectors: &[V; M], start: *mut T, stride: usize) {
+    let mut i = 0;
+    while i < M {
+        // SAFETY: the caller's.
+        unsafe { vectors[i].write(start.add(i * stride)) };
+        i += 1;
     }
 }
 
@@ -118,9 +151,9 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         [copies, apart]: [usize; 2],
     ) -> Option<Copies<'a, T, N>> {
         let reach = copies.checked_sub(1)?.checked_mul(apart)?;
-        self.window(at, reach.checked_add(rows)?)?;
+        let all = self.window(at, reach.checked_add(rows)?)?;
         Some(Copies {
-            first: self.window(at, rows)?,
+            first: Self { rows, ..all },
             copies,
             apart,
         })
@@ -185,24 +218,18 @@ impl<T: Copy, V: Vector<T>, const N: usize> AtCopies<'_, T, V, N> {
     pub(super) fn load<const M: usize>(&mut self) -> Option<[V; M]> {
         const { assert!(M <= N, "there are not so many columns") };
         let start = self.next()?;
-        let mut vectors = [V::from_f64(0.0); M];
-        for (i, vector) in vectors.iter_mut().enumerate() {
-            // SAFETY: as for `Columns::load`. `copies` has seen that all windows lie in
-            // the columns, `at` that a vector from here on lies in a window.
-            *vector = unsafe { V::read(start.add(i * self.stride)) };
-        }
-        Some(vectors)
+        // SAFETY: as for `Columns::load`. `copies` has seen that all windows lie in the
+        // columns, `at` that a vector from here on lies in a window.
+        Some(unsafe { read(start, self.stride) })
     }
 
     /// Writes the next one's first `M` columns.
     #[inline(always)]
-    pub(super) fn store<const M: usize>(&mut self, vectors: [V; M]) -> Option<()> {
+    pub(super) fn store<const M: usize>(&mut self, vectors: &[V; M]) -> Option<()> {
         const { assert!(M <= N, "there are not so many columns") };
         let start = self.next()?;
-        for (i, vector) in vectors.into_iter().enumerate() {
-            // SAFETY: likewise.
-            unsafe { vector.write(start.add(i * self.stride)) };
-        }
+        // SAFETY: likewise.
+        unsafe { write(vectors, start, self.stride) };
         Some(())
     }
 }

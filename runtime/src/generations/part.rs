@@ -114,14 +114,19 @@ impl Part<'_> {
         last.map_or(0, |last| last.slot + last.count.next_multiple_of(SLOTS))
     }
 
-    /// The last generation with children that fits a vector, if this is the top of
-    /// the tree: those above it go from one to the next in registers.
+    /// How many of the first generations, with children, fit a vector each: of these
+    /// one goes to the next in registers.
     // A call costs 10 ns here: the wide registers have to be given up for it.
     #[inline(always)]
-    pub(super) fn crown(&self, lanes: usize) -> usize {
-        let inner = self.stages.iter().take(self.inner);
-        let narrow = inner.take_while(|stage| stage.count <= lanes).count();
-        narrow.saturating_sub(1)
+    pub(super) fn narrow(&self, lanes: usize) -> usize {
+        let mut narrow = 0;
+        while let Some(stage) = self.stages.get(narrow) {
+            if narrow == self.inner || stage.runs > 1 || stage.count > lanes {
+                break;
+            }
+            narrow += 1;
+        }
+        narrow
     }
 
     /// How far the links of the next part are, where this one is not the whole.

@@ -54,9 +54,15 @@ pub trait Recursion<const C: usize, const L: usize, const R: usize, const K: usi
     /// What a leaf answers.
     fn leaf<V: Scalar>(constants: &[V; C], link: Motion<V>) -> [V; L];
 
+    /// The sum of leaves' answers as one of other links' answers, for their parent.
+    fn joined<V: Scalar>(below: [V; L]) -> [V; R];
+
     /// What a link answers whose children are leaves, with the sum of their
     /// answers; and what is kept.
-    fn stem<V: Scalar>(constants: &[V; C], link: Motion<V>, below: [V; L]) -> ([V; R], [V; K]);
+    #[inline(always)]
+    fn stem<V: Scalar>(constants: &[V; C], link: Motion<V>, below: [V; L]) -> ([V; R], [V; K]) {
+        Self::inner(constants, link, Self::joined(below))
+    }
 
     /// What a link answers whose children are no leaves, likewise.
     fn inner<V: Scalar>(constants: &[V; C], link: Motion<V>, below: [V; R]) -> ([V; R], [V; K]);

@@ -11,11 +11,11 @@ use super::part::{Part, Place};
 use super::recursion::Recursion;
 use super::root::RootDrive;
 use super::shared::Shared;
-use super::vector::{SliceKernel, Vector, Vectors, each};
+use super::vector::{SliceKernel, Vector, Vectors};
 use crate::scalar::Scalar;
 pub(super) use level::splat;
 use level::{Leaves, Level, Links};
-use steps::{Inners, Stems, TurnInners, TurnStems};
+use steps::Children;
 
 /// A part with its state.
 #[derive(Debug)]
@@ -54,7 +54,7 @@ impl<T: Scalar> Sweep<'_, T> {
                         rate = rate - T::load(self.omega, parent);
                     }
                     let own = self.storage.lead + place.own + i;
-                    let _ = self.storage.bends.store(own, [bend, rate]);
+                    let _ = self.storage.bends.store(own, &[bend, rate]);
                 }
             }
         }
@@ -244,92 +244,93 @@ where
         })
     }
 
-    /// From the last generation to the first.
+    /// Whether the children of a generation are leaves of this part.
+    #[inline(always)]
+    fn above_leaves(&self, stage: usize) -> bool {
+        self.part.has_leaves && stage + 1 == self.part.inner
+    }
+
+    /// Where the children of neighbours are.
+    #[inline(always)]
+    fn children<V: Vector<T>>(
+        &self,
+        stage: usize,
+        narrow: usize,
+        level: &Level<'a, T, C, R, K>,
+    ) -> Option<Children<'a, T, C, R>> {
+        Some(if self.above_leaves(stage) {
+            Children::Leaves(self.leaves(level)?)
+        } else if V::LANES > 1 && stage + 1 < narrow {
+            Children::Registers
+        } else {
+            Children::Memory(self.below(level)?)
+        })
+    }
+
+    /// From the last generation to the first. The equations stand once in here, for
+    /// all kinds of links: every copy of them is compiled with each model, three
+    /// times.
     #[inline(always)]
     fn up<V: Vector<T>>(&self) -> Option<()> {
-        let crown = self.part.crown(V::LANES);
-        for stage in (crown..self.part.inner).rev() {
-            for run in 0..self.part.stages.get(stage)?.runs {
+        let narrow = self.part.narrow(V::LANES);
+        let mut answers = [V::from_f64(0.0); R];
+        let mut stage = self.part.inner;
+        while stage > 0 {
+            stage -= 1;
+            let mut run = 0;
+            while run < self.part.stages.get(stage)?.runs {
                 let level = self.level::<V>(stage, run)?;
-                let length = level.length;
-                if self.part.has_leaves && stage + 1 == self.part.inner {
-                    let leaves = self.leaves(&level)?;
-                    let mut step = Stems::<P, T, C, L, R, K>(level, leaves, PhantomData);
-                    each::<T, V>(length, &mut step)?;
-                } else {
-                    let below = self.below(&level)?;
-                    let mut step = Inners::<P, T, C, L, R, K>(level, below, PhantomData);
-                    each::<T, V>(length, &mut step)?;
+                let children = self.children::<V>(stage, narrow, &level)?;
+                let constants = splat(&level.constants);
+                let mut index = 0;
+                while index < level.length {
+                    let at = index.min(level.last::<V>());
+                    let below = children.answers::<V, P, L, K>(at, &level, &answers)?;
+                    let kept;
+                    (answers, kept) = P::inner(&constants, level.own.motion(at)?, below);
+                    level.answers.store(at, &answers)?;
+                    level.kept.store(at, &kept)?;
+                    index += V::LANES;
                 }
-            }
-        }
-        self.crown_up::<V>(crown)
-    }
-
-    /// The generations above `crown`.
-    #[inline(always)]
-    fn crown_up<V: Vector<T>>(&self, crown: usize) -> Option<()> {
-        let part = self.part;
-        let mut below = part.stages.get(crown)?;
-        let mut answers: [V; R] = self.answers.load(below.slot)?;
-        for generation in (0..crown).rev() {
-            let stage = part.stages.get(generation)?;
-            let mut sums = answers;
-            for copy in 1..below.copies {
-                for i in 0..R {
-                    sums[i] = sums[i] + answers[i].behind(copy * stage.count);
-                }
-            }
-            let constants = splat(self.row(part.first + generation)?);
-            let kept;
-            (answers, kept) = P::inner(&constants, self.links.motion(stage.own)?, sums);
-            self.kept.store(stage.slot, kept)?;
-            below = stage;
-        }
-        self.answers.store(below.slot, answers)
-    }
-
-    /// From the first generation, the acceleration of whose pivots is in memory, to
-    /// the last.
-    #[inline(always)]
-    fn down<V: Vector<T>>(&mut self) -> Option<()> {
-        let crown = self.part.crown(V::LANES);
-        self.crown_down::<V>(crown)?;
-        for stage in crown..self.part.inner {
-            for run in 0..self.part.stages.get(stage)?.runs {
-                let level = self.level::<V>(stage, run)?;
-                let length = level.length;
-                if self.part.has_leaves && stage + 1 == self.part.inner {
-                    let leaves = self.leaves(&level)?;
-                    let mut step = TurnStems::<P, T, C, L, R, K>(level, leaves, PhantomData);
-                    each::<T, V>(length, &mut step)?;
-                } else {
-                    let below = self.below(&level)?;
-                    let mut step = TurnInners::<P, T, C, L, R, K>(level, below, PhantomData);
-                    each::<T, V>(length, &mut step)?;
-                }
+                run += 1;
             }
         }
         Some(())
     }
 
+    /// From the first generation to the last. The acceleration of the first one's
+    /// pivots is the root's or in memory.
     #[inline(always)]
-    fn crown_down<V: Vector<T>>(&mut self, crown: usize) -> Option<()> {
-        let part = self.part;
-        let mut pivot = match &self.root {
-            Some(root) => splat::<T, V, 2>(root),
-            None => self.answers.load(part.stages.first()?.slot)?,
-        };
-        for generation in 0..crown {
-            let stage = part.stages.get(generation)?;
-            let constants = splat(self.constants.get(part.first + generation)?);
-            let kept: [V; K] = self.kept.load(stage.slot)?;
-            let link = self.links.motion(stage.own)?;
-            let (acceleration, [x, y]) = P::turn(&constants, link, kept, pivot);
-            self.alpha.store(stage.whole, acceleration, stage.count);
-            pivot = [x.repeat(stage.count), y.repeat(stage.count)];
+    fn down<V: Vector<T>>(&mut self) -> Option<()> {
+        let narrow = self.part.narrow(V::LANES);
+        // Of the generation at hand, where it is in registers.
+        let mut pivot = splat::<T, V, 2>(&self.root.unwrap_or([T::from_f64(0.0); 2]));
+        let mut in_registers = self.root.is_some();
+        let mut stage = 0;
+        while stage < self.part.inner {
+            let mut run = 0;
+            while run < self.part.stages.get(stage)?.runs {
+                let level = self.level::<V>(stage, run)?;
+                let children = self.children::<V>(stage, narrow, &level)?;
+                let constants = splat(&level.constants);
+                let mut index = 0;
+                while index < level.length {
+                    let at = index.min(level.last::<V>());
+                    if !in_registers {
+                        pivot = level.answers.load(at)?;
+                    }
+                    let (link, kept) = (level.own.motion(at)?, level.kept.load(at)?);
+                    let (acceleration, below) = P::turn(&constants, link, kept, pivot);
+                    level.alpha.store(at, acceleration, level.length);
+                    children.turn::<V, P, L, K>(at, &level, below, &mut pivot)?;
+                    index += V::LANES;
+                }
+                in_registers = matches!(children, Children::Registers);
+                run += 1;
+            }
+            stage += 1;
         }
-        self.answers.store(part.stages.get(crown)?.slot, pivot)
+        Some(())
     }
 }
 

@@ -58,7 +58,7 @@ impl<T: Scalar> Span<'_, T> {
             let (sines, cosines) = V::sin_cos_each(&angles);
             for i in 0..2 {
                 let velocity = V::load(self.omega, places[i]);
-                turns.store(places[i], [sines[i], cosines[i], velocity])?;
+                turns.store(places[i], &[sines[i], cosines[i], velocity])?;
                 if let Some(ahead) = self.ahead {
                     prefetch(self.theta, places[i] + ahead);
                     prefetch(self.omega, places[i] + ahead);

@@ -5,11 +5,12 @@
 use super::super::evaluate::Kernels;
 use super::super::vectors::run_in;
 use super::super::{Generations, RootDrive};
-use super::{Down, Sweep, Typed, Up};
+use super::{Down, Sweep, Up};
 use crate::generations::{Motion, Recursion};
 use crate::scalar::register::Fused;
 use crate::scalar::{InstructionSet, Lane, Real, Scalar};
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 
 const SHAPES: [&[usize]; 4] = [
     &[1, 2],
@@ -79,19 +80,8 @@ impl<const NUMBER: usize> Recursion<7, 5, 5, 3> for Turned<NUMBER> {
         ]
     }
 
-    fn stem<V: Scalar>(
-        constants: &[V; 7],
-        link: Motion<V>,
-        [xx, xy, yy, x, y]: [V; 5],
-    ) -> ([V; 5], [V; 3]) {
-        let &[rest, _, _, square, ratio, ..] = constants;
-        let (xx, yy) = (square.mul_add(xx, rest), square.mul_add(yy, rest));
-        node(
-            constants,
-            link,
-            [xx, -(square * xy), yy],
-            [-(ratio * x), ratio * y],
-        )
+    fn joined<V: Scalar>([xx, xy, yy, x, y]: [V; 5]) -> [V; 5] {
+        [xx, -xy, yy, -x, y]
     }
 
     fn inner<V: Scalar>(
@@ -163,13 +153,13 @@ fn evaluated<T: Scalar, const NUMBER: usize>(torque: f64, kernels: Option<Kernel
 
 /// Equations in the vectors of one instruction set, by its number.
 fn up_in<T: Lane, const SET: usize, const NUMBER: usize>(sweep: &mut Sweep<'_, T>) {
-    let typed = Typed::<Turned<NUMBER>, T, 7, 5, 5, 3>::of(sweep).unwrap();
-    run_in(InstructionSet::ALL[SET], Up(typed));
+    let kernel = Up::<Turned<NUMBER>, T, 7, 5, 5, 3>(sweep, PhantomData);
+    run_in(InstructionSet::ALL[SET], kernel);
 }
 
 fn down_in<T: Lane, const SET: usize, const NUMBER: usize>(sweep: &mut Sweep<'_, T>) {
-    let typed = Typed::<Turned<NUMBER>, T, 7, 5, 5, 3>::of(sweep).unwrap();
-    run_in(InstructionSet::ALL[SET], Down(typed));
+    let kernel = Down::<Turned<NUMBER>, T, 7, 5, 5, 3>(sweep, PhantomData);
+    run_in(InstructionSet::ALL[SET], kernel);
 }
 
 fn kernels<T: Lane, const SET: usize, const NUMBER: usize>() -> Kernels<T> {

@@ -7,24 +7,28 @@ use crate::generations::shared::{Copies as SharedCopies, Shared};
 use crate::generations::vector::Vector;
 use crate::scalar::Scalar;
 
-// Loops: `map` and `from_fn` are not always inlined, and must be.
+// `map`, `from_fn` and iterators are not always inlined, must be, and are many lines
+// to compile.
 #[inline(always)]
 pub(in crate::generations) fn splat<T: Copy, V: Vector<T>, const N: usize>(
     numbers: &[T; N],
 ) -> [V; N] {
     let mut values = [V::from_f64(0.0); N];
-    for i in 0..N {
+    let mut i = 0;
+    while i < N {
         values[i] = V::splat(numbers[i]);
+        i += 1;
     }
     values
 }
 
 #[inline(always)]
-pub(super) fn sum<V: Scalar, const N: usize>(mut a: [V; N], b: [V; N]) -> [V; N] {
-    for i in 0..N {
-        a[i] = a[i] + b[i];
+pub(super) fn add<V: Scalar, const N: usize>(sums: &mut [V; N], terms: &[V; N]) {
+    let mut i = 0;
+    while i < N {
+        sums[i] = sums[i] + terms[i];
+        i += 1;
     }
-    a
 }
 
 /// What is known of links before the recursion.
@@ -91,6 +95,17 @@ pub(super) struct Level<'a, T, const C: usize, const R: usize, const K: usize> {
     /// arrays and in the whole tree's.
     pub(super) copies: [usize; 2],
     pub(super) whole_copies: [usize; 2],
+}
+
+impl<T: Scalar, const C: usize, const R: usize, const K: usize> Level<'_, T, C, R, K> {
+    /// The last place of a vector: it overlaps the one before where vectors do not
+    /// divide the neighbours. Fewer than a vector holds are one step, whose other
+    /// lanes mean nothing.
+    // From the rows, as windows ask: the compiler then sees that they need not.
+    #[inline(always)]
+    pub(super) fn last<V: Vector<T>>(&self) -> usize {
+        self.rows - V::LANES.min(self.rows)
+    }
 }
 
 /// The leaves below neighbours.

@@ -1,141 +1,100 @@
-//! What is done with the links of one generation, a vector at a time.
+//! What neighbours take from their children and give to them, a vector at a time.
 
-use core::marker::PhantomData;
-
-use super::level::{Leaves, Level, splat, sum};
+use super::level::{Leaves, Level, add, splat};
 use crate::generations::columns::Copies;
 use crate::generations::recursion::Recursion;
-use crate::generations::vector::{Step, Vector};
+use crate::generations::vector::Vector;
 use crate::scalar::Scalar;
 
-/// Links above leaves, and these, on the way up.
-pub(super) struct Stems<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
-    pub(super) Level<'a, T, C, R, K>,
-    pub(super) Leaves<'a, T, C>,
-    pub(super) PhantomData<P>,
-);
-
-impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for Stems<'_, P, T, C, L, R, K>
-where
-    P: Recursion<C, L, R, K>,
-    T: Scalar,
-    V: Vector<T>,
-{
-    #[inline(always)]
-    fn at(&mut self, index: usize) -> Option<()> {
-        let Self(level, leaves, _) = self;
-        let constants = splat::<T, V, C>(&leaves.constants);
-        let mut copies = leaves.at(index)?;
-        let mut below = P::leaf(&constants, copies.next()?);
-        while let Some(link) = copies.next() {
-            below = sum(below, P::leaf(&constants, link));
-        }
-        let constants = splat(&level.constants);
-        let (answers, kept) = P::stem(&constants, level.own.motion(index)?, below);
-        level.answers.store(index, answers)?;
-        level.kept.store(index, kept)
-    }
+/// Where the children of neighbours are.
+pub(super) enum Children<'a, T, const C: usize, const R: usize> {
+    /// They are leaves.
+    Leaves(Leaves<'a, T, C>),
+    /// All of them are lanes of one vector, which is at hand.
+    Registers,
+    /// Their answers are in memory, and the accelerations of their pivots.
+    Memory(Copies<'a, T, R>),
 }
 
-/// Links above inner links, on the way up.
-pub(super) struct Inners<'a, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
-    pub(super) Level<'a, T, C, R, K>,
-    pub(super) Copies<'a, T, R>,
-    pub(super) PhantomData<P>,
-);
-
-impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for Inners<'_, P, T, C, L, R, K>
-where
-    P: Recursion<C, L, R, K>,
-    T: Scalar,
-    V: Vector<T>,
-{
+impl<T: Scalar, const C: usize, const R: usize> Children<'_, T, C, R> {
+    /// The sum of their answers. `answers` are those in registers.
     #[inline(always)]
-    fn at(&mut self, index: usize) -> Option<()> {
-        let Self(level, children, _) = self;
-        let mut copies = children.at(index)?;
-        let mut below: [V; R] = copies.load()?;
-        while let Some(answers) = copies.load() {
-            below = sum(below, answers);
+    pub(super) fn answers<V, P, const L: usize, const K: usize>(
+        &self,
+        at: usize,
+        level: &Level<'_, T, C, R, K>,
+        answers: &[V; R],
+    ) -> Option<[V; R]>
+    where
+        V: Vector<T>,
+        P: Recursion<C, L, R, K>,
+    {
+        match self {
+            Self::Leaves(leaves) => {
+                let constants = splat::<T, V, C>(&leaves.constants);
+                let mut copies = leaves.at(at)?;
+                let mut sums = P::leaf(&constants, copies.next()?);
+                while let Some(link) = copies.next() {
+                    add(&mut sums, &P::leaf(&constants, link));
+                }
+                Some(P::joined(sums))
+            }
+            Self::Registers => {
+                let [copies, apart] = level.copies;
+                let mut sums = *answers;
+                let mut copy = 1;
+                while copy < copies {
+                    let mut i = 0;
+                    while i < R {
+                        sums[i] = sums[i] + answers[i].behind(copy * apart);
+                        i += 1;
+                    }
+                    copy += 1;
+                }
+                Some(sums)
+            }
+            Self::Memory(children) => {
+                let mut copies = children.at(at)?;
+                let mut sums = copies.load()?;
+                while let Some(answers) = copies.load() {
+                    add(&mut sums, &answers);
+                }
+                Some(sums)
+            }
         }
-        let constants = splat(&level.constants);
-        let (answers, kept) = P::inner(&constants, level.own.motion(index)?, below);
-        level.answers.store(index, answers)?;
-        level.kept.store(index, kept)
     }
-}
 
-/// Links above leaves, and these, on the way down.
-pub(super) struct TurnStems<
-    'a,
-    P,
-    T,
-    const C: usize,
-    const L: usize,
-    const R: usize,
-    const K: usize,
->(
-    pub(super) Level<'a, T, C, R, K>,
-    pub(super) Leaves<'a, T, C>,
-    pub(super) PhantomData<P>,
-);
-
-impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for TurnStems<'_, P, T, C, L, R, K>
-where
-    P: Recursion<C, L, R, K>,
-    T: Scalar,
-    V: Vector<T>,
-{
+    /// Gives them the acceleration of their pivots, to `pivot` where they are in
+    /// registers; computes them where they are leaves.
     #[inline(always)]
-    fn at(&mut self, index: usize) -> Option<()> {
-        let Self(level, leaves, _) = self;
-        let (kept, pivot) = (level.kept.load(index)?, level.answers.load(index)?);
-        let constants = splat::<T, V, C>(&level.constants);
-        let (acceleration, below) = P::turn(&constants, level.own.motion(index)?, kept, pivot);
-        level.alpha.store(index, acceleration, level.length);
-        let constants = splat(&leaves.constants);
-        let (mut copies, mut places) = (leaves.at(index)?, leaves.alpha.at(index));
-        while let Some(link) = copies.next() {
-            places.store(P::turn_leaf(&constants, link, below))?;
+    pub(super) fn turn<V, P, const L: usize, const K: usize>(
+        &self,
+        at: usize,
+        level: &Level<'_, T, C, R, K>,
+        below: [V; 2],
+        pivot: &mut [V; 2],
+    ) -> Option<()>
+    where
+        V: Vector<T>,
+        P: Recursion<C, L, R, K>,
+    {
+        match self {
+            Self::Leaves(leaves) => {
+                let constants = splat(&leaves.constants);
+                let (mut copies, mut places) = (leaves.at(at)?, leaves.alpha.at(at));
+                while let Some(link) = copies.next() {
+                    places.store(P::turn_leaf(&constants, link, below))?;
+                }
+            }
+            Self::Registers => {
+                let [x, y] = below;
+                *pivot = [x.repeat(level.length), y.repeat(level.length)];
+            }
+            Self::Memory(children) => {
+                let mut copies = children.at::<V>(at)?;
+                while copies.store(&below).is_some() {}
+            }
         }
-        Some(())
-    }
-}
-
-/// Links above inner links, on the way down.
-pub(super) struct TurnInners<
-    'a,
-    P,
-    T,
-    const C: usize,
-    const L: usize,
-    const R: usize,
-    const K: usize,
->(
-    pub(super) Level<'a, T, C, R, K>,
-    pub(super) Copies<'a, T, R>,
-    pub(super) PhantomData<P>,
-);
-
-impl<P, T, V, const C: usize, const L: usize, const R: usize, const K: usize> Step<V>
-    for TurnInners<'_, P, T, C, L, R, K>
-where
-    P: Recursion<C, L, R, K>,
-    T: Scalar,
-    V: Vector<T>,
-{
-    #[inline(always)]
-    fn at(&mut self, index: usize) -> Option<()> {
-        let Self(level, children, _) = self;
-        let (kept, pivot) = (level.kept.load(index)?, level.answers.load(index)?);
-        let constants = splat::<T, V, C>(&level.constants);
-        let (acceleration, below) = P::turn(&constants, level.own.motion(index)?, kept, pivot);
-        level.alpha.store(index, acceleration, level.length);
-        let mut copies = children.at(index)?;
-        while copies.store(below).is_some() {}
         Some(())
     }
 }

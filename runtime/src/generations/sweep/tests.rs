@@ -95,18 +95,8 @@ impl<const NUMBER: usize> Recursion<8, 6, 6, 3> for Shape<NUMBER> {
         ]
     }
 
-    fn stem<V: Scalar>(
-        constants: &[V; 8],
-        link: Motion<V>,
-        [xx, xy, yy, x, y, below]: [V; 6],
-    ) -> ([V; 6], [V; 3]) {
-        let &[rest, _, _, square, ratio, ..] = constants;
-        let phi = [
-            square.mul_add(xx, rest),
-            -(square * xy),
-            square.mul_add(yy, rest),
-        ];
-        node(constants, link, phi, [-(ratio * x), ratio * y], below)
+    fn joined<V: Scalar>([xx, xy, yy, x, y, below]: [V; 6]) -> [V; 6] {
+        [xx, -xy, yy, -x, y, below]
     }
 
     fn inner<V: Scalar>(

@@ -67,6 +67,7 @@ fn evaluated<T: Scalar, const NUMBER: usize>(
     let mut buffer = scalars(0, 0.0).repeat(2 + 6 + 3);
     run(Accelerations {
         table: &table,
+        drive: None,
         theta: &theta,
         omega: &omega,
         alpha: &mut alpha,
