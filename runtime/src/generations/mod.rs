@@ -27,9 +27,12 @@
 //! R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
 //! (articulated-body algorithm), in the plane; `docs/physics.md`, section 2.
 
+mod boundary;
 mod columns;
+mod cut;
 mod energy;
 mod evaluate;
+mod layout;
 mod memory;
 mod name;
 mod part;
