@@ -14,6 +14,9 @@ pub(super) const WIDTH: usize = 256;
 /// into the third cache.
 const KEPT: usize = 1 << 18;
 
+/// Of so many links without leaves or more, threads share the parts.
+const THREADED: usize = 1 << 14;
+
 /// Some consecutive generations, in parts that start with neighbours of the first.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cut {
@@ -58,10 +61,9 @@ impl Cut {
         }
     }
 
-    /// How many of so many threads are worth their while here: above the leaves'
-    /// parts there are few links, mostly.
+    /// How many of so many threads are worth their while here.
     fn threads(&self, threads: usize) -> usize {
-        match self.has_leaves || self.links >= super::THREADED {
+        match self.has_leaves || self.links >= THREADED {
             true => threads.max(1),
             false => 1,
         }

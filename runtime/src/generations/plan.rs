@@ -106,3 +106,49 @@ impl Plan {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Marks the links of a part.
+    fn mark(part: Part<'_>, found: &mut [usize]) {
+        for (_, whole, length) in part.spans() {
+            for link in &mut found[whole..whole + length] {
+                *link += 1;
+            }
+        }
+    }
+
+    fn every_link_is_in_one_part(copies: &[usize], cuts: &[usize]) {
+        let plan = Plan::new(copies);
+        let firsts: Vec<usize> = plan.cuts.iter().map(|cut| cut.first).collect();
+        assert_eq!(firsts, cuts);
+        for threads in [1, 2, 3] {
+            let mut found = alloc::vec![0; plan.links()];
+            mark(plan.top(), &mut found);
+            for cut in &plan.cuts {
+                for links in cut.jobs(threads) {
+                    cut.windows(&links).for_each(|part| mark(part, &mut found));
+                }
+            }
+            assert!(found.iter().all(|&parts| parts == 1), "{copies:?}");
+        }
+    }
+
+    #[test]
+    fn large_trees_are_cut_more_than_once() {
+        let binary = |generations: usize| {
+            let mut copies = alloc::vec![2; generations];
+            copies[0] = 1;
+            copies
+        };
+        every_link_is_in_one_part(&binary(13), &[]);
+        every_link_is_in_one_part(&binary(17), &[12]);
+        every_link_is_in_one_part(&binary(20), &[15, 11]);
+        every_link_is_in_one_part(&binary(23), &[18, 14, 10]);
+        every_link_is_in_one_part(&[1, 300, 15, 11, 5], &[3, 1]);
+        every_link_is_in_one_part(&[1, 20000], &[]);
+        every_link_is_in_one_part(&[1, 1, 20000], &[1]);
+    }
+}

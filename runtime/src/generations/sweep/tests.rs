@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 
 /// Copies of each generation: numbers of siblings below, at and above the lanes of
 /// every register, and none that is a power of two.
-const SHAPES: [&[usize]; 9] = [
+const SHAPES: [&[usize]; 10] = [
     &[1, 1, 1, 1, 1],
     &[1, 2],
     &[1, 3, 3],
@@ -22,6 +22,7 @@ const SHAPES: [&[usize]; 9] = [
     &[1, 17, 2],
     &[1, 2, 2, 2, 2, 2, 2],
     &[1, 3, 1, 11, 41, 7],
+    &[1, 300, 15, 11, 5],
 ];
 
 /// A tree of a shape whose joints have friction and springs.
@@ -239,4 +240,6 @@ fn vectors_have_the_bits_of_links_one_by_one() {
     each_scalar::<7>();
     // Taken apart.
     each_scalar::<8>();
+    // Twice, and so large that parts go up twice.
+    each_scalar::<9>();
 }
