@@ -9,7 +9,7 @@ use super::part::{Part, Stage, stages};
 /// part: their numbers fit into the second cache.
 const WHOLE: usize = 8192;
 
-/// Likewise of links that all have children, which take more numbers.
+/// So many links in a part if all of them have children: they take more numbers.
 const INNER: usize = 4096;
 
 /// The generations of a tree, and how it is cut.
@@ -35,7 +35,7 @@ impl Plan {
         }
         let mut cuts = Vec::new();
         let (mut end, mut above, mut fitting) = (copies.len(), start, WHOLE);
-        while above > fitting {
+        while above > WHOLE {
             let has_leaves = end == copies.len();
             // The longest subtrees that fit with their neighbours.
             let inner = 1..end.saturating_sub(usize::from(has_leaves));
@@ -145,9 +145,10 @@ mod tests {
         };
         every_link_is_in_one_part(&binary(13), &[]);
         every_link_is_in_one_part(&binary(17), &[12]);
+        every_link_is_in_one_part(&binary(18), &[13]);
         every_link_is_in_one_part(&binary(20), &[15, 11]);
         every_link_is_in_one_part(&binary(23), &[18, 14, 10]);
-        every_link_is_in_one_part(&[1, 300, 15, 11, 5], &[3, 1]);
+        every_link_is_in_one_part(&[1, 600, 14, 11, 4], &[3, 1]);
         every_link_is_in_one_part(&[1, 20000], &[]);
         every_link_is_in_one_part(&[1, 1, 20000], &[1]);
     }

@@ -22,7 +22,7 @@ const SHAPES: [&[usize]; 10] = [
     &[1, 17, 2],
     &[1, 2, 2, 2, 2, 2, 2],
     &[1, 3, 1, 11, 41, 7],
-    &[1, 300, 15, 11, 5],
+    &[1, 600, 14, 11, 4],
 ];
 
 /// A tree of a shape whose joints have friction and springs.
