@@ -25,7 +25,7 @@ pub(super) fn line<T>() -> usize {
 
 /// An odd number of lines: columns whose distances are multiples of a power of two
 /// compete for the same places of the cache.
-fn odd_lines<T>(numbers: usize) -> usize {
+pub(super) fn odd_lines<T>(numbers: usize) -> usize {
     (numbers.div_ceil(line::<T>()) | 1) * line::<T>()
 }
 
@@ -80,6 +80,7 @@ impl Extent {
             slots,
         } = self;
         Storage {
+            sizes,
             turns: Columns::new(take(lasting, 3 * links), links),
             bends: match sizes.joints {
                 true => Columns::new(take(lasting, 2 * links), links),
@@ -96,6 +97,7 @@ impl Extent {
 /// Numbers of a part that are formed on the way up and read on the way down.
 #[derive(Debug)]
 pub(super) struct Storage<'a, T> {
+    pub(super) sizes: Sizes,
     /// Sine, cosine and angular velocity of each link, from row `lead` on.
     pub(super) turns: Columns<'a, T, 3>,
     /// Likewise angles and velocities relative to the parents; empty where nothing

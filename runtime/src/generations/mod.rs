@@ -28,9 +28,12 @@
 //! (articulated-body algorithm), in the plane; `docs/physics.md`, section 2.
 
 mod bodies;
+mod boundary;
 mod columns;
+mod cut;
 mod energy;
 mod evaluate;
+mod layout;
 mod memory;
 mod name;
 mod part;

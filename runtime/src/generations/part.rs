@@ -80,6 +80,8 @@ pub(super) struct Part<'a> {
     /// The first of the neighbours, counted in its generation.
     pub(super) start: usize,
     pub(super) width: usize,
+    /// Whether its results are written once it has gone up.
+    pub(super) ends: bool,
 }
 
 /// Neighbours of a generation: where the first one stands.
@@ -129,11 +131,17 @@ impl Part<'_> {
         narrow
     }
 
+    /// Whether it takes all links of its generations.
+    #[inline(always)]
+    fn is_whole(&self) -> bool {
+        let first = self.stages.first();
+        first.is_none_or(|first| first.stride == self.width)
+    }
+
     /// How far the links of the next part are, where this one is not the whole.
     #[inline(always)]
     pub(super) fn ahead(&self) -> Option<usize> {
-        let first = self.stages.first()?;
-        (first.stride != self.width).then_some(self.width)
+        (!self.is_whole()).then_some(self.width)
     }
 
     /// Where the first link of a run stands.
@@ -151,7 +159,7 @@ impl Part<'_> {
     /// and in the whole tree's, and how many there are. A whole tree is one.
     #[inline(always)]
     pub(super) fn spans(&self) -> impl Iterator<Item = (usize, usize, usize)> {
-        let whole = self.ahead().is_none();
+        let whole = self.is_whole();
         let stages = match whole {
             true => self.stages.get(..1).unwrap_or_default(),
             false => self.own_stages(),

@@ -2,34 +2,23 @@
 
 use alloc::vec::Vec;
 
-use core::ops::Range;
+use super::cut::{Cut, WIDTH};
+use super::part::{Part, Stage, stages};
 
-use super::part::{Part, SLOTS, Stage, stages};
-
-/// Trees of up to so many links are computed in one piece: their numbers fit
-/// into the second cache.
+/// Trees of up to so many links are computed in one piece, and so many links in a
+/// part: their numbers fit into the second cache.
 const WHOLE: usize = 8192;
 
-/// Neighbours in a part of a larger tree: whole vectors, and runs that are long
-/// enough to be fetched ahead.
-pub(super) const WIDTH: usize = 256;
+/// So many links in a part if all of them have children: they take more numbers.
+const INNER: usize = 4096;
 
-/// Of so many links, what is formed on the way up is kept for the way down: it fits
-/// into the third cache.
-const KEPT: usize = 1 << 18;
-
-/// The generations of a tree, and where it is cut.
+/// The generations of a tree, and how it is cut.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Plan {
     /// Of the whole tree.
     stages: Vec<Stage>,
-    /// The generation in which the parts start; none where the tree is one.
-    pub(super) cut: Option<usize>,
-    /// Whether parts keep what is formed on the way up.
-    pub(super) keeps: bool,
-    /// Those of a part, and of the last one, which has another width.
-    part: Vec<Stage>,
-    last: Vec<Stage>,
+    /// From the leaves up; none where the tree is one.
+    pub(super) cuts: Vec<Cut>,
 }
 
 impl Plan {
@@ -44,28 +33,37 @@ impl Plan {
             starts.push(start);
             start += count;
         }
-        let mut cut = None;
-        if start > WHOLE {
+        let mut cuts = Vec::new();
+        let (mut end, mut above, mut fitting) = (copies.len(), start, WHOLE);
+        while above > WHOLE {
+            let has_leaves = end == copies.len();
             // The longest subtrees that fit with their neighbours.
-            let inner = 1..copies.len().saturating_sub(1);
+            let inner = 1..end.saturating_sub(usize::from(has_leaves));
             let fits = |&generation: &usize| {
-                let below: usize = counts.iter().skip(generation).sum();
                 let count = counts[generation].max(1);
-                count >= WIDTH && (below / count).saturating_mul(WIDTH) <= WHOLE
+                let each = (above - starts[generation]) / count;
+                count >= WIDTH && each.saturating_mul(WIDTH) <= fitting
             };
-            cut = inner.clone().find(fits).or(inner.last());
+            let cut = inner.clone().find(fits);
+            let Some(first) = cut.or(inner.last().filter(|_| has_leaves)) else {
+                break;
+            };
+            let links = above - starts[first];
+            let taken = (end + 1).min(copies.len()) - first;
+            cuts.push(Cut::new(
+                first,
+                [counts[first], links],
+                has_leaves,
+                |width| {
+                    let below = stages(copies, &starts, &counts, first, width);
+                    below.take(taken).collect()
+                },
+            ));
+            (end, above, fitting) = (first, starts[first], INNER);
         }
-        let stages = |first, width| stages(copies, &starts, &counts, first, width).collect();
-        let parts = cut.map(|cut| (cut, counts[cut]));
         Self {
-            stages: stages(0, 1),
-            cut,
-            keeps: start <= KEPT,
-            part: parts.map_or_else(Vec::new, |(cut, count)| stages(cut, count.min(WIDTH))),
-            last: parts.map_or_else(Vec::new, |(cut, count)| {
-                let start = count.saturating_sub(SLOTS) / WIDTH * WIDTH;
-                stages(cut, count - start)
-            }),
+            stages: stages(copies, &starts, &counts, 0, 1).collect(),
+            cuts,
         }
     }
 
@@ -99,76 +97,65 @@ impl Plan {
         }
     }
 
-    /// The generations above the cut, or the whole tree.
+    /// The generations above the cuts, or the whole tree.
     pub(super) fn top(&self) -> Part<'_> {
         let leaf = self.stages.len().saturating_sub(1);
-        let inner = self.cut.unwrap_or(leaf);
+        let inner = self.cuts.last().map_or(leaf, |cut| cut.first);
         Part {
             stages: self.stages.get(..=inner).unwrap_or_default(),
             first: 0,
             inner,
-            has_leaves: self.cut.is_none(),
+            has_leaves: self.cuts.is_empty(),
             start: 0,
             width: 1,
+            ends: true,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Marks the links of a part.
+    fn mark(part: Part<'_>, found: &mut [usize]) {
+        for (_, whole, length) in part.spans() {
+            for link in &mut found[whole..whole + length] {
+                *link += 1;
+            }
         }
     }
 
-    /// How many links of the cut one of so many threads computes.
-    pub(super) fn each(&self, cut: usize, threads: usize) -> usize {
-        let parts = self.count(cut).div_ceil(WIDTH);
-        parts.div_ceil(threads.max(1)).max(1) * WIDTH
+    fn every_link_is_in_one_part(copies: &[usize], cuts: &[usize]) {
+        let plan = Plan::new(copies);
+        let firsts: Vec<usize> = plan.cuts.iter().map(|cut| cut.first).collect();
+        assert_eq!(firsts, cuts);
+        for threads in [1, 2, 3] {
+            let mut found = alloc::vec![0; plan.links()];
+            mark(plan.top(), &mut found);
+            for cut in &plan.cuts {
+                for links in cut.jobs(threads) {
+                    cut.windows(&links).for_each(|part| mark(part, &mut found));
+                }
+            }
+            assert!(found.iter().all(|&parts| parts == 1), "{copies:?}");
+        }
     }
 
-    /// The parts of the subtrees of these links of the cut.
-    pub(super) fn windows(
-        &self,
-        cut: usize,
-        links: Range<usize>,
-    ) -> impl Iterator<Item = Part<'_>> {
-        let mut start = links.start;
-        core::iter::from_fn(move || {
-            let part = (start < links.end).then(|| self.window(cut, start))?;
-            start += part.width;
-            Some(part)
-        })
-    }
-
-    /// The one that starts with a link. The last one also takes links that would be
-    /// too few for a register.
-    fn window(&self, cut: usize, start: usize) -> Part<'_> {
-        let rest = self.count(cut) - start;
-        let (width, stages) = match rest < WIDTH + SLOTS {
-            true => (rest, &self.last),
-            false => (WIDTH, &self.part),
+    #[test]
+    fn large_trees_are_cut_more_than_once() {
+        let binary = |generations: usize| {
+            let mut copies = alloc::vec![2; generations];
+            copies[0] = 1;
+            copies
         };
-        Part {
-            stages,
-            first: cut,
-            inner: stages.len().saturating_sub(1),
-            has_leaves: true,
-            start,
-            width,
-        }
-    }
-
-    /// The largest part.
-    pub(super) fn largest(&self, cut: usize) -> Part<'_> {
-        let (first, last) = (self.window(cut, 0), self.count(cut));
-        let last = self.window(cut, last.saturating_sub(SLOTS) / WIDTH * WIDTH);
-        if first.width < last.width {
-            last
-        } else {
-            first
-        }
-    }
-
-    /// The links of the cut that each of so many threads computes.
-    pub(super) fn jobs(&self, cut: usize, threads: usize) -> impl Iterator<Item = Range<usize>> {
-        let (count, each) = (self.count(cut), self.each(cut, threads));
-        let starts = (0..count.saturating_sub(SLOTS - 1).max(1)).step_by(each);
-        starts.map(move |start| match count - start < each + SLOTS {
-            true => start..count,
-            false => start..start + each,
-        })
+        every_link_is_in_one_part(&binary(13), &[]);
+        every_link_is_in_one_part(&binary(17), &[12]);
+        every_link_is_in_one_part(&binary(18), &[13]);
+        every_link_is_in_one_part(&binary(20), &[15, 11]);
+        every_link_is_in_one_part(&binary(23), &[18, 14, 10]);
+        every_link_is_in_one_part(&[1, 600, 14, 11, 4], &[3, 1]);
+        every_link_is_in_one_part(&[1, 20000], &[]);
+        every_link_is_in_one_part(&[1, 1, 20000], &[1]);
     }
 }

@@ -2,12 +2,11 @@
 
 #![allow(unsafe_code)]
 
-/// Asks the memory for the line of `slice[at]`, to be in the second cache when it
-/// is read. A processor sees the pattern of a part, short runs far from each other,
+/// Asks the memory for the line of a number, to be in the second cache when it is
+/// used. A processor sees the pattern of a part, short runs far from each other,
 /// too late.
 #[inline(always)]
-pub(super) fn prefetch<T>(slice: &[T], at: usize) {
-    let place = slice.as_ptr().wrapping_add(at);
+pub(super) fn prefetch<T>(place: *const T) {
     #[cfg(target_arch = "x86_64")]
     // SAFETY: a hint, for which any address will do. It belongs to SSE, which every
     // x86-64 machine has.

@@ -4,6 +4,7 @@
 
 use core::marker::PhantomData;
 
+use super::prefetch::prefetch;
 use super::vector::Vector;
 
 /// A mutable slice whose elements are written from several places.
@@ -22,8 +23,8 @@ impl<T> Clone for Shared<'_, T> {
 
 impl<T> Copy for Shared<'_, T> {}
 
-// SAFETY: it gives nothing but `store`, whose callers see to it that no element
-// is written from two threads.
+// SAFETY: its functions' callers see to it that no element is written from one thread
+// while another one writes or reads it.
 unsafe impl<T: Send> Send for Shared<'_, T> {}
 
 impl<'a, T: Copy> Shared<'a, T> {
@@ -47,6 +48,12 @@ impl<'a, T: Copy> Shared<'a, T> {
         })
     }
 
+    /// Asks the memory for the line of a number that will be written soon.
+    #[inline(always)]
+    pub(super) fn prefetch(self, at: usize) {
+        prefetch(self.start.wrapping_add(at));
+    }
+
     /// Writes the first `count` numbers of a vector from `at` on, all where there
     /// are not so many; none where they do not fit. Of two threads that write at one
     /// time, each must write elsewhere: the parts of a tree have no link in common.
@@ -62,6 +69,28 @@ impl<'a, T: Copy> Shared<'a, T> {
         } else if at <= self.length && count <= self.length - at {
             let places = unsafe { core::slice::from_raw_parts_mut(self.start.add(at), count) };
             vector.store(places, 0);
+        }
+    }
+
+    /// Writes numbers from `at` on; none where they do not fit. As for
+    /// [`store`](Self::store).
+    pub(super) fn write(self, at: usize, numbers: &[T]) {
+        if at <= self.length && numbers.len() <= self.length - at {
+            // SAFETY: as for `store`.
+            let places =
+                unsafe { core::slice::from_raw_parts_mut(self.start.add(at), numbers.len()) };
+            places.copy_from_slice(numbers);
+        }
+    }
+
+    /// Reads numbers from `at` on into `places`; none where there are not so many.
+    /// They are the reader's own, or nobody writes at that time.
+    pub(super) fn read(self, at: usize, places: &mut [T]) {
+        if at <= self.length && places.len() <= self.length - at {
+            // SAFETY: the elements lie in the slice, and no other thread writes them
+            // now.
+            let numbers = unsafe { core::slice::from_raw_parts(self.start.add(at), places.len()) };
+            places.copy_from_slice(numbers);
         }
     }
 

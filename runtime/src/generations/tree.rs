@@ -3,7 +3,8 @@
 use alloc::vec::Vec;
 
 use super::energy::{self, EnergyConstants};
-use super::evaluate::{Kernels, Layout, accelerations};
+use super::evaluate::{Kernels, accelerations};
+use super::layout::Layout;
 use super::memory::Sizes;
 use super::plan::Plan;
 use super::pool::Pool;

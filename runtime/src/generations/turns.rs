@@ -2,6 +2,7 @@
 
 use super::columns::Columns;
 use super::prefetch::prefetch;
+use super::shared::Shared;
 use super::sweep::Sweep;
 use super::vector::{SliceKernel, Vector, Vectors};
 use crate::scalar::Scalar;
@@ -17,6 +18,7 @@ impl<T: Scalar> SliceKernel<T> for Turns<'_, '_, T> {
             theta,
             omega,
             storage,
+            alpha,
             ..
         } = self.0;
         let turns = storage.turns;
@@ -26,6 +28,7 @@ impl<T: Scalar> SliceKernel<T> for Turns<'_, '_, T> {
                 omega: omega.get(whole..whole + length).unwrap_or_default(),
                 turns: turns.window(storage.lead + own, length.max(W::Wide::LANES)),
                 ahead: part.ahead(),
+                alpha: alpha.from(whole).filter(|_| part.ends),
             };
             let _ = span.turn::<W::Wide>();
         }
@@ -39,6 +42,8 @@ struct Span<'a, T> {
     turns: Option<Columns<'a, T, 3>>,
     /// How far the links are that come next.
     ahead: Option<usize>,
+    /// The results, where they are written next.
+    alpha: Option<Shared<'a, T>>,
 }
 
 impl<T: Scalar> Span<'_, T> {
@@ -60,8 +65,12 @@ impl<T: Scalar> Span<'_, T> {
                 let velocity = V::load(self.omega, places[i]);
                 turns.store(places[i], &[sines[i], cosines[i], velocity])?;
                 if let Some(ahead) = self.ahead {
-                    prefetch(self.theta, places[i] + ahead);
-                    prefetch(self.omega, places[i] + ahead);
+                    let next = places[i] + ahead;
+                    prefetch(self.theta.as_ptr().wrapping_add(next));
+                    prefetch(self.omega.as_ptr().wrapping_add(next));
+                    if let Some(alpha) = self.alpha {
+                        alpha.prefetch(next);
+                    }
                 }
             }
             index += 2 * V::LANES;

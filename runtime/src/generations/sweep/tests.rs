@@ -13,7 +13,7 @@ use core::marker::PhantomData;
 
 /// Copies of each generation: numbers of siblings below, at and above the lanes of
 /// every register, and none that is a power of two.
-const SHAPES: [&[usize]; 9] = [
+const SHAPES: [&[usize]; 10] = [
     &[1, 1, 1, 1, 1],
     &[1, 2],
     &[1, 3, 3],
@@ -23,6 +23,7 @@ const SHAPES: [&[usize]; 9] = [
     &[1, 17, 2],
     &[1, 2, 2, 2, 2, 2, 2],
     &[1, 3, 1, 11, 41, 7],
+    &[1, 600, 14, 11, 4],
 ];
 
 /// A tree of a shape whose joints have friction and springs.
@@ -232,4 +233,6 @@ fn vectors_have_the_bits_of_links_one_by_one() {
     each_scalar::<7>();
     // Taken apart.
     each_scalar::<8>();
+    // Twice, and so large that parts go up twice.
+    each_scalar::<9>();
 }
