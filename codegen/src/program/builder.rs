@@ -219,14 +219,6 @@ impl Builder {
         }
     }
 
-    /// The name of a constant that is not a number.
-    pub(super) fn constant_name(&self, value: ValueId) -> Option<String> {
-        match self.op(value) {
-            Op::Constant(id) => Some(self.setup.get(*id).name.clone()),
-            _ => None,
-        }
-    }
-
     /// Whether a constant can be divided by, whatever the parameters of the
     /// scene.
     pub(super) fn is_never_zero(&self, value: ValueId, scene: &Scene) -> bool {

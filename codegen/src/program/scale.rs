@@ -6,9 +6,9 @@
 
 use crate::exact::Rational;
 
-/// Factors that are tried. With n constants, the best of N factors makes the
-/// largest error about N^(1/n) times smaller.
-const FACTORS: i64 = 1 << 17;
+/// Factors that are tried. With n constants, the best of N factors makes the errors
+/// about N^(1/n) times smaller.
+const FACTORS: i64 = 1 << 18;
 
 /// The factor, a fraction of few digits, that brings all of these constants, and the
 /// reciprocals of those that are divided by, nearest to numbers of `f64`. None of
@@ -26,15 +26,16 @@ pub(super) fn factor(constants: &[Rational], divisors: &[Rational]) -> Option<Ra
         let times = |&constant| scaled(constant, factor as f64);
         let products = constants.iter().map(|constant| relative(times(constant)));
         let quotients = divisors.iter().map(|divisor| reciprocal(times(divisor)));
-        let mut worst = 0.0_f64;
+        // Most are out after a constant or two.
+        let mut squares = 0.0;
         for error in products.chain(quotients) {
-            worst = worst.max(error);
-            if worst >= best.0 {
+            squares += error * error;
+            if squares >= best.0 {
                 break;
             }
         }
-        if worst < best.0 {
-            best = (worst, factor);
+        if squares < best.0 {
+            best = (squares, factor);
         }
     }
     Rational::from_ratio(best.1, FACTORS)
@@ -47,15 +48,15 @@ fn scaled((high, low): (f64, f64), factor: f64) -> (f64, f64) {
     (product, rest)
 }
 
-/// What rounding makes of a number in two parts, relative to it.
+/// What rounding makes of a number in two parts, by its size.
 fn relative((high, low): (f64, f64)) -> f64 {
-    (low / high).abs()
+    low / high
 }
 
 /// The same of its reciprocal.
 fn reciprocal((high, low): (f64, f64)) -> f64 {
     let reciprocal = 1.0 / high;
-    (high.mul_add(reciprocal, -1.0) + low * reciprocal).abs()
+    high.mul_add(reciprocal, -1.0) + low * reciprocal
 }
 
 #[cfg(test)]
@@ -91,6 +92,9 @@ mod tests {
     #[test]
     fn numbers_stay() {
         let numbers = [Rational::from(3), Rational::from(40)];
-        assert_eq!(factor(&numbers, &[Rational::from(2)]), Some(Rational::one()));
+        assert_eq!(
+            factor(&numbers, &[Rational::from(2)]),
+            Some(Rational::one())
+        );
     }
 }

@@ -201,20 +201,15 @@ impl EntryList<'_, '_> {
         let Some(&unit) = inertias.last() else {
             unreachable!("a tree has links");
         };
-        let factor = factor.map(|factor| builder.number(factor));
+        let factor = factor.map(|factor| {
+            // Products with it are called `inertia_parent_scaled`.
+            let number = builder.number(factor);
+            builder.called(number, "scaled")
+        });
         let couplings = couplings.iter_mut().flat_map(|(_, pair)| pair);
         let constants = [inertias, weights, lateral_weights];
-        for value in constants.into_iter().flatten().chain(couplings) {
-            *value = match factor {
-                Some(factor) => {
-                    let name = builder.constant_name(*value).map(|name| format!("scaled_{name}"));
-                    let scaled = builder.mul(*value, factor);
-                    name.map_or(scaled, |name| builder.called(scaled, &name))
-                }
-                None => builder.div(*value, unit),
-            };
-        }
-        for value in bias {
+        let constants = constants.into_iter().flatten().chain(couplings);
+        for value in constants.chain(bias) {
             *value = match factor {
                 Some(factor) => builder.mul(*value, factor),
                 None => builder.div(*value, unit),
@@ -241,7 +236,9 @@ impl EntryList<'_, '_> {
         let parents: Vec<usize> = pairs.map(|[i, j]| *i.min(j)).collect();
         let links = expansion.inertias.iter().enumerate();
         let leaves = links.filter(|(link, _)| !parents.contains(link));
-        let divisors = leaves.map(|(_, inertia)| exact(inertia)).collect::<Option<Vec<_>>>()?;
+        let divisors = leaves
+            .map(|(_, inertia)| exact(inertia))
+            .collect::<Option<Vec<_>>>()?;
         scale::factor(&constants, &divisors)
     }
 }
