@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 use branched_pendulum::system::{Rescale, TaylorPendulum};
+use branched_pendulum_tests::scenes::damped_series::DampedSeries;
 use branched_pendulum_tests::scenes::driven_series::DrivenSeries;
 use branched_pendulum_tests::scenes::series::Series;
 
@@ -183,6 +184,61 @@ fn driven_trajectory() {
     assert_eq!((series.len(), pair.len()), (12, 12));
     for (a, b) in series.iter().zip(&pair) {
         assert!((a - b).abs() < 1e-12, "{a} {b}");
+    }
+}
+
+/// The damped tree by another method, and with half as many orders again as the rule
+/// for the tolerance says.
+#[test]
+fn damped_trajectory() {
+    let model = DampedSeries::new();
+    let ode = AbsoluteAngles(&model);
+    let start = State::at_rest(0.0, &[0.8, 0.1, -0.2]);
+    let times = [1.0, 10.0];
+    let states = |integrate: &dyn Fn(&mut Vec<f64>)| {
+        let mut states = Vec::new();
+        integrate(&mut states);
+        assert_eq!(states.len(), 12);
+        states
+    };
+    let series = |method: Taylor<f64>| {
+        states(&|states| {
+            method
+                .sample(&ode, &start, &times, |_, state| {
+                    states.extend_from_slice(state)
+                })
+                .expect("the motion is smooth");
+        })
+    };
+    let pair = states(&|states| {
+        Verner98::new(Options {
+            compensated: true,
+            ..Options::with_tolerance(1e-14)
+        })
+        .sample(&ode, &start, &times, |_, state| {
+            states.extend_from_slice(state)
+        })
+        .expect("the motion is smooth");
+    });
+    let tight = series(method(1e-15));
+    let high = series(method(1e-15).with_order(45));
+    let errors = [&pair, &high].map(|other| largest_difference(&tight, other));
+    println!("damped: {errors:?}");
+    assert!(errors[0] < 1e-11, "{errors:?}");
+    assert!(errors[1] < 1e-12, "{errors:?}");
+    // Damping is there: half of the energy is not.
+    let energy = |state: &[f64]| {
+        let &[a, b, c, u, v, w] = state else {
+            panic!("{} values", state.len());
+        };
+        model.kinetic_energy(&[a, b, c], &[u, v, w]) + model.potential_energy(&[a, b, c])
+    };
+    assert!(energy(&tight[6..]) < 0.5 * energy(&start.values));
+    // Looser tolerances keep their promise too.
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        let error = largest_difference(&tight, &series(method(tolerance)));
+        println!("damped, {tolerance:e}: {error:e}");
+        assert!(error < 30.0 * tolerance, "{tolerance:e}: {error:e}");
     }
 }
 
