@@ -3,6 +3,8 @@
 
 #[path = "../fixtures/scenes/chain.rs"]
 pub mod chain;
+#[path = "../fixtures/scenes/damped_series.rs"]
+pub mod damped_series;
 #[path = "../fixtures/scenes/driven.rs"]
 pub mod driven;
 #[path = "../fixtures/scenes/driven_loops.rs"]

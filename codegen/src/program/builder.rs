@@ -210,6 +210,15 @@ impl Builder {
         }
     }
 
+    /// What a constant is, where no parameter is involved.
+    pub(super) fn exact(&self, value: ValueId) -> Option<Rational> {
+        match self.op(value) {
+            Op::Number(number) => Some(number.clone()),
+            Op::Constant(id) => self.setup.get(*id).exact.clone(),
+            _ => None,
+        }
+    }
+
     /// Whether a constant can be divided by, whatever the parameters of the
     /// scene.
     pub(super) fn is_never_zero(&self, value: ValueId, scene: &Scene) -> bool {

@@ -28,6 +28,7 @@ mod passes;
 mod rebuild;
 mod recursion;
 mod rules;
+mod scale;
 mod sectors;
 mod solve;
 mod spelling;

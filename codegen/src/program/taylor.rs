@@ -6,7 +6,8 @@
 
 use super::entries::EntryList;
 use super::lower::Door;
-use super::{Argument, Purpose, Shape, ValueId};
+use super::{Argument, Purpose, Shape, ValueId, scale};
+use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{Frame, Mechanics, Trigonometric};
 
@@ -181,10 +182,12 @@ impl EntryList<'_, '_> {
 }
 
 impl EntryList<'_, '_> {
-    /// Divides the equation of motion by the moment of inertia of the last
-    /// link: a common factor changes nothing, and one rounded constant less is
-    /// one error less in long motions.
+    /// Multiplies the equation of motion by a factor, which changes nothing but
+    /// rounding. Where its constants are known, by the one with which they round
+    /// least; else it is divided by the moment of inertia of the last link: one
+    /// rounded constant less is one error less in long motions.
     fn normalize(&mut self, expansion: &mut Expansion) {
+        let factor = self.factor(expansion);
         let builder = &mut self.lowering.builder;
         let Expansion {
             sines: _,
@@ -198,11 +201,45 @@ impl EntryList<'_, '_> {
         let Some(&unit) = inertias.last() else {
             unreachable!("a tree has links");
         };
+        let factor = factor.map(|factor| {
+            // Products with it are called `inertia_parent_scaled`.
+            let number = builder.number(factor);
+            builder.called(number, "scaled")
+        });
         let couplings = couplings.iter_mut().flat_map(|(_, pair)| pair);
-        let lists = [inertias, weights, lateral_weights, bias];
-        for value in lists.into_iter().flatten().chain(couplings) {
-            *value = builder.div(*value, unit);
+        let constants = [inertias, weights, lateral_weights];
+        let constants = constants.into_iter().flatten().chain(couplings);
+        for value in constants.chain(bias) {
+            *value = match factor {
+                Some(factor) => builder.mul(*value, factor),
+                None => builder.div(*value, unit),
+            };
         }
+    }
+
+    /// The factor for constants that are all known.
+    fn factor(&mut self, expansion: &Expansion) -> Option<Rational> {
+        let builder = &mut self.lowering.builder;
+        let couplings = &expansion.couplings;
+        let pairs = couplings.iter().flat_map(|(_, pair)| pair);
+        let lists = [
+            &expansion.inertias,
+            &expansion.weights,
+            &expansion.lateral_weights,
+        ];
+        let mut exact = |id: &ValueId| builder.exact(*id);
+        let constants = lists.into_iter().flatten().chain(pairs).map(&mut exact);
+        let mut constants = constants.collect::<Option<Vec<_>>>()?;
+        constants.retain(|constant| !constant.is_zero());
+        // The elimination of a link without children divides by its inertia.
+        let pairs = couplings.iter().map(|(links, _)| links);
+        let parents: Vec<usize> = pairs.map(|[i, j]| *i.min(j)).collect();
+        let links = expansion.inertias.iter().enumerate();
+        let leaves = links.filter(|(link, _)| !parents.contains(link));
+        let divisors = leaves
+            .map(|(_, inertia)| exact(inertia))
+            .collect::<Option<Vec<_>>>()?;
+        scale::factor(&constants, &divisors)
     }
 }
 

@@ -11,7 +11,7 @@ use branched_pendulum_examples::integration_speed::ensemble::{
     Speed, friction_scan, near_threshold, scan_speeds, speeds,
 };
 use branched_pendulum_examples::integration_speed::measure::{ERRORS, points, time_for};
-use branched_pendulum_examples::solvers::scenes::{Ideal, Rods};
+use branched_pendulum_examples::solvers::scenes::{FifteenRods, Ideal, Rods, ThirtyOneRods};
 use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};
 
 const HELP: &str = "\
@@ -24,7 +24,10 @@ With `ensemble`: how many trajectories of the paper's pendulum a second, release
 at angles near its threshold, one by one and in the lanes of vector registers?
 And how many of pendulums each of which has a friction of its own?
 
-Usage: integration-speed [ensemble]
+With `trees`: the same of fifteen and of thirty-one rods, whose errors are the
+differences from the series at a tolerance of 1e-16.
+
+Usage: integration-speed [ensemble | trees]
 
   --help  this text
 ";
@@ -41,13 +44,14 @@ fn main() -> ExitCode {
     match words.as_slice() {
         [] => report(run()),
         ["ensemble"] => report(ensemble()),
+        ["trees"] => report(trees()),
         ["--help" | "-h"] => {
             print!("{HELP}");
             ExitCode::SUCCESS
         }
         _ => exit::wrong_command_line(
             "integration-speed",
-            &"takes no argument but `ensemble` or --help",
+            &"takes no argument but `ensemble`, `trees` or --help",
         ),
     }
 }
@@ -82,22 +86,60 @@ fn print_speeds(speeds: &[Speed]) {
     }
 }
 
-fn run() -> Result<(), Box<dyn Error>> {
+fn trees() -> Result<(), Box<dyn Error>> {
+    heading();
+    let (fifteen, thirty_one) = (FifteenRods::new(), ThirtyOneRods::new());
+    tree("fifteen rods, 10 s", &AbsoluteAngles(&fifteen))?;
+    tree("thirty-one rods, 10 s", &AbsoluteAngles(&thirty_one))
+}
+
+/// Rods at rest, the root at 0.08 rad, the others within 0.01 rad of the vertical.
+fn tree<O: TaylorOde<f64>>(name: &'static str, ode: &O) -> Result<(), Box<dyn Error>> {
+    let angle = |link: usize| match link {
+        0 => 0.08,
+        _ => 0.005 * ((7 * link % 5) as f64 - 2.0),
+    };
+    let start: Vec<f64> = (0..ode.dimension() / 2).map(angle).collect();
+    let options = Options {
+        compensated: true,
+        ..Options::with_tolerance(1e-16)
+    };
+    let state = State::at_rest(0.0, &start);
+    let end = Taylor::new(options).sample(ode, &state, &[END], |_, _| {})?;
+    let problem = Problem {
+        name,
+        tree: Tree::Rods,
+        start,
+        end: END,
+        expected: end.state.values,
+    };
+    rows(ode, &problem, 3)
+}
+
+fn heading() {
     print!("{:32}", "error");
     for error in ERRORS {
         print!("{error:>9.0e}");
     }
     println!();
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
+    heading();
     for problem in problems()?.iter().filter(|problem| problem.end == END) {
         match problem.tree {
-            Tree::Paper => rows(&AbsoluteAngles(&Ideal::new()), problem)?,
-            Tree::Rods => rows(&AbsoluteAngles(&Rods::new()), problem)?,
+            Tree::Paper => rows(&AbsoluteAngles(&Ideal::new()), problem, REPEATS)?,
+            Tree::Rods => rows(&AbsoluteAngles(&Rods::new()), problem, REPEATS)?,
         }
     }
     Ok(())
 }
 
-fn rows<O: TaylorOde<f64>>(ode: &O, problem: &Problem) -> Result<(), Box<dyn Error>> {
+fn rows<O: TaylorOde<f64>>(
+    ode: &O,
+    problem: &Problem,
+    repeats: usize,
+) -> Result<(), Box<dyn Error>> {
     let options = |tolerance| Options {
         compensated: true,
         ..Options::with_tolerance(tolerance)
@@ -105,19 +147,19 @@ fn rows<O: TaylorOde<f64>>(ode: &O, problem: &Problem) -> Result<(), Box<dyn Err
     let methods = [
         (
             "Taylor",
-            points(ode, problem, REPEATS, |tolerance| {
+            points(ode, problem, repeats, |tolerance| {
                 Taylor::new(options(tolerance))
             })?,
         ),
         (
             "Dop853",
-            points(ode, problem, REPEATS, |tolerance| {
+            points(ode, problem, repeats, |tolerance| {
                 Dop853::new(options(tolerance))
             })?,
         ),
         (
             "Verner98",
-            points(ode, problem, REPEATS, |tolerance| {
+            points(ode, problem, repeats, |tolerance| {
                 Verner98::new(options(tolerance))
             })?,
         ),

@@ -32,3 +32,21 @@ pub struct Damped;
     emit(taylor),
 )]
 pub struct Rods;
+
+/// The same with one generation more: fifteen rods.
+#[branched_pendulum(
+    gravity = 9.80665,
+    rod: generations(count = 4, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7),
+    emit(taylor),
+)]
+pub struct FifteenRods;
+
+/// With two more: thirty-one.
+#[branched_pendulum(
+    gravity = 9.80665,
+    rod: generations(count = 5, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7),
+    emit(taylor),
+)]
+pub struct ThirtyOneRods;

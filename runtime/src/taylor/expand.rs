@@ -12,7 +12,8 @@
 //! link are all there is, for a tree of any shape and depth.
 //!
 //! In each order X follows from the equation, C from lower orders, and then
-//! S = M⁻¹ (X + T C): one inverse serves all orders.
+//! S = M⁻¹ (X + T C): one inverse serves all orders. From order 28 on, which is that of
+//! tolerances near rounding, the S of order 0 is refined once more.
 
 use super::bias::{Constant, Moving};
 use super::lanes;

@@ -19,9 +19,9 @@ pub struct Coupling<T> {
 /// The connections between links, as columns of two matrices.
 pub(super) struct Levers<'a, T, const N: usize, const M: usize> {
     /// A, symmetric, without its diagonal.
-    along: &'a [Vector<T, M>],
+    pub(super) along: &'a [Vector<T, M>],
     /// B, antisymmetric, if it is not zero.
-    across: Option<&'a [Vector<T, M>]>,
+    pub(super) across: Option<&'a [Vector<T, M>]>,
 }
 
 impl<'a, T: Scalar, const N: usize, const M: usize> Levers<'a, T, N, M> {

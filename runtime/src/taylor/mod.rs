@@ -17,13 +17,14 @@ mod matrix;
 mod orders;
 mod quad;
 mod reciprocal;
+mod refine;
 mod rows;
 mod sums;
 
 pub use expand::{Known, Start, Tree, expand, workspace};
 pub use levers::Coupling;
 pub use quad::Quad;
-pub(crate) use quad::run_f64;
 #[doc(hidden)]
 pub use quad::{Kernel, Pack};
+pub(crate) use quad::{run_f64, two_sum};
 pub use sums::{Factors, rows, sums, whole};

@@ -17,11 +17,16 @@ use super::levers::Levers;
 use super::matrix::{Vector, add_product, invert, numbers, packs, product};
 use super::quad::{Kernel, Pack, Quad};
 use super::reciprocal::Reciprocal;
+use super::refine::residual;
 use super::rows::{SERIES, sums};
 use crate::scalar::Scalar;
 
 /// Matrices that the orders share, each of as many columns as there are links.
 pub(super) const MATRICES: usize = 5;
+
+/// From this order on the accelerations at the start are refined: the order for
+/// tolerances of 1e-13, below which rounding is most of the error.
+const REFINED: usize = 28;
 
 /// The orders of an expansion from 1 on.
 pub(super) struct Orders<'a, T, B, const N: usize, const M: usize> {
@@ -75,10 +80,14 @@ impl<T: Scalar, B: Bias<T, N>, const N: usize, const M: usize> Kernel<T>
         }
         let sum = add_product::<T, P, N, M>(&sum, turning, &c);
         let mut s = product::<T, P, N, M>(inverse, &sum);
+        let last = coefficients.len().saturating_sub(1);
+        if last >= REFINED {
+            let rest = residual::<T, P, N, M>(start, tree, &levers, &s);
+            s = add_product::<T, P, N, M>(&s, inverse, &rest);
+        }
         // M C, and the weight that belongs to Y.
         let mut mass_c = add_product::<T, P, N, M>(&weight.along, mass, &c);
 
-        let last = coefficients.len().saturating_sub(1);
         let one = T::from_f64(1.0);
         let mut number = one;
         let mut over_next = Reciprocal::<P>::of(one);

@@ -110,6 +110,14 @@ impl<T: Scalar> Pack<T> for Quad<T> {
     }
 }
 
+/// Knuth's two-sum, the rounded sum and its rounding error.
+#[inline(always)]
+pub(crate) fn two_sum<T, P: Pack<T>>(a: P, b: P) -> (P, P) {
+    let sum = a.plus(b);
+    let part = sum.minus(a);
+    (sum, a.minus(sum.minus(part)).plus(b.minus(part)))
+}
+
 /// Runs `kernel` with the vector instructions that the machine has for `f64`.
 #[inline(always)]
 pub(crate) fn run_f64<K: Kernel<f64>>(kernel: K) {

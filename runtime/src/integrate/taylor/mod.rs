@@ -28,13 +28,13 @@ use run::Run;
 /// *Order*: p = ⌈8 − 0.65 ln ε⌉ for the smallest tolerance ε, unless
 /// [`with_order`](Self::with_order) sets one. The step is ρ ε^(1/p) at a radius
 /// of convergence ρ. Where the cost of a step grows as p², 1 − ½ ln ε is cheapest,
-/// with steps of ρ/e² (Jorba and Zou, section 3); here it grows like p² + 30 p + 500
+/// with steps of ρ/e² (Jorba and Zou, section 3.3.1); here it grows like p² + 30 p + 500
 /// on trees of three and of seven links, for which longer steps of a higher order
 /// are cheaper: p with p² (2 p + 30) = −(p² + 30 p + 500) ln (ε/e²). *Step*: so long that
 /// neither of the last two terms, orders p − 1 and p, exceeds the tolerance
 /// `absolute_i + relative_i |y_i|` in any component, times exp(−2/(p − 1)) to
-/// be on the safe side (their section 3 has 0.7 in the place of 2: terms that
-/// fall more slowly leave more out). The terms left out are smaller by
+/// be on the safe side (heyoka, a program of the same method, has 0.7 in the place
+/// of 2: terms that fall more slowly leave more out). The terms left out are smaller by
 /// about ε^(1/p) for each order. No step is rejected.
 ///
 /// *Dense output* is the polynomial itself, of the method's order and free of

@@ -2,7 +2,7 @@
 //! instructions that the machine has for the numbers.
 
 use crate::scalar::Real;
-use crate::taylor::{Kernel, Pack, Quad};
+use crate::taylor::{Kernel, Pack, Quad, two_sum};
 
 /// Writes `start` + Σ y\[k\] τᵏ over k ≥ 1.
 pub(super) struct Ahead<'a, T> {
@@ -78,14 +78,6 @@ impl<T: Real> Ahead<'_, T> {
         };
         store::<T, P, W>(end, self.end, first);
     }
-}
-
-/// Knuth's two-sum, the rounded sum and its rounding error, in packs.
-#[inline(always)]
-fn two_sum<T, P: Pack<T>>(a: P, b: P) -> (P, P) {
-    let sum = a.plus(b);
-    let part = sum.minus(a);
-    (sum, a.minus(sum.minus(part)).plus(b.minus(part)))
 }
 
 /// The largest ratios of the last two coefficients to their tolerances, order

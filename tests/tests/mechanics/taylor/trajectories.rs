@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum::system::TaylorPendulum;
+use branched_pendulum::system::{Rescale, TaylorPendulum};
+use branched_pendulum_tests::scenes::damped_series::DampedSeries;
 use branched_pendulum_tests::scenes::driven_series::DrivenSeries;
 use branched_pendulum_tests::scenes::series::Series;
 
@@ -66,11 +67,12 @@ const TIMES: [f64; 7] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
 
 #[test]
 fn regular_trajectory() {
-    for tolerance in [1e-14, 1e-15, 1e-16] {
+    // The truncation of steps shows after 100 s at 1e-14.
+    for (tolerance, hundred) in [(1e-14, 2e-13), (1e-15, 1e-13), (1e-16, 1e-13)] {
         let (errors, report) = errors("regular", &TIMES, &method(tolerance));
         println!("regular, {tolerance:e}: {errors:?}; {report}");
         assert!(errors[3] < 2e-14, "{tolerance:e}: {errors:?}");
-        assert!(errors[6] < 1e-13, "{tolerance:e}: {errors:?}");
+        assert!(errors[6] < hundred, "{tolerance:e}: {errors:?}");
     }
     let (errors, _) = errors("regular", &TIMES, &method(1e-9));
     assert!(errors[3] < 1e-8, "{errors:?}");
@@ -90,47 +92,40 @@ fn rounding_in_the_mean() {
     }
     let (ten, hundred) = (ten.sqrt(), hundred.sqrt());
     println!("regular, root of the mean square: {ten:e} at 10 s, {hundred:e} at 100 s");
-    assert!(ten < 2e-14, "{ten:e}");
-    assert!(hundred < 2e-13, "{hundred:e}");
+    // The refinement needs instructions that fuse products with sums.
+    #[cfg(target_arch = "x86_64")]
+    let fused = std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma");
+    #[cfg(not(target_arch = "x86_64"))]
+    let fused = false;
+    assert!(ten < 1e-14, "{ten:e}");
+    assert!(hundred < if fused { 1e-13 } else { 2e-13 }, "{hundred:e}");
 }
 
-/// With constants of 32 digits the series gives the reference trajectory to the
-/// last digit for 100 s. Rounded to `f64`, the constants alone move it by 9e-14
-/// in that time: no method in `f64` is nearer but by luck.
+/// With constants of 32 digits, formed from decimals or those of a scene of numbers,
+/// the series gives the reference trajectory to the last digit for 100 s.
 #[test]
 fn a_hundred_seconds() {
     let (_, expected) = reference_state("regular");
     let expected: Vec<Vec<f64>> = TIMES.iter().map(|&time| expected(time).to_vec()).collect();
-    let exact = in_32_digits(&exact_tree(), &TIMES);
-    let rounded = in_32_digits(&Series::<Double>::default(), &TIMES);
-    for ((exact, rounded), expected) in exact.iter().zip(&rounded).zip(&expected) {
-        let error = largest_difference(exact, expected);
-        let of_constants = largest_difference(rounded, expected);
-        println!("exact constants {error:e}, rounded ones {of_constants:e}");
-        assert!(error < 1e-15, "{error:e}");
-        assert!(of_constants < 1e-13, "{of_constants:e}");
+    let decimals = in_32_digits(&exact_tree(), &TIMES);
+    let scene = in_32_digits(&Series::<Double>::default(), &TIMES);
+    for ((decimals, scene), expected) in decimals.iter().zip(&scene).zip(&expected) {
+        let errors = [decimals, scene].map(|states| largest_difference(states, expected));
+        println!("{errors:?}");
+        assert!(errors.iter().all(|error| *error < 1e-15), "{errors:?}");
     }
-    // What the method in `f64` adds.
-    for tolerance in [1e-14, 1e-15, 1e-16] {
-        let model = Series::new();
-        let (theta, _) = reference_state("regular");
-        let mut states = Vec::new();
-        method(tolerance)
-            .sample(
-                &AbsoluteAngles(&model),
-                &State::at_rest(0.0, &theta),
-                &TIMES,
-                |_, state| states.push(state.to_vec()),
-            )
-            .expect("the motion is smooth");
-        let own: Vec<f64> = states
-            .iter()
-            .zip(&rounded)
-            .map(|(state, rounded)| largest_difference(state, rounded))
-            .collect();
-        println!("{tolerance:e}: of the method {own:?}");
-        assert!(own[6] < 5e-13, "{tolerance:e}: {own:?}");
-    }
+}
+
+/// What the constants of `f64` are wrong by moves the motion less than rounding does:
+/// divided by one of them, as those of a scene with parameters, by 9e-14.
+#[test]
+fn rounded_constants() {
+    let (_, expected) = reference_state("regular");
+    let rounded: Series<Double> = Series::new().rescale(Double::from_f64);
+    let states = in_32_digits(&rounded, &TIMES);
+    let of_constants = largest_difference(&states[6], &expected(TIMES[6]));
+    println!("rounded constants: {of_constants:e}");
+    assert!(of_constants < 4e-14, "{of_constants:e}");
 }
 
 #[test]
@@ -189,6 +184,61 @@ fn driven_trajectory() {
     assert_eq!((series.len(), pair.len()), (12, 12));
     for (a, b) in series.iter().zip(&pair) {
         assert!((a - b).abs() < 1e-12, "{a} {b}");
+    }
+}
+
+/// The damped tree by another method, and with half as many orders again as the rule
+/// for the tolerance says.
+#[test]
+fn damped_trajectory() {
+    let model = DampedSeries::new();
+    let ode = AbsoluteAngles(&model);
+    let start = State::at_rest(0.0, &[0.8, 0.1, -0.2]);
+    let times = [1.0, 10.0];
+    let states = |integrate: &dyn Fn(&mut Vec<f64>)| {
+        let mut states = Vec::new();
+        integrate(&mut states);
+        assert_eq!(states.len(), 12);
+        states
+    };
+    let series = |method: Taylor<f64>| {
+        states(&|states| {
+            method
+                .sample(&ode, &start, &times, |_, state| {
+                    states.extend_from_slice(state)
+                })
+                .expect("the motion is smooth");
+        })
+    };
+    let pair = states(&|states| {
+        Verner98::new(Options {
+            compensated: true,
+            ..Options::with_tolerance(1e-14)
+        })
+        .sample(&ode, &start, &times, |_, state| {
+            states.extend_from_slice(state)
+        })
+        .expect("the motion is smooth");
+    });
+    let tight = series(method(1e-15));
+    let high = series(method(1e-15).with_order(45));
+    let errors = [&pair, &high].map(|other| largest_difference(&tight, other));
+    println!("damped: {errors:?}");
+    assert!(errors[0] < 1e-11, "{errors:?}");
+    assert!(errors[1] < 1e-12, "{errors:?}");
+    // Damping is there: half of the energy is not.
+    let energy = |state: &[f64]| {
+        let &[a, b, c, u, v, w] = state else {
+            panic!("{} values", state.len());
+        };
+        model.kinetic_energy(&[a, b, c], &[u, v, w]) + model.potential_energy(&[a, b, c])
+    };
+    assert!(energy(&tight[6..]) < 0.5 * energy(&start.values));
+    // Looser tolerances keep their promise too.
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        let error = largest_difference(&tight, &series(method(tolerance)));
+        println!("damped, {tolerance:e}: {error:e}");
+        assert!(error < 30.0 * tolerance, "{tolerance:e}: {error:e}");
     }
 }
 
