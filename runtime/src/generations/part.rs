@@ -116,11 +116,11 @@ impl Part<'_> {
         last.map_or(0, |last| last.slot + last.count.next_multiple_of(SLOTS))
     }
 
-    /// How many of the first generations, with children, fit a vector each: of these
-    /// one goes to the next in registers.
+    /// The last one of the first generations with children that fit a vector each: those
+    /// above it go from one to the next in registers.
     // A call costs 10 ns here: the wide registers have to be given up for it.
     #[inline(always)]
-    pub(super) fn narrow(&self, lanes: usize) -> usize {
+    pub(super) fn crown(&self, lanes: usize) -> usize {
         let mut narrow = 0;
         while let Some(stage) = self.stages.get(narrow) {
             if narrow == self.inner || stage.runs > 1 || stage.count > lanes {
@@ -128,7 +128,7 @@ impl Part<'_> {
             }
             narrow += 1;
         }
-        narrow
+        narrow.saturating_sub(1)
     }
 
     /// Whether it takes all links of its generations.

@@ -252,42 +252,38 @@ where
 
     /// Where the children of neighbours are.
     #[inline(always)]
-    fn children<V: Vector<T>>(
+    fn children(
         &self,
         stage: usize,
-        narrow: usize,
         level: &Level<'a, T, C, R, K>,
     ) -> Option<Children<'a, T, C, R>> {
-        Some(if self.above_leaves(stage) {
-            Children::Leaves(self.leaves(level)?)
-        } else if V::LANES > 1 && stage + 1 < narrow {
-            Children::Registers
-        } else {
-            Children::Memory(self.below(level)?)
-        })
+        let (mut leaves, mut inner) = (None, None);
+        match self.above_leaves(stage) {
+            true => leaves = Some(self.leaves(level)?),
+            false => inner = Some(self.below(level)?),
+        }
+        Some(Children { leaves, inner })
     }
 
-    /// From the last generation to the first. The equations stand once in here, for
-    /// all kinds of links: every copy of them is compiled with each model, three
-    /// times.
+    /// From the last generation to the first. The equations stand here once, for links
+    /// above leaves and others, and once for the uppermost generations: every copy of
+    /// them is compiled with each model, three times.
     #[inline(always)]
     fn up<V: Vector<T>>(&self) -> Option<()> {
-        let narrow = self.part.narrow(V::LANES);
-        let mut answers = [V::from_f64(0.0); R];
+        let crown = self.part.crown(V::LANES);
         let mut stage = self.part.inner;
-        while stage > 0 {
+        while stage > crown {
             stage -= 1;
             let mut run = 0;
             while run < self.part.stages.get(stage)?.runs {
                 let level = self.level::<V>(stage, run)?;
-                let children = self.children::<V>(stage, narrow, &level)?;
+                let children = self.children(stage, &level)?;
                 let constants = splat(&level.constants);
                 let mut index = 0;
                 while index < level.length {
                     let at = index.min(level.last::<V>());
-                    let below = children.answers::<V, P, L, K>(at, &level, &answers)?;
-                    let kept;
-                    (answers, kept) = P::inner(&constants, level.own.motion(at)?, below);
+                    let below = children.answers::<V, P, L, K>(at)?;
+                    let (answers, kept) = P::inner(&constants, level.own.motion(at)?, below);
                     level.answers.store(at, &answers)?;
                     level.kept.store(at, &kept)?;
                     index += V::LANES;
@@ -295,42 +291,79 @@ where
                 run += 1;
             }
         }
-        Some(())
+        self.crown_up::<V>(crown)
     }
 
-    /// From the first generation to the last. The acceleration of the first one's
-    /// pivots is the root's or in memory.
+    /// The generations above `crown`.
+    #[inline(always)]
+    fn crown_up<V: Vector<T>>(&self, crown: usize) -> Option<()> {
+        let part = self.part;
+        let mut below = part.stages.get(crown)?;
+        let mut answers: [V; R] = self.answers.load(below.slot)?;
+        for generation in (0..crown).rev() {
+            let stage = part.stages.get(generation)?;
+            let mut sums = answers;
+            for copy in 1..below.copies {
+                for i in 0..R {
+                    sums[i] = sums[i] + answers[i].behind(copy * stage.count);
+                }
+            }
+            let constants = splat(self.row(part.first + generation)?);
+            let kept;
+            (answers, kept) = P::inner(&constants, self.links.motion(stage.own)?, sums);
+            self.kept.store(stage.slot, &kept)?;
+            below = stage;
+        }
+        self.answers.store(below.slot, &answers)
+    }
+
+    /// From the first generation, the acceleration of whose pivots is the root's or in
+    /// memory, to the last.
     #[inline(always)]
     fn down<V: Vector<T>>(&mut self) -> Option<()> {
-        let narrow = self.part.narrow(V::LANES);
-        // Of the generation at hand, where it is in registers.
-        let mut pivot = splat::<T, V, 2>(&self.root.unwrap_or([T::from_f64(0.0); 2]));
-        let mut in_registers = self.root.is_some();
-        let mut stage = 0;
+        let crown = self.part.crown(V::LANES);
+        self.crown_down::<V>(crown)?;
+        let mut stage = crown;
         while stage < self.part.inner {
             let mut run = 0;
             while run < self.part.stages.get(stage)?.runs {
                 let level = self.level::<V>(stage, run)?;
-                let children = self.children::<V>(stage, narrow, &level)?;
+                let children = self.children(stage, &level)?;
                 let constants = splat(&level.constants);
                 let mut index = 0;
                 while index < level.length {
                     let at = index.min(level.last::<V>());
-                    if !in_registers {
-                        pivot = level.answers.load(at)?;
-                    }
                     let (link, kept) = (level.own.motion(at)?, level.kept.load(at)?);
+                    let pivot = level.answers.load(at)?;
                     let (acceleration, below) = P::turn(&constants, link, kept, pivot);
                     level.alpha.store(at, acceleration, level.length);
-                    children.turn::<V, P, L, K>(at, &level, below, &mut pivot)?;
+                    children.turn::<V, P, L, K>(at, below)?;
                     index += V::LANES;
                 }
-                in_registers = matches!(children, Children::Registers);
                 run += 1;
             }
             stage += 1;
         }
         Some(())
+    }
+
+    #[inline(always)]
+    fn crown_down<V: Vector<T>>(&mut self, crown: usize) -> Option<()> {
+        let part = self.part;
+        let mut pivot = match &self.root {
+            Some(root) => splat::<T, V, 2>(root),
+            None => self.answers.load(part.stages.first()?.slot)?,
+        };
+        for generation in 0..crown {
+            let stage = part.stages.get(generation)?;
+            let constants = splat(self.constants.get(part.first + generation)?);
+            let kept: [V; K] = self.kept.load(stage.slot)?;
+            let link = self.links.motion(stage.own)?;
+            let (acceleration, [x, y]) = P::turn(&constants, link, kept, pivot);
+            self.alpha.store(stage.whole, acceleration, stage.count);
+            pivot = [x.repeat(stage.count), y.repeat(stage.count)];
+        }
+        self.answers.store(part.stages.get(crown)?.slot, &pivot)
     }
 }
 
