@@ -3,6 +3,7 @@
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 use branched_pendulum_tests::random::Random;
+use branched_pendulum_tests::source;
 
 use super::{Powered, agree, array, balance, pair, powered};
 
@@ -142,4 +143,48 @@ fn a_large_driven_tree_is_the_same_in_other_scalars_and_on_more_threads() {
     model.accelerations_into(0.75, &theta, &omega, &mut later);
     assert!((later[0] - alpha[0]).abs() > 0.1);
     assert_eq!(model.drive(0.0), [-0.0, 0.0, 2.0]);
+}
+
+/// Each demand adds its own code and nothing else.
+#[test]
+fn loops_have_only_what_their_scene_asks_for() {
+    let code = |more: &str| {
+        let text = format!(
+            "#[branched_pendulum(gravity = 9.8, code = loops, emit(energies), {more})] \
+             struct Sample;"
+        );
+        source::stages_of(&text).tokens.to_string()
+    };
+    let straight = "a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) ]";
+    let bent =
+        "a(mass = 1, com = (0.5, 0.1), inertia = 1, joint = 1) [ b: rod(mass = 1, length = 1) ]";
+    let placed = "a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1), \
+                  c: rod(mass = 1, length = 1, at = 0.5) ]";
+    let words = [
+        "time : T",
+        "drive",
+        "per_lever",
+        "TORQUE",
+        "facing",
+        "PlacedTable",
+        "Bodies",
+    ];
+    let drive = "drive(torque = cos(t), x = sin(t))";
+    let cases = [
+        (straight.to_owned(), vec![]),
+        (format!("{straight}, {drive}"), vec![0, 1, 2, 3, 6]),
+        (
+            format!("{straight}, drive(torque = cos(t))"),
+            vec![0, 1, 3, 6],
+        ),
+        (format!("{straight}, drive(y = t^2)"), vec![0, 1, 2, 6]),
+        (bent.to_owned(), vec![4, 6]),
+        (placed.to_owned(), vec![5, 6]),
+    ];
+    for (scene, expected) in cases {
+        // `_time` is of every model.
+        let code = code(&scene).replace("_time : T", "");
+        let found = (0..words.len()).filter(|&word| code.contains(words[word]));
+        assert_eq!(found.collect::<Vec<usize>>(), expected, "{scene}");
+    }
 }
