@@ -59,12 +59,13 @@ fn main() -> ExitCode {
     let rows = measure::all(REPEATS);
     println!("{}", output::table(&rows));
     println!("{}", output::errors(&accuracy::all(STATES)));
-    print!("{}", large::tables(&large::all(), &large::irregular()));
+    let large = large::all();
+    print!("{}", large::tables(&large, &large::irregular()));
     print!("{}", large_batches::table(&large_batches::all()));
     exit::of_run(
         "evaluation-speed",
         match folder {
-            Some(folder) => output::write(&folder, &rows).map(drop),
+            Some(folder) => output::write(&folder, &rows, &large).map(drop),
             None => Ok(()),
         },
     )

@@ -7,6 +7,7 @@ use branched_pendulum::chart::{Axis, Chart, ChartError, Panel, Series};
 use branched_pendulum::scalar::InstructionSet;
 
 use super::accuracy::Errors;
+use super::large;
 use super::measure::{CONTENDERS, Row};
 
 /// The table that the program prints: times, and beneath each row the ratios to
@@ -81,7 +82,7 @@ fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
 
 /// Time for one link against the number of links.
 #[must_use]
-pub fn chart(rows: &[Row]) -> Chart {
+pub fn chart(rows: &[Row], large: &[large::Row]) -> Chart {
     let mut panel = Panel::new(Axis::log("time for one link (ns)"));
     for (index, name) in CONTENDERS.iter().enumerate() {
         let points: Vec<(f64, f64)> = rows
@@ -94,6 +95,17 @@ pub fn chart(rows: &[Row]) -> Chart {
         let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
         panel = panel.series(Series::line(*name, &x, &y).with_symbols());
     }
+    // In smaller trees threads take longer to start than the work takes.
+    let threaded = large.partition_point(|row| row.links < 100_000);
+    let loops: [(&str, &[large::Row], fn(&large::Row) -> f64); 2] = [
+        ("loops", large, |row| row.one),
+        ("two threads", &large[threaded..], |row| row.two),
+    ];
+    for (name, rows, time) in loops {
+        let links: Vec<f64> = rows.iter().map(|row| row.links as f64).collect();
+        let times: Vec<f64> = rows.iter().map(time).collect();
+        panel = panel.series(Series::line(name, &links, &times).with_symbols());
+    }
     Chart::new("Accelerations of one state", Axis::log("links")).panel(panel)
 }
 
@@ -101,8 +113,12 @@ pub fn chart(rows: &[Row]) -> Chart {
 ///
 /// # Errors
 /// [`ChartError`].
-pub fn write(folder: &Path, rows: &[Row]) -> Result<Vec<PathBuf>, ChartError> {
-    let chart = chart(rows);
+pub fn write(
+    folder: &Path,
+    rows: &[Row],
+    large: &[large::Row],
+) -> Result<Vec<PathBuf>, ChartError> {
+    let chart = chart(rows, large);
     let files = [
         folder.join("evaluation-speed.svg"),
         folder.join("evaluation-speed.png"),
