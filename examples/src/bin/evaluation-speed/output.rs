@@ -97,15 +97,12 @@ pub fn chart(rows: &[Row], large: &[large::Row]) -> Chart {
     }
     // In smaller trees threads take longer to start than the work takes.
     let threaded = large.partition_point(|row| row.links < 100_000);
-    let loops: [(&str, &[large::Row], fn(&large::Row) -> f64); 2] = [
-        ("loops", large, |row| row.one),
-        ("two threads", &large[threaded..], |row| row.two),
-    ];
-    for (name, rows, time) in loops {
-        let links: Vec<f64> = rows.iter().map(|row| row.links as f64).collect();
-        let times: Vec<f64> = rows.iter().map(time).collect();
-        panel = panel.series(Series::line(name, &links, &times).with_symbols());
-    }
+    let links: Vec<f64> = large.iter().map(|row| row.links as f64).collect();
+    let one: Vec<f64> = large.iter().map(|row| row.one).collect();
+    let two: Vec<f64> = large.iter().map(|row| row.two).collect();
+    panel = panel
+        .series(Series::line("loops", &links, &one).with_symbols())
+        .series(Series::line("two threads", &links[threaded..], &two[threaded..]).with_symbols());
     Chart::new("Accelerations of one state", Axis::log("links")).panel(panel)
 }
 
