@@ -34,6 +34,7 @@ mod cut;
 mod energy;
 mod evaluate;
 mod layout;
+mod links;
 mod memory;
 mod name;
 mod part;

@@ -5,12 +5,12 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::marker::PhantomData;
 
+use super::links::{State, by_depth, depths, load, store};
 use super::pool::Pool;
 use super::recursion::Motion;
 use super::root::RootDrive;
 use super::sweep::splat;
-use super::table::{State, Turns, by_depth, depths, load, store};
-use super::vector::{SliceKernel, Vector, Vectors, each};
+use super::vector::{SliceKernel, Vector, Vectors};
 use crate::scalar::Scalar;
 
 /// The equations of one link that carries its children where they hang, for
@@ -170,27 +170,11 @@ where
 {
     #[inline(always)]
     fn run<W: Vectors<T>>(self) {
+        let (state, buffer) =
+            State::new::<W::Wide>(self.table.parents, self.theta, self.omega, self.buffer);
         let n = self.alpha.len();
-        let (sines, buffer) = self.buffer.split_at_mut(n);
-        let (cosines, buffer) = buffer.split_at_mut(n);
         let (below, buffer) = buffer.split_at_mut(S * n);
         let kept = buffer.get_mut(..K * n).unwrap_or_default();
-        let (theta, omega) = (self.theta, self.omega);
-        let _ = each::<T, W::Wide>(
-            n,
-            &mut Turns {
-                theta,
-                sines,
-                cosines,
-            },
-        );
-        let state = State {
-            parents: self.table.parents,
-            theta,
-            omega,
-            sines,
-            cosines,
-        };
         let torque = self.drive.map(|drive| drive.torque);
         up::<P, T, W::One, C, R, S, K>(self.table, torque, &state, below, kept);
         let root = RootDrive::above(self.table.root, self.drive);

@@ -4,12 +4,13 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::marker::PhantomData;
 
+use super::links::{State, by_depth, depths, load, store};
 use super::pool::Pool;
-use super::recursion::{Motion, Recursion};
+use super::recursion::Recursion;
 use super::root::RootDrive;
 use super::sweep::splat;
 use super::table_energy as energy;
-use super::vector::{SliceKernel, Step, Vector, Vectors, each};
+use super::vector::{SliceKernel, Vector, Vectors};
 use crate::scalar::Scalar;
 
 /// The columns of a link's constants that say how it acts on its parent.
@@ -49,23 +50,6 @@ pub struct Table<P, T, const C: usize, const R: usize, const K: usize> {
     pub(super) energies: Vec<[T; 7]>,
     pub(super) pool: Pool<T>,
     pub(super) recursion: PhantomData<P>,
-}
-
-/// How many links are above each one.
-pub(super) fn depths(parents: &[u32]) -> Vec<u32> {
-    let mut depths: Vec<u32> = Vec::with_capacity(parents.len());
-    for &parent in parents {
-        // The root comes first, and has none above.
-        depths.push(depths.get(parent as usize).map_or(0, |depth| depth + 1));
-    }
-    depths
-}
-
-/// The links by their depth, those of one depth in their order.
-pub(super) fn by_depth(depths: &[u32]) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..).take(depths.len()).collect();
-    order.sort_by_key(|&link| depths.get(link as usize).copied());
-    order
 }
 
 /// Rows of a table in a model's scalar. Each number is given as the `f64` nearest
@@ -198,87 +182,6 @@ struct Accelerations<'a, P, T, const C: usize, const R: usize, const K: usize> {
     buffer: &'a mut [T],
 }
 
-/// Sines and cosines.
-pub(super) struct Turns<'a, T> {
-    pub(super) theta: &'a [T],
-    pub(super) sines: &'a mut [T],
-    pub(super) cosines: &'a mut [T],
-}
-
-impl<T: Scalar, V: Vector<T>> Step<V> for Turns<'_, T> {
-    #[inline(always)]
-    fn at(&mut self, index: usize) -> Option<()> {
-        let (sine, cosine) = V::load(self.theta, index).sin_cos();
-        sine.store(self.sines, index);
-        cosine.store(self.cosines, index);
-        Some(())
-    }
-}
-
-/// What does not change on the way through the links.
-pub(super) struct State<'a, T> {
-    pub(super) parents: &'a [u32],
-    pub(super) theta: &'a [T],
-    pub(super) omega: &'a [T],
-    pub(super) sines: &'a [T],
-    pub(super) cosines: &'a [T],
-}
-
-impl<T: Scalar> State<'_, T> {
-    #[inline(always)]
-    pub(super) fn parent(&self, link: usize) -> usize {
-        self.parents.get(link).map_or(0, |&parent| parent as usize)
-    }
-
-    /// Links stand depth first: a link's first child comes next.
-    #[inline(always)]
-    pub(super) fn is_leaf(&self, link: usize) -> bool {
-        link + 1 >= self.parents.len() || self.parent(link + 1) != link
-    }
-
-    #[inline(always)]
-    pub(super) fn motion<V: Vector<T>>(&self, link: usize, joints: bool) -> Motion<V> {
-        let (theta, omega) = (V::load(self.theta, link), V::load(self.omega, link));
-        let (mut bend, mut bend_rate) = (theta, omega);
-        if joints && link > 0 {
-            let parent = self.parent(link);
-            bend = bend - V::load(self.theta, parent);
-            bend_rate = bend_rate - V::load(self.omega, parent);
-        }
-        Motion {
-            sine: V::load(self.sines, link),
-            cosine: V::load(self.cosines, link),
-            omega,
-            bend,
-            bend_rate,
-        }
-    }
-}
-
-/// Loads `N` numbers of a link.
-#[inline(always)]
-pub(super) fn load<T: Scalar, V: Vector<T>, const N: usize>(all: &[T], link: usize) -> [V; N] {
-    let own = all.get(link * N..link * N + N).unwrap_or_default();
-    let mut values = [V::from_f64(0.0); N];
-    for (i, value) in values.iter_mut().enumerate() {
-        *value = V::load(own, i);
-    }
-    values
-}
-
-/// Stores `N` numbers of a link.
-#[inline(always)]
-pub(super) fn store<T: Scalar, V: Vector<T>, const N: usize>(
-    values: [V; N],
-    all: &mut [T],
-    link: usize,
-) {
-    let own = all.get_mut(link * N..link * N + N).unwrap_or_default();
-    for (i, value) in values.into_iter().enumerate() {
-        value.store(own, i);
-    }
-}
-
 impl<P, T, const C: usize, const R: usize, const K: usize> SliceKernel<T>
     for Accelerations<'_, P, T, C, R, K>
 where
@@ -287,31 +190,14 @@ where
 {
     #[inline(always)]
     fn run<W: Vectors<T>>(self) {
+        let (state, buffer) =
+            State::new::<W::Wide>(self.table.parents, self.theta, self.omega, self.buffer);
         let n = self.alpha.len();
-        let (sines, buffer) = self.buffer.split_at_mut(n);
-        let (cosines, buffer) = buffer.split_at_mut(n);
         let (below, buffer) = buffer.split_at_mut(R * n);
         let kept = buffer.get_mut(..K * n).unwrap_or_default();
-        let (theta, omega) = (self.theta, self.omega);
-        let _ = each::<T, W::Wide>(
-            n,
-            &mut Turns {
-                theta,
-                sines,
-                cosines,
-            },
-        );
-        let state = State {
-            parents: self.table.parents,
-            theta,
-            omega,
-            sines,
-            cosines,
-        };
-        let drive = self.drive;
-        let torque = drive.map(|drive| drive.torque);
+        let torque = self.drive.map(|drive| drive.torque);
         up::<P, T, W::One, C, R, K>(self.table, torque, &state, below, kept);
-        let root = RootDrive::above(self.table.root, drive);
+        let root = RootDrive::above(self.table.root, self.drive);
         down::<P, T, W::One, C, R, K>(self.table, root, &state, below, kept, self.alpha);
     }
 }
