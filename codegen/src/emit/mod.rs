@@ -10,6 +10,7 @@ mod function;
 mod gather;
 mod generations;
 mod late;
+mod link_equations;
 mod loops;
 mod model;
 mod names;

@@ -4,7 +4,7 @@
 use super::Emission;
 use super::docs::doc_lines;
 use super::function::ident;
-use super::generations::{in_joint, torque};
+use super::link_equations::{in_joint, torque};
 use crate::scene::{Forces, Quantity, Table, placed_columns};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
