@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::part::{Part, SLOTS, Stage};
+use super::runs::Runs;
 
 /// Neighbours in a part: whole vectors, and runs that are long enough to be fetched
 /// ahead.
@@ -31,8 +32,24 @@ pub(super) struct Cut {
     /// a part end with the generation behind.
     pub(super) has_leaves: bool,
     /// The generations of a part, and of the last one, which has another width.
-    part: Vec<Stage>,
-    last: Vec<Stage>,
+    part: Stages,
+    last: Stages,
+}
+
+/// The generations of a part.
+#[derive(Clone, Debug, PartialEq)]
+struct Stages {
+    stages: Vec<Stage>,
+    runs: Runs,
+}
+
+impl Stages {
+    /// Of stages from the generation `first` on.
+    fn new(stages: Vec<Stage>, first: usize, has_leaves: bool) -> Self {
+        let inner = stages.len().saturating_sub(1);
+        let runs = Runs::new(&stages, first, inner, has_leaves);
+        Self { stages, runs }
+    }
 }
 
 /// How many parts so many links are. The last one also takes links that would be too
@@ -50,6 +67,7 @@ impl Cut {
         has_leaves: bool,
         stages: impl Fn(usize) -> Vec<Stage>,
     ) -> Self {
+        let stages = |width| Stages::new(stages(width), first, has_leaves);
         Self {
             first,
             count,
@@ -93,18 +111,18 @@ impl Cut {
     /// The part that starts with a link.
     fn window(&self, start: usize) -> Part<'_> {
         let rest = self.count - start;
-        let (width, stages) = match rest < WIDTH + SLOTS {
+        let (width, Stages { stages, runs }) = match rest < WIDTH + SLOTS {
             true => (rest, &self.last),
             false => (WIDTH, &self.part),
         };
         Part {
             stages,
-            first: self.first,
             inner: stages.len().saturating_sub(1),
             has_leaves: self.has_leaves,
             start,
             width,
             ends: false,
+            runs,
         }
     }
 

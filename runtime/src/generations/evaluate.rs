@@ -11,7 +11,7 @@ use super::part::Part;
 use super::recursion::Recursion;
 use super::root::RootDrive;
 use super::shared::Shared;
-use super::sweep::{self, Sweep};
+use super::sweep::{self, Access, Sweep};
 use super::tree::Tree;
 use super::turns::Turns;
 use crate::scalar::Scalar;
@@ -19,8 +19,8 @@ use crate::scalar::Scalar;
 /// The ways through a part, compiled for one recursion.
 #[derive(Debug)]
 pub struct Kernels<T: 'static> {
-    pub(super) up: fn(&mut Sweep<'_, T>),
-    pub(super) down: fn(&mut Sweep<'_, T>),
+    pub(super) up: fn(&Access<'_, T>),
+    pub(super) down: fn(&Access<'_, T>),
 }
 
 impl<T: Scalar> Kernels<T> {
@@ -64,9 +64,8 @@ impl<T: Scalar> Evaluation<'_, T> {
         }
     }
 
-    /// From the leaves, or what is known of the generation `below`, to the first
-    /// generation.
-    fn up(&self, sweep: &mut Sweep<'_, T>, below: Option<Boundary<'_, T>>) {
+    /// What is known before the recursion, with what is of the generation `below`.
+    fn prepare(&self, sweep: &mut Sweep<'_, T>, below: Option<Boundary<'_, T>>) {
         if let Some(below) = below {
             below.load_answers(sweep);
         }
@@ -74,12 +73,22 @@ impl<T: Scalar> Evaluation<'_, T> {
         if self.tree.layout.sizes.joints {
             sweep.bend();
         }
-        (self.kernels.up)(sweep);
+    }
+
+    /// From the leaves, or what is known of the generation `below`, to the first
+    /// generation.
+    fn up(&self, sweep: &mut Sweep<'_, T>, below: Option<Boundary<'_, T>>) {
+        self.prepare(sweep, below);
+        if let Some(access) = sweep.access() {
+            (self.kernels.up)(&access);
+        }
     }
 
     /// From the first generation to the leaves, or the generation `below`.
     fn down(&self, sweep: &mut Sweep<'_, T>, below: Option<Boundary<'_, T>>) {
-        (self.kernels.down)(sweep);
+        if let Some(access) = sweep.access() {
+            (self.kernels.down)(&access);
+        }
         if let Some(below) = below {
             below.store_pivots(sweep);
         }
@@ -100,9 +109,15 @@ impl<T: Scalar> Evaluation<'_, T> {
             let lasting = take(&mut buffer, layout.top.lasting());
             let mut sweep = self.sweep(plan.top(), &layout.top, [lasting, buffer], alpha);
             sweep.torque = self.drive.map(|drive| drive.torque);
-            self.up(&mut sweep, below);
             sweep.root = Some(RootDrive::above(self.tree.root, self.drive));
-            self.down(&mut sweep, below);
+            self.prepare(&mut sweep, below);
+            if let Some(access) = sweep.access() {
+                (self.kernels.up)(&access);
+                (self.kernels.down)(&access);
+            }
+            if let Some(below) = below {
+                below.store_pivots(&mut sweep);
+            }
             return;
         };
         let threads = self.tree.threads;

@@ -40,14 +40,20 @@ pub(super) struct Extent {
     links: usize,
     /// The length of columns of links with children.
     slots: usize,
+    /// The length of a copy of the velocities, where registers would reach beyond the
+    /// end of those that are given.
+    velocities: usize,
 }
 
 impl Extent {
     pub(super) fn new<T>(part: &Part<'_>, sizes: Sizes) -> Self {
         let last = part.own_stages().last().map_or(0, |last| last.own);
         let lead = last.next_multiple_of(line::<T>()) - last;
+        let read = part.runs.reach().read;
+        let all = part.is_whole() && part.has_leaves;
         // A register more: the last numbers are read with what is behind them.
         Self {
+            velocities: if all && read > part.links() { read } else { 0 },
             sizes,
             lead,
             links: odd_lines::<T>(lead + part.links() + SLOTS),
@@ -57,8 +63,8 @@ impl Extent {
 
     /// How many numbers are read on the way down that were formed on the way up.
     pub(super) fn lasting(&self) -> usize {
-        let turns = if self.sizes.joints { 5 } else { 3 };
-        turns * self.links + self.sizes.kept * self.slots
+        let turns = if self.sizes.joints { 4 } else { 2 };
+        turns * self.links + self.sizes.kept * self.slots + self.velocities
     }
 
     /// How many others there are.
@@ -78,10 +84,11 @@ impl Extent {
             lead,
             links,
             slots,
+            velocities,
         } = self;
         Storage {
             sizes,
-            turns: Columns::new(take(lasting, 3 * links), links),
+            turns: Columns::new(take(lasting, 2 * links), links),
             bends: match sizes.joints {
                 true => Columns::new(take(lasting, 2 * links), links),
                 false => Columns::new(&mut [], 0),
@@ -89,6 +96,7 @@ impl Extent {
             lead,
             answers: take(&mut passing, sizes.answers * slots),
             kept: take(lasting, sizes.kept * slots),
+            velocities: take(lasting, velocities),
             slots,
         }
     }
@@ -98,8 +106,8 @@ impl Extent {
 #[derive(Debug)]
 pub(super) struct Storage<'a, T> {
     pub(super) sizes: Sizes,
-    /// Sine, cosine and angular velocity of each link, from row `lead` on.
-    pub(super) turns: Columns<'a, T, 3>,
+    /// Sine and cosine of each link's angle, from row `lead` on.
+    pub(super) turns: Columns<'a, T, 2>,
     /// Likewise angles and velocities relative to the parents; empty where nothing
     /// acts in joints.
     pub(super) bends: Columns<'a, T, 2>,
@@ -109,6 +117,9 @@ pub(super) struct Storage<'a, T> {
     pub(super) answers: &'a mut [T],
     /// Columns of what is kept of them.
     pub(super) kept: &'a mut [T],
+    /// Room for the velocities of all links of the tree and more; empty where they
+    /// are read where they are given.
+    pub(super) velocities: &'a mut [T],
     /// The length of these columns.
     pub(super) slots: usize,
 }

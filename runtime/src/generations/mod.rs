@@ -44,6 +44,7 @@ mod pool;
 mod prefetch;
 mod recursion;
 mod root;
+mod runs;
 mod shared;
 mod states;
 mod sweep;

@@ -1,5 +1,7 @@
 //! Which links are computed together.
 
+use super::runs::Runs;
+
 /// The neighbours of one generation in a part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stage {
@@ -71,8 +73,6 @@ pub(super) fn stages(
 pub(super) struct Part<'a> {
     /// The generations, and where the last one's links have children, these.
     pub(super) stages: &'a [Stage],
-    /// The first one's place among all.
-    pub(super) first: usize,
     /// How many generations have children.
     pub(super) inner: usize,
     /// Whether there is one more, of leaves.
@@ -82,10 +82,12 @@ pub(super) struct Part<'a> {
     pub(super) width: usize,
     /// Whether its results are written once it has gone up.
     pub(super) ends: bool,
+    /// Its links with children.
+    pub(super) runs: &'a Runs,
 }
 
 /// Neighbours of a generation: where the first one stands.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     /// In the part's own arrays of all links.
     pub(super) own: usize,
@@ -116,24 +118,9 @@ impl Part<'_> {
         last.map_or(0, |last| last.slot + last.count.next_multiple_of(SLOTS))
     }
 
-    /// The last one of the first generations with children that fit a vector each: those
-    /// above it go from one to the next in registers.
-    // A call costs 10 ns here: the wide registers have to be given up for it.
-    #[inline(always)]
-    pub(super) fn crown(&self, lanes: usize) -> usize {
-        let mut narrow = 0;
-        while let Some(stage) = self.stages.get(narrow) {
-            if narrow == self.inner || stage.runs > 1 || stage.count > lanes {
-                break;
-            }
-            narrow += 1;
-        }
-        narrow.saturating_sub(1)
-    }
-
     /// Whether it takes all links of its generations.
     #[inline(always)]
-    fn is_whole(&self) -> bool {
+    pub(super) fn is_whole(&self) -> bool {
         let first = self.stages.first();
         first.is_none_or(|first| first.stride == self.width)
     }

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::cut::{Cut, WIDTH};
 use super::part::{Part, Stage, stages};
+use super::runs::Runs;
 
 /// Trees of up to so many links are computed in one piece, and so many links in a
 /// part: their numbers fit into the second cache.
@@ -17,6 +18,8 @@ const INNER: usize = 4096;
 pub(super) struct Plan {
     /// Of the whole tree.
     stages: Vec<Stage>,
+    /// Above the cuts.
+    runs: Runs,
     /// From the leaves up; none where the tree is one.
     pub(super) cuts: Vec<Cut>,
 }
@@ -61,10 +64,15 @@ impl Plan {
             ));
             (end, above, fitting) = (first, starts[first], INNER);
         }
-        Self {
-            stages: stages(copies, &starts, &counts, 0, 1).collect(),
-            cuts,
-        }
+        let stages: Vec<Stage> = stages(copies, &starts, &counts, 0, 1).collect();
+        let inner = inner(&stages, &cuts);
+        let runs = Runs::new(
+            stages.get(..=inner).unwrap_or_default(),
+            0,
+            inner,
+            cuts.is_empty(),
+        );
+        Self { stages, runs, cuts }
     }
 
     /// Of the whole tree.
@@ -99,18 +107,23 @@ impl Plan {
 
     /// The generations above the cuts, or the whole tree.
     pub(super) fn top(&self) -> Part<'_> {
-        let leaf = self.stages.len().saturating_sub(1);
-        let inner = self.cuts.last().map_or(leaf, |cut| cut.first);
+        let inner = inner(&self.stages, &self.cuts);
         Part {
             stages: self.stages.get(..=inner).unwrap_or_default(),
-            first: 0,
             inner,
             has_leaves: self.cuts.is_empty(),
             start: 0,
             width: 1,
             ends: true,
+            runs: &self.runs,
         }
     }
+}
+
+/// How many generations above the cuts have children.
+fn inner(stages: &[Stage], cuts: &[Cut]) -> usize {
+    let leaf = stages.len().saturating_sub(1);
+    cuts.last().map_or(leaf, |cut| cut.first)
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@
 use core::marker::PhantomData;
 
 use super::prefetch::prefetch;
-use super::vector::Vector;
 
 /// A mutable slice whose elements are written from several places.
 #[derive(Debug)]
@@ -48,35 +47,32 @@ impl<'a, T: Copy> Shared<'a, T> {
         })
     }
 
+    /// `length` numbers from `at` on.
+    pub(super) fn window(self, at: usize, length: usize) -> Option<Self> {
+        let rest = self.from(at)?;
+        (length <= rest.length).then_some(Self { length, ..rest })
+    }
+
+    /// Where the first number is.
+    #[inline(always)]
+    pub(super) fn start(self) -> *mut T {
+        self.start
+    }
+
     /// Asks the memory for the line of a number that will be written soon.
     #[inline(always)]
     pub(super) fn prefetch(self, at: usize) {
         prefetch(self.start.wrapping_add(at));
     }
 
-    /// Writes the first `count` numbers of a vector from `at` on, all where there
-    /// are not so many; none where they do not fit. Of two threads that write at one
-    /// time, each must write elsewhere: the parts of a tree have no link in common.
-    #[inline(always)]
-    pub(super) fn store<V: Vector<T>>(self, at: usize, vector: V, count: usize) {
-        // SAFETY, for both: the elements lie in the slice, which is borrowed mutably
-        // for as long as this lives. No other thread writes there, and none reads
-        // before all are done.
-        if count >= V::LANES {
-            if V::LANES <= self.length && at <= self.length - V::LANES {
-                unsafe { vector.write(self.start.add(at)) };
-            }
-        } else if at <= self.length && count <= self.length - at {
-            let places = unsafe { core::slice::from_raw_parts_mut(self.start.add(at), count) };
-            vector.store(places, 0);
-        }
-    }
-
-    /// Writes numbers from `at` on; none where they do not fit. As for
-    /// [`store`](Self::store).
+    /// Writes numbers from `at` on; none where they do not fit. Of two threads that
+    /// write at one time, each must write elsewhere: the parts of a tree have no link
+    /// in common.
     pub(super) fn write(self, at: usize, numbers: &[T]) {
         if at <= self.length && numbers.len() <= self.length - at {
-            // SAFETY: as for `store`.
+            // SAFETY: the elements lie in the slice, which is borrowed mutably for as
+            // long as this lives. No other thread writes there, and none reads before
+            // all are done.
             let places =
                 unsafe { core::slice::from_raw_parts_mut(self.start.add(at), numbers.len()) };
             places.copy_from_slice(numbers);
@@ -92,69 +88,5 @@ impl<'a, T: Copy> Shared<'a, T> {
             let numbers = unsafe { core::slice::from_raw_parts(self.start.add(at), places.len()) };
             places.copy_from_slice(numbers);
         }
-    }
-
-    /// `count` numbers from `at` on, and as many of each other copy, so far apart.
-    #[inline(always)]
-    pub(super) fn copies(
-        self,
-        at: usize,
-        count: usize,
-        [copies, apart]: [usize; 2],
-    ) -> Option<Copies<'a, T>> {
-        let reach = copies.checked_sub(1)?.checked_mul(apart)?;
-        let rest = self.from(at)?;
-        (reach.checked_add(count)? <= rest.length).then_some(Copies {
-            first: Self {
-                length: count,
-                ..rest
-            },
-            copies,
-            apart,
-        })
-    }
-}
-
-/// Runs of equal length, equally far apart.
-#[derive(Debug)]
-pub(super) struct Copies<'a, T> {
-    first: Shared<'a, T>,
-    copies: usize,
-    apart: usize,
-}
-
-impl<T> Clone for Copies<'_, T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Copies<'_, T> {}
-
-impl<'a, T: Copy> Copies<'a, T> {
-    /// Places for vectors at `at` in each run.
-    #[inline(always)]
-    pub(super) fn at(self, at: usize) -> AtCopies<'a, T> {
-        AtCopies { runs: self, at }
-    }
-}
-
-/// Places for vectors in runs, from the first on.
-#[derive(Debug)]
-pub(super) struct AtCopies<'a, T> {
-    runs: Copies<'a, T>,
-    at: usize,
-}
-
-impl<T: Copy> AtCopies<'_, T> {
-    /// Writes to the next run, as [`Shared::store`] does with its length.
-    #[inline(always)]
-    pub(super) fn store<V: Vector<T>>(&mut self, vector: V) -> Option<()> {
-        let runs = &mut self.runs;
-        runs.copies = runs.copies.checked_sub(1)?;
-        runs.first.store(self.at, vector, runs.first.length);
-        // Behind the last run, where this may point to nothing, there is no store.
-        runs.first.start = runs.first.start.wrapping_add(runs.apart);
-        Some(())
     }
 }

@@ -7,7 +7,7 @@ use super::sweep::Sweep;
 use super::vector::{SliceKernel, Vector, Vectors};
 use crate::scalar::Scalar;
 
-/// Sines and cosines of a part's angles, and its velocities.
+/// Sines and cosines of a part's angles.
 pub(super) struct Turns<'a, 'b, T>(pub(super) &'a mut Sweep<'b, T>);
 
 impl<T: Scalar> SliceKernel<T> for Turns<'_, '_, T> {
@@ -22,10 +22,13 @@ impl<T: Scalar> SliceKernel<T> for Turns<'_, '_, T> {
             ..
         } = self.0;
         let turns = storage.turns;
+        if let Some(places) = storage.velocities.get_mut(..omega.len()) {
+            places.copy_from_slice(omega);
+        }
         for (own, whole, length) in part.spans() {
             let span = Span {
                 theta: theta.get(whole..whole + length).unwrap_or_default(),
-                omega: omega.get(whole..whole + length).unwrap_or_default(),
+                omega: omega.as_ptr().wrapping_add(whole),
                 turns: turns.window(storage.lead + own, length.max(W::Wide::LANES)),
                 ahead: part.ahead(),
                 alpha: alpha.from(whole).filter(|_| part.ends),
@@ -38,8 +41,9 @@ impl<T: Scalar> SliceKernel<T> for Turns<'_, '_, T> {
 /// Neighbours.
 struct Span<'a, T> {
     theta: &'a [T],
-    omega: &'a [T],
-    turns: Option<Columns<'a, T, 3>>,
+    /// The velocities, which are read next.
+    omega: *const T,
+    turns: Option<Columns<'a, T, 2>>,
     /// How far the links are that come next.
     ahead: Option<usize>,
     /// The results, where they are written next.
@@ -62,12 +66,11 @@ impl<T: Scalar> Span<'_, T> {
             ];
             let (sines, cosines) = V::sin_cos_each(&angles);
             for i in 0..2 {
-                let velocity = V::load(self.omega, places[i]);
-                turns.store(places[i], &[sines[i], cosines[i], velocity])?;
+                turns.store(places[i], &[sines[i], cosines[i]])?;
                 if let Some(ahead) = self.ahead {
                     let next = places[i] + ahead;
                     prefetch(self.theta.as_ptr().wrapping_add(next));
-                    prefetch(self.omega.as_ptr().wrapping_add(next));
+                    prefetch(self.omega.wrapping_add(next));
                     if let Some(alpha) = self.alpha {
                         alpha.prefetch(next);
                     }

@@ -1,5 +1,7 @@
 //! Neighbours in a slice, as many as fit a register.
 
+use core::slice::from_raw_parts_mut;
+
 use crate::scalar::{Lane, Lanes, Scalar};
 
 /// Several consecutive numbers of a slice of `T`, computed in step; a plain
@@ -26,6 +28,12 @@ pub trait Vector<T>: Scalar {
     /// # Safety
     /// So many numbers may be written there.
     unsafe fn write(self, start: *mut T);
+
+    /// Writes its first `count` numbers to `start`, of which it has more.
+    ///
+    /// # Safety
+    /// So many numbers may be written there.
+    unsafe fn write_some(self, start: *mut T, count: usize);
 
     /// The same number in every lane.
     fn splat(value: T) -> Self;
@@ -118,6 +126,9 @@ impl<T: Scalar> Vector<T> for T {
     }
 
     #[inline(always)]
+    unsafe fn write_some(self, _start: *mut T, _count: usize) {}
+
+    #[inline(always)]
     fn splat(value: T) -> Self {
         value
     }
@@ -163,6 +174,12 @@ impl<T: Lane, const N: usize> Vector<T> for Lanes<T, N> {
     unsafe fn write(self, start: *mut T) {
         // SAFETY: likewise.
         unsafe { start.cast::<[T; N]>().write_unaligned(self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn write_some(self, start: *mut T, count: usize) {
+        // SAFETY: likewise.
+        store_last(&self.0, unsafe { from_raw_parts_mut(start, count) }, 0);
     }
 
     #[inline(always)]

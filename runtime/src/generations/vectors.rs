@@ -1,6 +1,8 @@
 //! The registers of each instruction set, by how many numbers there are.
 
 use core::marker::PhantomData;
+#[cfg(target_arch = "x86_64")]
+use core::slice::from_raw_parts_mut;
 
 use super::vector::{SliceKernel, Vector, Vectors, last, words_behind, words_repeated};
 use crate::scalar::dispatch::{RegisterKernel, run_in_registers};
@@ -86,6 +88,12 @@ macro_rules! vector {
             }
 
             #[inline(always)]
+            unsafe fn write_some(self, start: *mut $lane, count: usize) {
+                // SAFETY: likewise.
+                self.store_some(unsafe { from_raw_parts_mut(start, count) });
+            }
+
+            #[inline(always)]
             fn splat(value: $lane) -> Self {
                 Register::splat(value)
             }
@@ -132,6 +140,9 @@ macro_rules! vector {
                 // SAFETY: likewise.
                 unsafe { start.cast::<Self>().write_unaligned(self) }
             }
+
+            #[inline(always)]
+            unsafe fn write_some(self, _start: *mut $lane, _count: usize) {}
 
             #[inline(always)]
             fn splat(value: $lane) -> Self {

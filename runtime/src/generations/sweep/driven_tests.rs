@@ -5,7 +5,8 @@
 use super::super::evaluate::Kernels;
 use super::super::vectors::run_in;
 use super::super::{Generations, RootDrive};
-use super::{Down, Sweep, Up};
+use super::Access;
+use super::equations::{Down, Up};
 use crate::generations::{Motion, Recursion};
 use crate::scalar::register::Fused;
 use crate::scalar::{InstructionSet, Lane, Real, Scalar};
@@ -152,13 +153,13 @@ fn evaluated<T: Scalar, const NUMBER: usize>(torque: f64, kernels: Option<Kernel
 }
 
 /// Equations in the vectors of one instruction set, by its number.
-fn up_in<T: Lane, const SET: usize, const NUMBER: usize>(sweep: &mut Sweep<'_, T>) {
-    let kernel = Up::<Turned<NUMBER>, T, 7, 5, 5, 3>(sweep, PhantomData);
+fn up_in<T: Lane, const SET: usize, const NUMBER: usize>(access: &Access<'_, T>) {
+    let kernel = Up::<Turned<NUMBER>, T, 7, 5, 5, 3>(access, PhantomData);
     run_in(InstructionSet::ALL[SET], kernel);
 }
 
-fn down_in<T: Lane, const SET: usize, const NUMBER: usize>(sweep: &mut Sweep<'_, T>) {
-    let kernel = Down::<Turned<NUMBER>, T, 7, 5, 5, 3>(sweep, PhantomData);
+fn down_in<T: Lane, const SET: usize, const NUMBER: usize>(access: &Access<'_, T>) {
+    let kernel = Down::<Turned<NUMBER>, T, 7, 5, 5, 3>(access, PhantomData);
     run_in(InstructionSet::ALL[SET], kernel);
 }
 

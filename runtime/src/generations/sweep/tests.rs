@@ -4,7 +4,8 @@
 use super::super::Generations;
 use super::super::evaluate::Kernels;
 use super::super::vectors::run_in;
-use super::{Down, Sweep, Up};
+use super::Access;
+use super::equations::{Down, Up};
 use crate::generations::{Motion, Recursion};
 use crate::scalar::register::Fused;
 use crate::scalar::{InstructionSet, Lane, Real, Scalar};
@@ -167,13 +168,13 @@ fn evaluated<T: Scalar, const NUMBER: usize>(kernels: Option<Kernels<T>>) -> Vec
 }
 
 /// Equations in the vectors of one instruction set, by its number.
-fn up_in<T: Lane, const SET: usize, const NUMBER: usize>(sweep: &mut Sweep<'_, T>) {
-    let kernel = Up::<Shape<NUMBER>, T, 8, 6, 6, 3>(sweep, PhantomData);
+fn up_in<T: Lane, const SET: usize, const NUMBER: usize>(access: &Access<'_, T>) {
+    let kernel = Up::<Shape<NUMBER>, T, 8, 6, 6, 3>(access, PhantomData);
     run_in(InstructionSet::ALL[SET], kernel);
 }
 
-fn down_in<T: Lane, const SET: usize, const NUMBER: usize>(sweep: &mut Sweep<'_, T>) {
-    let kernel = Down::<Shape<NUMBER>, T, 8, 6, 6, 3>(sweep, PhantomData);
+fn down_in<T: Lane, const SET: usize, const NUMBER: usize>(access: &Access<'_, T>) {
+    let kernel = Down::<Shape<NUMBER>, T, 8, 6, 6, 3>(access, PhantomData);
     run_in(InstructionSet::ALL[SET], kernel);
 }
 
