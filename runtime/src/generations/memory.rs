@@ -40,20 +40,21 @@ pub(super) struct Extent {
     links: usize,
     /// The length of columns of links with children.
     slots: usize,
-    /// The length of a copy of the velocities, where registers would reach beyond the
-    /// end of those that are given.
-    velocities: usize,
+    /// Whether velocities are read where they are given: in a whole tree, whose links
+    /// stand there as here, if registers do not reach beyond the last one's. In parts
+    /// they would compete for the same places of the cache, far as the runs are from
+    /// each other.
+    given: bool,
 }
 
 impl Extent {
     pub(super) fn new<T>(part: &Part<'_>, sizes: Sizes) -> Self {
         let last = part.own_stages().last().map_or(0, |last| last.own);
         let lead = last.next_multiple_of(line::<T>()) - last;
-        let read = part.runs.reach().read;
-        let all = part.is_whole() && part.has_leaves;
+        let beyond = part.has_leaves && part.runs.reach().own > part.links();
         // A register more: the last numbers are read with what is behind them.
         Self {
-            velocities: if all && read > part.links() { read } else { 0 },
+            given: part.is_whole() && !beyond,
             sizes,
             lead,
             links: odd_lines::<T>(lead + part.links() + SLOTS),
@@ -63,8 +64,9 @@ impl Extent {
 
     /// How many numbers are read on the way down that were formed on the way up.
     pub(super) fn lasting(&self) -> usize {
-        let turns = if self.sizes.joints { 4 } else { 2 };
-        turns * self.links + self.sizes.kept * self.slots + self.velocities
+        let bends = if self.sizes.joints { 2 } else { 0 };
+        let turns = if self.given { 2 } else { 3 };
+        (turns + bends) * self.links + self.sizes.kept * self.slots
     }
 
     /// How many others there are.
@@ -84,11 +86,15 @@ impl Extent {
             lead,
             links,
             slots,
-            velocities,
+            given,
         } = self;
         Storage {
             sizes,
             turns: Columns::new(take(lasting, 2 * links), links),
+            velocities: match given {
+                true => None,
+                false => Some(Columns::new(take(lasting, links), links)),
+            },
             bends: match sizes.joints {
                 true => Columns::new(take(lasting, 2 * links), links),
                 false => Columns::new(&mut [], 0),
@@ -96,7 +102,6 @@ impl Extent {
             lead,
             answers: take(&mut passing, sizes.answers * slots),
             kept: take(lasting, sizes.kept * slots),
-            velocities: take(lasting, velocities),
             slots,
         }
     }
@@ -108,6 +113,8 @@ pub(super) struct Storage<'a, T> {
     pub(super) sizes: Sizes,
     /// Sine and cosine of each link's angle, from row `lead` on.
     pub(super) turns: Columns<'a, T, 2>,
+    /// Likewise angular velocities; none where they are read where they are given.
+    pub(super) velocities: Option<Columns<'a, T, 1>>,
     /// Likewise angles and velocities relative to the parents; empty where nothing
     /// acts in joints.
     pub(super) bends: Columns<'a, T, 2>,
@@ -117,9 +124,6 @@ pub(super) struct Storage<'a, T> {
     pub(super) answers: &'a mut [T],
     /// Columns of what is kept of them.
     pub(super) kept: &'a mut [T],
-    /// Room for the velocities of all links of the tree and more; empty where they
-    /// are read where they are given.
-    pub(super) velocities: &'a mut [T],
     /// The length of these columns.
     pub(super) slots: usize,
 }

@@ -39,18 +39,16 @@ pub(super) struct Runs {
     branching: usize,
 }
 
-/// How many numbers there have to be, with those of a register of any width from the
-/// last place on where they are the part's own or only read.
+/// How many numbers there have to be, registers of any width behind the last ones
+/// included but for arrays of the whole tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Reach {
     /// In a part's arrays of all links.
     pub(super) own: usize,
     /// In its arrays of links with children.
     pub(super) slot: usize,
-    /// In arrays of the whole tree from the part's start on, for what is written, and
-    /// for what is read.
+    /// In arrays of the whole tree from the part's start on.
     pub(super) whole: usize,
-    pub(super) read: usize,
 }
 
 impl Runs {
@@ -133,12 +131,10 @@ impl Reach {
         self.own = self.own.max(run.first.own + in_register);
         self.slot = self.slot.max(run.first.slot + in_register);
         self.whole = self.whole.max(run.first.whole + run.length);
-        self.read = self.read.max(run.first.whole + in_register);
         if run.leaves {
             self.own = self.own.max(child.own + last);
-            let copy = child.whole + others * run.whole_apart;
-            self.whole = self.whole.max(copy + run.length);
-            self.read = self.read.max(copy + in_register);
+            let last = others * run.whole_apart + run.length;
+            self.whole = self.whole.max(child.whole + last);
         } else {
             self.slot = self.slot.max(child.slot + last);
         }

@@ -7,7 +7,7 @@ use super::sweep::Sweep;
 use super::vector::{SliceKernel, Vector, Vectors};
 use crate::scalar::Scalar;
 
-/// Sines and cosines of a part's angles.
+/// Sines and cosines of a part's angles, and its velocities.
 pub(super) struct Turns<'a, 'b, T>(pub(super) &'a mut Sweep<'b, T>);
 
 impl<T: Scalar> SliceKernel<T> for Turns<'_, '_, T> {
@@ -22,14 +22,14 @@ impl<T: Scalar> SliceKernel<T> for Turns<'_, '_, T> {
             ..
         } = self.0;
         let turns = storage.turns;
-        if let Some(places) = storage.velocities.get_mut(..omega.len()) {
-            places.copy_from_slice(omega);
-        }
         for (own, whole, length) in part.spans() {
             let span = Span {
                 theta: theta.get(whole..whole + length).unwrap_or_default(),
-                omega: omega.as_ptr().wrapping_add(whole),
+                omega: omega.get(whole..whole + length).unwrap_or_default(),
                 turns: turns.window(storage.lead + own, length.max(W::Wide::LANES)),
+                velocities: storage.velocities.and_then(|column| {
+                    column.window(storage.lead + own, length.max(W::Wide::LANES))
+                }),
                 ahead: part.ahead(),
                 alpha: alpha.from(whole).filter(|_| part.ends),
             };
@@ -41,9 +41,9 @@ impl<T: Scalar> SliceKernel<T> for Turns<'_, '_, T> {
 /// Neighbours.
 struct Span<'a, T> {
     theta: &'a [T],
-    /// The velocities, which are read next.
-    omega: *const T,
+    omega: &'a [T],
     turns: Option<Columns<'a, T, 2>>,
+    velocities: Option<Columns<'a, T, 1>>,
     /// How far the links are that come next.
     ahead: Option<usize>,
     /// The results, where they are written next.
@@ -67,10 +67,13 @@ impl<T: Scalar> Span<'_, T> {
             let (sines, cosines) = V::sin_cos_each(&angles);
             for i in 0..2 {
                 turns.store(places[i], &[sines[i], cosines[i]])?;
+                if let Some(velocities) = self.velocities {
+                    velocities.store(places[i], &[V::load(self.omega, places[i])])?;
+                }
                 if let Some(ahead) = self.ahead {
                     let next = places[i] + ahead;
                     prefetch(self.theta.as_ptr().wrapping_add(next));
-                    prefetch(self.omega.wrapping_add(next));
+                    prefetch(self.omega.as_ptr().wrapping_add(next));
                     if let Some(alpha) = self.alpha {
                         alpha.prefetch(next);
                     }

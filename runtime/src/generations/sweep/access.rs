@@ -25,7 +25,7 @@ pub(in crate::generations) struct Access<'a, T> {
     pub(super) turns: *const T,
     pub(super) bends: *const T,
     pub(super) links: usize,
-    /// Velocities from the part's start on.
+    /// A column of velocities.
     pub(super) omega: *const T,
     /// Columns of answers and of what is kept.
     pub(super) answers: *mut T,
@@ -69,10 +69,11 @@ impl<T: Scalar> Sweep<'_, T> {
             && all(sizes.answers, storage.answers)
             && all(sizes.kept, storage.kept);
         let alpha = alpha.window(part.start, reach.whole)?;
-        let omega = match omega.get(part.start..) {
-            Some(rest) if reach.read <= rest.len() => rest.as_ptr(),
-            _ if reach.read <= storage.velocities.len() => storage.velocities.as_ptr(),
-            _ => return None,
+        // A whole tree's links stand in order, as they do where they are given.
+        let omega = match storage.velocities {
+            Some(column) => column.window(storage.lead, reach.own)?.start().cast_const(),
+            None if !part.is_whole() || reach.own > omega.len() => return None,
+            None => omega.as_ptr(),
         };
         there.then_some(Access {
             runs: part.runs.list(),

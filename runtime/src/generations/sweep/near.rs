@@ -62,7 +62,7 @@ impl<'a, T: Scalar> Near<'a, T> {
             turns: access.turns.wrapping_add(first.own),
             bends: access.bends.wrapping_add(first.own),
             links: access.links,
-            omega: access.omega.wrapping_add(first.whole),
+            omega: access.omega.wrapping_add(first.own),
             answers: access.answers.wrapping_add(first.slot),
             kept: access.kept.wrapping_add(first.slot),
             slots: access.slots,
@@ -75,7 +75,7 @@ impl<'a, T: Scalar> Near<'a, T> {
             whole_apart,
             leaf_turns: access.turns.wrapping_add(child.own),
             leaf_bends: access.bends.wrapping_add(child.own),
-            leaf_omega: access.omega.wrapping_add(child.whole),
+            leaf_omega: access.omega.wrapping_add(child.own),
             leaf_alpha: alpha.wrapping_add(child.whole),
             below: access.answers.wrapping_add(child.slot),
             numbers: PhantomData,
@@ -135,11 +135,11 @@ impl<'a, T: Scalar> Near<'a, T> {
         copy: usize,
         joints: bool,
     ) -> Motion<V> {
-        let (own, whole) = (at + copy * self.apart, at + copy * self.whole_apart);
+        let at = at + copy * self.apart;
         let places = [
-            self.leaf_turns.wrapping_add(own),
-            self.leaf_bends.wrapping_add(own),
-            self.leaf_omega.wrapping_add(whole),
+            self.leaf_turns.wrapping_add(at),
+            self.leaf_bends.wrapping_add(at),
+            self.leaf_omega.wrapping_add(at),
         ];
         unsafe { self.motion_at(places, joints) }
     }
