@@ -140,3 +140,64 @@ impl Reach {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generations::part::stages;
+
+    /// Goes over the last place of every width in every copy, one number after the other.
+    fn all_places_are_within_reach(copies: &[usize], first: usize, width: usize) {
+        let (mut counts, mut starts, mut links) = (Vec::new(), Vec::new(), 0);
+        for &copies in copies {
+            let count = counts.last().map_or(1, |count| count * copies);
+            counts.push(count);
+            starts.push(links);
+            links += count;
+        }
+        let stages: Vec<Stage> = stages(copies, &starts, &counts, first, width).collect();
+        let inner = stages.len() - 1;
+        for has_leaves in [false, true] {
+            let runs = Runs::new(&stages, first, inner, has_leaves);
+            let reach = runs.reach();
+            let neighbours: usize = stages[..inner].iter().map(|stage| stage.count).sum();
+            let listed: usize = runs.list().iter().map(|run| run.length).sum();
+            assert_eq!(listed, neighbours, "{copies:?}");
+            let mut ends = Reach::default();
+            for run in runs.list() {
+                for lanes in [1, 2, 4, 8, SLOTS] {
+                    let last = run.length.saturating_sub(lanes);
+                    ends.own = ends.own.max(run.first.own + last + lanes);
+                    ends.slot = ends.slot.max(run.first.slot + last + lanes);
+                    ends.whole = ends.whole.max(run.first.whole + run.length);
+                    for copy in 0..run.copies {
+                        let (own, whole) = (copy * run.apart, copy * run.whole_apart);
+                        if run.leaves {
+                            ends.own = ends.own.max(run.child.own + own + last + lanes);
+                            ends.whole = ends.whole.max(run.child.whole + whole + run.length);
+                        } else {
+                            ends.slot = ends.slot.max(run.child.slot + own + last + lanes);
+                        }
+                    }
+                }
+            }
+            assert!(
+                ends.own <= reach.own && ends.slot <= reach.slot && ends.whole == reach.whole,
+                "{copies:?}: {ends:?} {reach:?}"
+            );
+            // The last part starts `width` links before the end of its generation.
+            let last = counts[first] - width;
+            assert!(last + reach.whole <= links, "{copies:?}: {reach:?}");
+        }
+    }
+
+    #[test]
+    fn no_run_goes_beyond_what_is_asked_for() {
+        all_places_are_within_reach(&[1, 2], 0, 1);
+        all_places_are_within_reach(&[1, 5, 1, 2], 0, 1);
+        all_places_are_within_reach(&[1, 2, 2, 2, 2, 2, 2, 2], 0, 1);
+        all_places_are_within_reach(&[1, 17, 3, 2], 1, 17);
+        all_places_are_within_reach(&[1, 600, 14, 11, 4], 1, 256);
+        all_places_are_within_reach(&[1, 600, 14, 11, 4], 3, 271);
+    }
+}
