@@ -131,8 +131,7 @@ fn batches_of_tables_with_places_have_the_bits_of_single_states() {
 
 #[test]
 fn trajectories_of_forced_trees_in_lanes() {
-    lanes_meet_the_plain_method(&Shaken::<f64>::new());
-    lanes_meet_the_plain_method(&Crooked::<f64>::new());
+    lanes_meet_the_plain_method(&Turned::<f64>::new());
     lanes_meet_the_plain_method(&bush(0.4));
     lanes_meet_the_plain_method(&Mobile::<f64>::new());
 }
