@@ -4,7 +4,8 @@
 //! need no neighbours: one subtree goes up after the other, each so small that what is
 //! passed on in it stays in the first cache, then what is above them up and down, then
 //! the subtrees down, the last one first. Three values of each link are kept for the
-//! way down, and as many more of those with children.
+//! way down, and as many more of those with children. A table goes link by link, depth
+//! first, and passes on one row for each depth.
 //!
 //! # Which bits
 //! The equations are those of one state, and so is the order of each sum: a state
