@@ -14,6 +14,7 @@
 mod packing;
 mod pieces;
 mod places;
+mod stack;
 mod table;
 mod turns;
 mod walk;

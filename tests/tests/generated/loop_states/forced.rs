@@ -107,25 +107,18 @@ fn batches_of_driven_trees_have_the_bits_of_single_states() {
     batch_agrees(&Turned::<f64>::new(), bits);
     batch_agrees(&Wheel::<f64>::new(), bits);
     batch_agrees(&bush(0.4), bits);
-    let bits = |x: &f32| u64::from(x.to_bits());
-    batch_agrees(&Shaken::<f32>::default(), bits);
-    batch_agrees(
-        &Bush::<f32>::from_parameters(BushParameters { push: 0.4 }),
-        bits,
-    );
+    batch_agrees(&Shaken::<f32>::default(), |x| u64::from(x.to_bits()));
 }
 
 #[test]
 fn batches_of_crooked_trees_have_the_bits_of_single_states() {
     batch_agrees(&Crooked::<f64>::new(), |x| x.to_bits());
-    batch_agrees(&Crooked::<f32>::default(), |x| u64::from(x.to_bits()));
 }
 
 #[test]
 fn batches_of_tables_with_places_have_the_bits_of_single_states() {
     batch_agrees(&Rack::<f64>::new(), |x| x.to_bits());
     batch_agrees(&Mobile::<f64>::new(), |x| x.to_bits());
-    batch_agrees(&Rack::<f32>::default(), |x| u64::from(x.to_bits()));
     batch_agrees(&Mobile::<f32>::default(), |x| u64::from(x.to_bits()));
 }
 
