@@ -72,8 +72,8 @@ impl<'a, N: Packing, const S: usize, const E: usize, const K: usize> Stack<'a, N
         child: impl Fn(usize, N::Value) -> N::Value,
     ) -> Option<()> {
         let mut sums = self.sums.load::<N, S>(depth)?;
-        for i in 0..S {
-            sums[i] = child(i, sums[i]);
+        for (i, sum) in sums.iter_mut().enumerate() {
+            *sum = child(i, *sum);
         }
         self.sums.store::<N, S>(depth, sums)
     }
