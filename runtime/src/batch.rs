@@ -267,15 +267,13 @@ where
         ) else {
             return next;
         };
-        let mut pendulum = self.pendulum.in_registers::<R>(self.room);
-        let time = R::splat(self.time);
+        let mut pendulum = self.pendulum.in_registers::<R>(self.time, self.room);
         let nothing = R::splat(T::from_f64(f64::NAN)).to_chunk();
         while next < self.count {
             // The last block overlaps the one before, where it would not be full:
             // some states are computed twice.
             let end = next.min(last) + R::LANES;
             pendulum.evaluate(
-                time,
                 |link| load_late(theta, link, end, &nothing),
                 |link| load_late(omega, link, end, &nothing),
                 |link, value: R| {

@@ -41,11 +41,12 @@ impl Emission<'_> {
         let needed = self.program.needed(&entry.outputs);
         let (body, parts) = self.body(entry, &needed);
         // A batch compiles the accelerations for wider registers than the rest
-        // of the build uses, which only inlining allows.
-        let inline = if entry.purpose == Purpose::Accelerations {
-            quote!(#[inline(always)])
-        } else {
-            quote!(#[inline])
+        // of the build uses, which only inlining allows. Those of loops call the
+        // drive.
+        let inline = match entry.purpose {
+            Purpose::Accelerations => quote!(#[inline(always)]),
+            Purpose::Drive if self.scene.in_loops() => quote!(#[inline(always)]),
+            _ => quote!(#[inline]),
         };
         quote! {
             #docs

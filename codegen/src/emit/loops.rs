@@ -6,7 +6,7 @@ use super::docs::doc_lines;
 use super::function::ident;
 use crate::program::Purpose;
 use crate::scene::{Forces, Quantity, has_bodies};
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 /// The fields of a model in loops that are no constants of its drive.
@@ -105,6 +105,29 @@ impl Emission<'_> {
         std::iter::once(first).chain(extra).collect()
     }
 
+    /// These fields on another scalar, of a model whose first one is `loops`.
+    pub(super) fn rescaled_fields(&self, loops: &Ident) -> Vec<TokenStream> {
+        let stored = self.stored_constants().into_iter();
+        let stored: Vec<Ident> = stored.map(|id| self.field(id)).collect();
+        let bodies = self.has_bodies().then(|| ident("bodies"));
+        let per_lever = self.pivot_moves().then(|| ident("per_lever"));
+        let parts: Vec<&Ident> = std::iter::once(loops).chain(&bodies).collect();
+        let numbers: Vec<&Ident> = per_lever.iter().chain(&stored).collect();
+        // What comes last may keep `convert`.
+        let last = numbers.is_empty().then_some(parts.len() - 1);
+        let parts = parts.into_iter().enumerate().map(|(i, field)| {
+            let convert = match Some(i) == last {
+                true => quote!(convert),
+                false => quote!(&convert),
+            };
+            quote!(#field: self.#field.rescale(#convert))
+        });
+        let numbers = numbers
+            .iter()
+            .map(|field| quote!(#field: convert(self.#field)));
+        parts.chain(numbers).collect()
+    }
+
     /// What these fields are: lines before the model's value, and fields in it.
     pub(super) fn loop_values(
         &self,
@@ -180,12 +203,21 @@ impl Emission<'_> {
 
     /// The body of `accelerations_into`; the model's field is given.
     pub(super) fn loop_accelerations(&self, field: &str) -> TokenStream {
-        let (field, runtime) = (ident(field), self.runtime());
-        let Some(drive) = &self.mechanics.drive else {
-            return quote!(self.#field.accelerations_into(theta, omega, alpha););
-        };
+        let field = ident(field);
+        match self.mechanics.drive {
+            None => quote!(self.#field.accelerations_into(theta, omega, alpha);),
+            Some(_) => quote! {
+                let drive = self.root_drive(time);
+                self.#field.driven_accelerations_into(drive, theta, omega, alpha);
+            },
+        }
+    }
+
+    /// The drive as the loops take it.
+    fn root_drive(&self) -> TokenStream {
+        let (runtime, drive) = (self.runtime(), self.mechanics.drive.as_ref());
         let zero = quote!(T::from_f64(0.0));
-        let (torque_name, torque) = match drive.torque {
+        let (torque_name, torque) = match drive.and_then(|drive| drive.torque) {
             Some(_) => (quote!(torque), quote!(torque)),
             None => (quote!(_), quote!(torque: #zero)),
         };
@@ -198,12 +230,14 @@ impl Emission<'_> {
             false => (quote!(_), quote!(_), quote!([#zero, #zero])),
         };
         quote! {
-            let [#x, #y, #torque_name] = self.drive(time);
-            let drive = #runtime::generations::RootDrive {
-                pivot: #pivot,
-                #torque,
-            };
-            self.#field.driven_accelerations_into(drive, theta, omega, alpha);
+            #[inline(always)]
+            fn root_drive(&self, time: T) -> #runtime::generations::RootDrive<T> {
+                let [#x, #y, #torque_name] = self.drive(time);
+                #runtime::generations::RootDrive {
+                    pivot: #pivot,
+                    #torque,
+                }
+            }
         }
     }
 
@@ -244,7 +278,8 @@ impl Emission<'_> {
         let Some(entry) = entries.find(|entry| entry.purpose == Purpose::Drive) else {
             return TokenStream::new();
         };
-        let drive = self.function(entry);
+        let (drive, root_drive) = (self.function(entry), self.root_drive());
+        let drive = quote!(#drive #root_drive);
         if !self.has_bodies() {
             return drive;
         }

@@ -1,23 +1,28 @@
 //! Models in loops on other scalars, and for many states at once.
 
 use super::Emission;
-use proc_macro2::{Ident, Span, TokenStream};
+use super::function::ident;
+use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Emission<'_> {
-    /// `impl Rescale`, by what the model's one field holds: generic functions, which
+    /// `impl Rescale`, by what the model's field `loops` holds: generic functions, which
     /// cost a scene nothing that does not call them.
-    pub(super) fn loop_rescale(&self, field: &str) -> TokenStream {
-        let placed = self
-            .scene
-            .table
-            .as_ref()
-            .is_some_and(|table| table.hanging.is_some());
-        if self.scene.drive.is_some() || self.has_bodies() || placed {
-            return TokenStream::new();
-        }
-        let (name, runtime) = (&self.item.ident, self.runtime());
-        let field = Ident::new(field, Span::call_site());
+    pub(super) fn loop_rescale(&self, loops: &str) -> TokenStream {
+        let (name, runtime, loops) = (&self.item.ident, self.runtime(), ident(loops));
+        let fields = self.rescaled_fields(&loops);
+        let (time, evaluate, drive) = match self.mechanics.drive {
+            Some(_) => (
+                quote!(time),
+                quote!(driven_evaluate(self.root_drive(time), theta, omega, alpha)),
+                quote!(::core::option::Option::Some(self.root_drive(time))),
+            ),
+            None => (
+                quote!(_time),
+                quote!(evaluate(theta, omega, alpha)),
+                quote!(::core::option::Option::None),
+            ),
+        };
         quote! {
             impl<T: #runtime::Scalar> #runtime::Rescale<T> for #name<T> {
                 type Of<S: #runtime::Scalar> = #name<S>;
@@ -26,30 +31,31 @@ impl Emission<'_> {
                     &self,
                     convert: impl ::core::ops::Fn(T) -> S,
                 ) -> #name<S> {
-                    #name { #field: self.#field.rescale(convert) }
+                    #name { #(#fields),* }
                 }
 
                 #[inline(always)]
                 fn evaluate(
                     &self,
-                    _time: T,
+                    #time: T,
                     theta: impl ::core::ops::Fn(usize) -> T,
                     omega: impl ::core::ops::Fn(usize) -> T,
                     alpha: impl ::core::ops::FnMut(usize, T),
                 ) {
-                    self.#field.evaluate(theta, omega, alpha);
+                    self.#loops.#evaluate;
                 }
 
                 fn room(&self) -> usize {
-                    self.#field.room()
+                    self.#loops.room()
                 }
 
                 #[inline(always)]
                 fn in_registers<R: #runtime::scalar::Register<Lane = T>>(
                     &self,
+                    #time: T,
                     room: &mut [T],
                 ) -> impl #runtime::system::InRegisters<R> {
-                    self.#field.in_registers(room)
+                    self.#loops.in_registers(#drive, room)
                 }
             }
         }

@@ -153,12 +153,7 @@ fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
             ];
             parts.into_iter().any(|value| value.exact().is_none())
         });
-    if parameters {
-        return Some(format!(
-            "parameters in more than {MOST_WITH_PARAMETERS} generations"
-        ));
-    }
-    at_parents_pivot(templates).map(str::to_owned)
+    parameters.then(|| format!("parameters in more than {MOST_WITH_PARAMETERS} generations"))
 }
 
 /// What no loops do, in words.
@@ -192,11 +187,11 @@ pub(super) fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'st
     request.map(|(_, what)| what)
 }
 
-/// Their parent's lever is the unit of length.
-fn at_parents_pivot(templates: &[Template]) -> Option<&'static str> {
+/// Whether links hang in their parent's own pivot. Then its distance is no unit of
+/// length, as loops over generations need one.
+pub(super) fn in_own_pivot(templates: &[Template]) -> bool {
     let mut children = templates.iter().skip(1);
-    let at_pivot = children.any(|template| unit(&template.pivot).is_zero());
-    at_pivot.then_some("children that hang from their parent's pivot")
+    children.any(|template| unit(&template.pivot).is_zero())
 }
 
 /// The constants of a scene in generations, exact where no parameter is

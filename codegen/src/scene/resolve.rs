@@ -2,7 +2,7 @@
 
 use super::drive::resolve_drive;
 use super::expand::{check_names, check_size, expand};
-use super::generations::{Asked, decide, generations};
+use super::generations::{Asked, decide, generations, in_own_pivot};
 use super::observables::resolve_observables;
 use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_solve};
 use super::rule::resolve_code;
@@ -40,10 +40,15 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         resolved: &resolved,
         observables: !description.observables.is_empty(),
     };
-    let code = resolve_code(description.code.as_ref(), report);
+    let mut code = resolve_code(description.code.as_ref(), report);
+    if let Some(rule) = whole {
+        code = rule.code.map(|code| (code, rule.span)).or(code);
+    }
+    // Otherwise it is a tree like any other.
+    let whole = whole.filter(|_| !in_own_pivot(&templates));
     let loops = match whole {
         Some(mut rule) => {
-            rule.code = rule.code.or(code.map(|(code, _)| code));
+            rule.code = code.map(|(code, _)| code);
             decide(rule, &mut templates, &asked, report).ok()?
         }
         None => None,

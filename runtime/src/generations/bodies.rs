@@ -93,6 +93,16 @@ impl<T: Scalar> Bodies<T> {
         }
     }
 
+    /// The same bodies on other scalars.
+    #[must_use]
+    pub fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<S> {
+        Bodies {
+            hanging: self.hanging,
+            rows: self.rows.iter().map(|row| row.map(&convert)).collect(),
+            pool: Pool::new(),
+        }
+    }
+
     /// Kinetic energy Σ ½ m (V + **W** ω)² + ½ I ω², J, with **W** = d v − e u,
     /// u = (sin θ, −cos θ), v = (cos θ, sin θ), in the frame of reference that moves
     /// with the root's pivot. NaN for slices of another length than there are

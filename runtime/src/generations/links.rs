@@ -6,21 +6,57 @@ use super::recursion::Motion;
 use super::vector::{Step, Vector, each};
 use crate::scalar::Scalar;
 
-/// How many links are above each one.
-pub(super) fn depths(parents: &[u32]) -> Vec<u32> {
-    let mut depths: Vec<u32> = Vec::with_capacity(parents.len());
-    for &parent in parents {
-        // The root comes first, and has none above.
-        depths.push(depths.get(parent as usize).map_or(0, |depth| depth + 1));
-    }
-    depths
+/// Which link hangs from which.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Shape {
+    /// Parents stand before their children, depth first; the root's own is 0.
+    pub(super) parents: &'static [u32],
+    /// How many links are above each one.
+    pub(super) depths: Vec<u32>,
+    /// The links by depth, those of one depth in their order: neighbours do not wait
+    /// for each other.
+    pub(super) order: Vec<u32>,
 }
 
-/// The links by their depth, those of one depth in their order.
-pub(super) fn by_depth(depths: &[u32]) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..).take(depths.len()).collect();
-    order.sort_by_key(|&link| depths.get(link as usize).copied());
-    order
+impl Shape {
+    pub(super) fn new(parents: &'static [u32]) -> Self {
+        let mut depths: Vec<u32> = Vec::with_capacity(parents.len());
+        for &parent in parents {
+            // The root comes first, and has none above.
+            depths.push(depths.get(parent as usize).map_or(0, |depth| depth + 1));
+        }
+        let mut order: Vec<u32> = (0..).take(depths.len()).collect();
+        order.sort_by_key(|&link| depths.get(link as usize).copied());
+        Self {
+            parents,
+            depths,
+            order,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn parent(&self, link: usize) -> usize {
+        self.parents.get(link).map_or(0, |&parent| parent as usize)
+    }
+
+    /// Links stand depth first: a link's first child comes next.
+    #[inline(always)]
+    pub(super) fn is_leaf(&self, link: usize) -> bool {
+        link + 1 >= self.parents.len() || self.parent(link + 1) != link
+    }
+
+    /// Of a link, 0 where there is none.
+    #[inline(always)]
+    pub(super) fn depth(&self, link: usize) -> usize {
+        self.depths.get(link).map_or(0, |&depth| depth as usize)
+    }
+
+    /// How many depths there are.
+    pub(super) fn levels(&self) -> usize {
+        self.order
+            .last()
+            .map_or(0, |&link| self.depth(link as usize) + 1)
+    }
 }
 
 /// Sines and cosines.
@@ -42,7 +78,7 @@ impl<T: Scalar, V: Vector<T>> Step<V> for Turns<'_, T> {
 
 /// What does not change on the way through the links.
 pub(super) struct State<'a, T> {
-    parents: &'a [u32],
+    shape: &'a Shape,
     theta: &'a [T],
     omega: &'a [T],
     sines: &'a [T],
@@ -54,12 +90,12 @@ impl<'a, T: Scalar> State<'a, T> {
     /// buffer that has room for them; with what is left of it.
     #[inline(always)]
     pub(super) fn new<V: Vector<T>>(
-        parents: &'a [u32],
+        shape: &'a Shape,
         theta: &'a [T],
         omega: &'a [T],
         buffer: &'a mut [T],
     ) -> (Self, &'a mut [T]) {
-        let n = parents.len();
+        let n = shape.parents.len();
         let (sines, buffer) = buffer.split_at_mut(n);
         let (cosines, rest) = buffer.split_at_mut(n);
         let mut turns = Turns {
@@ -70,7 +106,7 @@ impl<'a, T: Scalar> State<'a, T> {
         let _ = each::<T, V>(n, &mut turns);
         let Turns { sines, cosines, .. } = turns;
         let state = Self {
-            parents,
+            shape,
             theta,
             omega,
             sines,
@@ -80,22 +116,11 @@ impl<'a, T: Scalar> State<'a, T> {
     }
 
     #[inline(always)]
-    pub(super) fn parent(&self, link: usize) -> usize {
-        self.parents.get(link).map_or(0, |&parent| parent as usize)
-    }
-
-    /// Links stand depth first: a link's first child comes next.
-    #[inline(always)]
-    pub(super) fn is_leaf(&self, link: usize) -> bool {
-        link + 1 >= self.parents.len() || self.parent(link + 1) != link
-    }
-
-    #[inline(always)]
     pub(super) fn motion<V: Vector<T>>(&self, link: usize, joints: bool) -> Motion<V> {
         let (theta, omega) = (V::load(self.theta, link), V::load(self.omega, link));
         let (mut bend, mut bend_rate) = (theta, omega);
         if joints && link > 0 {
-            let parent = self.parent(link);
+            let parent = self.shape.parent(link);
             bend = bend - V::load(self.theta, parent);
             bend_rate = bend_rate - V::load(self.omega, parent);
         }

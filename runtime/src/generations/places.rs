@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::marker::PhantomData;
 
-use super::links::{State, by_depth, depths, load, store};
+use super::links::{Shape, State, load, store};
 use super::pool::Pool;
 use super::recursion::Motion;
 use super::root::RootDrive;
@@ -59,7 +59,7 @@ pub trait PlacedRecursion<const C: usize, const R: usize, const S: usize, const 
 
 /// What a link is to its parent: factors of what it answers, `square` and `ratio`,
 /// and of what it takes, `reach`; the isotropic part of its Φ; its place.
-const HANGING: usize = 6;
+pub(super) const HANGING: usize = 6;
 
 /// A large tree of irregular shape whose links carry children at several places, or
 /// in their own pivot: the parent and the constants of each link, and room for
@@ -76,14 +76,12 @@ const HANGING: usize = 6;
 /// R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
 /// (articulated-body algorithm), in the plane.
 pub struct PlacedTable<P, T, const C: usize, const R: usize, const S: usize, const K: usize> {
-    /// Parents stand before their children, depth first; the root's own is 0.
-    parents: &'static [u32],
-    order: Vec<u32>,
-    constants: Vec<[T; C]>,
-    hanging: Vec<[T; HANGING]>,
-    root: [T; 2],
-    pool: Pool<T>,
-    recursion: PhantomData<P>,
+    pub(super) shape: Shape,
+    pub(super) constants: Vec<[T; C]>,
+    pub(super) hanging: Vec<[T; HANGING]>,
+    pub(super) root: [T; 2],
+    pub(super) pool: Pool<T>,
+    pub(super) recursion: PhantomData<P>,
 }
 
 impl<P, T, const C: usize, const R: usize, const S: usize, const K: usize>
@@ -106,8 +104,7 @@ where
     ) -> Self {
         const { assert!(R >= 5 && S >= 4, "numbers that have meanings here") };
         Self {
-            parents,
-            order: by_depth(&depths(parents)),
+            shape: Shape::new(parents),
             constants,
             hanging,
             root,
@@ -119,7 +116,7 @@ where
     /// Writes the angular accelerations, as
     /// [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into).
     pub fn accelerations_into(&self, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        self.evaluate(None, theta, omega, alpha);
+        self.accelerate(None, theta, omega, alpha);
     }
 
     /// The same for a driven tree, at a time of this drive.
@@ -130,10 +127,10 @@ where
         omega: &[T],
         alpha: &mut [T],
     ) {
-        self.evaluate(Some(drive), theta, omega, alpha);
+        self.accelerate(Some(drive), theta, omega, alpha);
     }
 
-    fn evaluate(&self, drive: Option<RootDrive<T>>, theta: &[T], omega: &[T], alpha: &mut [T]) {
+    fn accelerate(&self, drive: Option<RootDrive<T>>, theta: &[T], omega: &[T], alpha: &mut [T]) {
         if [theta.len(), omega.len(), alpha.len()] != [P::LINKS; 3] {
             alpha.fill(T::from_f64(f64::NAN));
             return;
@@ -171,7 +168,7 @@ where
     #[inline(always)]
     fn run<W: Vectors<T>>(self) {
         let (state, buffer) =
-            State::new::<W::Wide>(self.table.parents, self.theta, self.omega, self.buffer);
+            State::new::<W::Wide>(&self.table.shape, self.theta, self.omega, self.buffer);
         let n = self.alpha.len();
         let (below, buffer) = buffer.split_at_mut(S * n);
         let kept = buffer.get_mut(..K * n).unwrap_or_default();
@@ -197,7 +194,7 @@ fn up<P, T, V, const C: usize, const R: usize, const S: usize, const K: usize>(
     V: Vector<T>,
 {
     below.fill(T::from_f64(0.0));
-    for &link in table.order.iter().rev() {
+    for &link in table.shape.order.iter().rev() {
         let link = link as usize;
         let (Some(constants), Some(hanging)) = (table.constants.get(link), table.hanging.get(link))
         else {
@@ -211,7 +208,7 @@ fn up<P, T, V, const C: usize, const R: usize, const S: usize, const K: usize>(
         let [square, ratio, _, rest, along, across] = splat::<T, V, HANGING>(hanging);
         let motion = state.motion::<V>(link, P::JOINTS);
         let (mut answers, sign);
-        if state.is_leaf(link) {
+        if table.shape.is_leaf(link) {
             answers = P::leaf(&constants, motion);
             sign = V::from_f64(-1.0);
         } else {
@@ -228,7 +225,7 @@ fn up<P, T, V, const C: usize, const R: usize, const S: usize, const K: usize>(
         answers[2] = square.mul_add(answers[2], rest);
         answers[3] = sign * ratio * answers[3];
         answers[4] = ratio * answers[4];
-        let parent = state.parent(link);
+        let parent = table.shape.parent(link);
         let carrier = state.motion::<V>(parent, false);
         let mut sums = load::<T, V, S>(below, parent);
         let own = P::hang(carrier, [along, across], answers);
@@ -254,7 +251,7 @@ fn down<P, T, V, const C: usize, const R: usize, const S: usize, const K: usize>
     T: Scalar,
     V: Vector<T>,
 {
-    for &link in &table.order {
+    for &link in &table.shape.order {
         let link = link as usize;
         let (Some(constants), Some(hanging)) = (table.constants.get(link), table.hanging.get(link))
         else {
@@ -266,14 +263,14 @@ fn down<P, T, V, const C: usize, const R: usize, const S: usize, const K: usize>
             splat::<T, V, 2>(&root)
         } else {
             let [_, _, reach, _, along, across] = splat::<T, V, HANGING>(hanging);
-            let row = ends.get(state.parent(link) * S..).unwrap_or_default();
+            let row = ends.get(table.shape.parent(link) * S..).unwrap_or_default();
             let [x, y, turn_x, turn_y] = load::<T, V, 4>(row, 0);
             [
                 reach * along.mul_add(turn_x, (-across).mul_add(turn_y, x)),
                 reach * along.mul_add(turn_y, across.mul_add(turn_x, y)),
             ]
         };
-        let acceleration = if state.is_leaf(link) {
+        let acceleration = if table.shape.is_leaf(link) {
             P::turn_leaf(&constants, motion, pivot)
         } else {
             let [x, y] = pivot;
@@ -293,8 +290,7 @@ impl<P, T: Clone, const C: usize, const R: usize, const S: usize, const K: usize
     /// The copy has room of its own.
     fn clone(&self) -> Self {
         let Self {
-            parents,
-            order,
+            shape,
             constants,
             hanging,
             root,
@@ -302,8 +298,7 @@ impl<P, T: Clone, const C: usize, const R: usize, const S: usize, const K: usize
             recursion,
         } = self;
         Self {
-            parents,
-            order: order.clone(),
+            shape: shape.clone(),
             constants: constants.clone(),
             hanging: hanging.clone(),
             root: root.clone(),
@@ -318,15 +313,14 @@ impl<P, T: PartialEq, const C: usize, const R: usize, const S: usize, const K: u
 {
     fn eq(&self, other: &Self) -> bool {
         let Self {
-            parents,
-            order: _,
+            shape,
             constants,
             hanging,
             root,
             pool: _,
             recursion: _,
         } = self;
-        *parents == other.parents
+        *shape == other.shape
             && *constants == other.constants
             && *hanging == other.hanging
             && *root == other.root
@@ -338,8 +332,7 @@ impl<P, T: fmt::Debug, const C: usize, const R: usize, const S: usize, const K: 
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
-            parents,
-            order: _,
+            shape,
             constants,
             hanging,
             root,
@@ -347,7 +340,7 @@ impl<P, T: fmt::Debug, const C: usize, const R: usize, const S: usize, const K: 
             recursion: _,
         } = self;
         f.debug_struct("PlacedTable")
-            .field("parents", parents)
+            .field("parents", &shape.parents)
             .field("constants", constants)
             .field("hanging", hanging)
             .field("root", root)

@@ -19,7 +19,18 @@ pub struct RootDrive<T> {
 }
 
 impl<T: Scalar> RootDrive<T> {
+    /// The same on other scalars.
+    #[inline(always)]
+    pub(super) fn map<S>(self, convert: impl Fn(T) -> S) -> RootDrive<S> {
+        let [x, y] = self.pivot;
+        RootDrive {
+            pivot: [convert(x), convert(y)],
+            torque: convert(self.torque),
+        }
+    }
+
     /// What the root takes from above.
+    #[inline(always)]
     pub(super) fn above([x, y]: [T; 2], drive: Option<Self>) -> [T; 2] {
         match drive {
             None => [x, y],

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::marker::PhantomData;
 
-use super::links::{State, by_depth, depths, load, store};
+use super::links::{Shape, State, load, store};
 use super::pool::Pool;
 use super::recursion::Recursion;
 use super::root::RootDrive;
@@ -35,12 +35,7 @@ pub(super) const HANGING: usize = 3;
 /// R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
 /// (articulated-body algorithm), in the plane.
 pub struct Table<P, T, const C: usize, const R: usize, const K: usize> {
-    /// Parents stand before their children, depth first; the root's own is 0.
-    pub(super) parents: &'static [u32],
-    /// Their depths.
-    pub(super) depths: Vec<u32>,
-    /// The links by depth: neighbours do not wait for each other.
-    pub(super) order: Vec<u32>,
+    pub(super) shape: Shape,
     /// What the equations of a link read.
     pub(super) constants: Vec<[T; C]>,
     /// The factors of what it answers, and of what it takes from its parent:
@@ -97,11 +92,8 @@ where
             hanging.push([row[3], row[4], row[5]]);
             (row[3], row[4], row[5]) = (one, one, one);
         }
-        let depths = depths(parents);
         Self {
-            parents,
-            order: by_depth(&depths),
-            depths,
+            shape: Shape::new(parents),
             constants,
             hanging,
             root,
@@ -154,7 +146,7 @@ where
         }
         let room = energy::KINETIC * P::LINKS;
         self.pool.lend(room, T::from_f64(0.0), |buffer| {
-            energy::kinetic(self.parents, &self.energies, theta, omega, buffer)
+            energy::kinetic(self.shape.parents, &self.energies, theta, omega, buffer)
         })
     }
 
@@ -167,7 +159,7 @@ where
         }
         let room = energy::POTENTIAL * P::LINKS;
         self.pool.lend(room, T::from_f64(0.0), |buffer| {
-            energy::potential(self.parents, &self.energies, theta, buffer)
+            energy::potential(self.shape.parents, &self.energies, theta, buffer)
         })
     }
 }
@@ -191,7 +183,7 @@ where
     #[inline(always)]
     fn run<W: Vectors<T>>(self) {
         let (state, buffer) =
-            State::new::<W::Wide>(self.table.parents, self.theta, self.omega, self.buffer);
+            State::new::<W::Wide>(&self.table.shape, self.theta, self.omega, self.buffer);
         let n = self.alpha.len();
         let (below, buffer) = buffer.split_at_mut(R * n);
         let kept = buffer.get_mut(..K * n).unwrap_or_default();
@@ -217,7 +209,7 @@ fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
     V: Vector<T>,
 {
     below.fill(T::from_f64(0.0));
-    for &link in table.order.iter().rev() {
+    for &link in table.shape.order.iter().rev() {
         let link = link as usize;
         let (Some(constants), Some(hanging)) = (table.constants.get(link), table.hanging.get(link))
         else {
@@ -231,7 +223,7 @@ fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
         let [square, ratio, _] = splat::<T, V, HANGING>(hanging);
         let motion = state.motion::<V>(link, P::JOINTS);
         let (mut answers, across, along);
-        if state.is_leaf(link) {
+        if table.shape.is_leaf(link) {
             answers = P::leaf(&constants, motion);
             (across, along) = (-square, -ratio);
         } else {
@@ -244,7 +236,7 @@ fn up<P, T, V, const C: usize, const R: usize, const K: usize>(
             return;
         }
         let factors = [square, across, square, along, ratio];
-        let parent = state.parent(link);
+        let parent = table.shape.parent(link);
         let sums = load::<T, V, R>(below, parent);
         for i in 0..R {
             answers[i] = match factors.get(i) {
@@ -272,7 +264,7 @@ fn down<P, T, V, const C: usize, const R: usize, const K: usize>(
     T: Scalar,
     V: Vector<T>,
 {
-    for &link in &table.order {
+    for &link in &table.shape.order {
         let link = link as usize;
         let (Some(constants), Some(hanging)) = (table.constants.get(link), table.hanging.get(link))
         else {
@@ -284,10 +276,10 @@ fn down<P, T, V, const C: usize, const R: usize, const K: usize>(
             splat::<T, V, 2>(&root)
         } else {
             let reach = V::splat(hanging[2]);
-            let [x, y] = load::<T, V, 2>(ends, state.parent(link));
+            let [x, y] = load::<T, V, 2>(ends, table.shape.parent(link));
             [reach * x, reach * y]
         };
-        let acceleration = if state.is_leaf(link) {
+        let acceleration = if table.shape.is_leaf(link) {
             P::turn_leaf(&constants, motion, pivot)
         } else {
             let (acceleration, end) =
@@ -303,9 +295,7 @@ impl<P, T: Clone, const C: usize, const R: usize, const K: usize> Clone for Tabl
     /// The copy has room of its own.
     fn clone(&self) -> Self {
         let Self {
-            parents,
-            depths,
-            order,
+            shape,
             constants,
             hanging,
             root,
@@ -314,9 +304,7 @@ impl<P, T: Clone, const C: usize, const R: usize, const K: usize> Clone for Tabl
             recursion,
         } = self;
         Self {
-            parents,
-            depths: depths.clone(),
-            order: order.clone(),
+            shape: shape.clone(),
             constants: constants.clone(),
             hanging: hanging.clone(),
             root: root.clone(),
@@ -332,9 +320,7 @@ impl<P, T: PartialEq, const C: usize, const R: usize, const K: usize> PartialEq
 {
     fn eq(&self, other: &Self) -> bool {
         let Self {
-            parents,
-            depths: _,
-            order: _,
+            shape,
             constants,
             hanging,
             root,
@@ -342,7 +328,7 @@ impl<P, T: PartialEq, const C: usize, const R: usize, const K: usize> PartialEq
             pool: _,
             recursion: _,
         } = self;
-        *parents == other.parents
+        *shape == other.shape
             && *constants == other.constants
             && *hanging == other.hanging
             && *root == other.root
@@ -355,9 +341,7 @@ impl<P, T: fmt::Debug, const C: usize, const R: usize, const K: usize> fmt::Debu
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
-            parents,
-            depths: _,
-            order: _,
+            shape,
             constants,
             hanging,
             root,
@@ -366,7 +350,7 @@ impl<P, T: fmt::Debug, const C: usize, const R: usize, const K: usize> fmt::Debu
             recursion: _,
         } = self;
         f.debug_struct("Table")
-            .field("parents", parents)
+            .field("parents", &shape.parents)
             .field("constants", constants)
             .field("hanging", hanging)
             .field("root", root)

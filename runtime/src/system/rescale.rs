@@ -94,24 +94,26 @@ pub trait Rescale<T: Scalar>: Pendulum<T> {
         0
     }
 
-    /// What a [`Batch`](crate::batch::Batch) computes with: this pendulum in
-    /// registers, or where that would be large, something that takes its numbers
+    /// What a [`Batch`](crate::batch::Batch) computes with at `time`: this pendulum
+    /// in registers, or where that would be large, something that takes its numbers
     /// as they are needed.
     #[doc(hidden)]
     #[inline(always)]
-    fn in_registers<R: Register<Lane = T>>(&self, room: &mut [T]) -> impl InRegisters<R> {
+    fn in_registers<R: Register<Lane = T>>(&self, time: T, room: &mut [T]) -> impl InRegisters<R> {
         let _ = room;
-        Rescaled(self.rescale(R::splat))
+        Rescaled {
+            pendulum: self.rescale(R::splat),
+            time: R::splat(time),
+        }
     }
 }
 
-/// A pendulum in registers.
+/// A pendulum in registers, at one time.
 #[doc(hidden)]
 pub trait InRegisters<R> {
     /// As [`Rescale::evaluate`].
     fn evaluate(
         &mut self,
-        time: R,
         theta: impl Fn(usize) -> R,
         omega: impl Fn(usize) -> R,
         alpha: impl FnMut(usize, R),
@@ -119,18 +121,20 @@ pub trait InRegisters<R> {
 }
 
 /// Its constants are registers.
-struct Rescaled<P>(P);
+struct Rescaled<P, R> {
+    pendulum: P,
+    time: R,
+}
 
-impl<R: Scalar, P: Rescale<R>> InRegisters<R> for Rescaled<P> {
+impl<R: Scalar, P: Rescale<R>> InRegisters<R> for Rescaled<P, R> {
     #[inline(always)]
     fn evaluate(
         &mut self,
-        time: R,
         theta: impl Fn(usize) -> R,
         omega: impl Fn(usize) -> R,
         alpha: impl FnMut(usize, R),
     ) {
-        self.0.evaluate(time, theta, omega, alpha);
+        self.pendulum.evaluate(self.time, theta, omega, alpha);
     }
 }
 

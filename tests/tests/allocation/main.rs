@@ -75,6 +75,21 @@ struct Parts;
 )]
 struct Irregular;
 
+/// Driven, and with children at several places.
+#[branched_pendulum(
+    gravity = 9.80665,
+    code = loops,
+    trunk: rod(mass = 1, length = 1, friction = 1e-3) [
+        twig: rod(mass = 0.1, length = 0.5, at = 0.3) * 70,
+        bough: rod(mass = 0.2, length = 0.5) [
+            leaf: rod(mass = 0.01, length = 0.1) * 61,
+        ],
+    ],
+    drive(torque = 0.4 * cos(3 * t), x = 0.2 * sin(5 * t)),
+    emit(energies),
+)]
+struct Mobile;
+
 fn evaluations<T: Lane, P: Pendulum<T> + Energy<T>>(model: &P) {
     let n = P::LINKS;
     let (theta, omega) = (vec![T::from_f64(0.3); n], vec![T::from_f64(0.1); n]);
@@ -106,6 +121,8 @@ fn large_trees() {
     evaluations::<f32, _>(&single);
     evaluations::<f64, _>(&Irregular::<f64>::new());
     evaluations::<f32, _>(&Irregular::<f32>::default());
+    evaluations::<f64, _>(&Mobile::<f64>::new());
+    evaluations::<f32, _>(&Mobile::<f32>::default());
 }
 
 #[branched_pendulum(
@@ -135,6 +152,8 @@ fn batches() {
     batch_of::<f32, _>(&Whole::<f32>::default());
     batch_of::<f64, _>(&Irregular::<f64>::new());
     batch_of::<f32, _>(&Irregular::<f32>::default());
+    batch_of::<f64, _>(&Mobile::<f64>::new());
+    batch_of::<f32, _>(&Mobile::<f32>::default());
 }
 
 /// Where there are too few states for a register, a model in loops makes room for one

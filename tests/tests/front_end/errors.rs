@@ -299,13 +299,6 @@ const CASES: &[(&str, &str)] = &[
     b: rod(mass = 1, length = 1), c: rod(mass = 1, length = 1, at = 0.5)])] struct Pendulum;",
     ),
     (
-        "loops_at_the_pivot",
-        "#[branched_pendulum(gravity = 1,
-    a: generations(count = 3, branching = 2, mass = 1, com = (0, 1), inertia = 0, joint = (0, 0),
-        code = loops),
-    drive(torque = sin(t)))] struct Pendulum;",
-    ),
-    (
         "duplicate_request",
         "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
     emit(energies, energies, transfer(exact, exact)))] struct Pendulum;",

@@ -180,8 +180,11 @@ fn driven_loops() {
             "turn",
             "turn_leaf",
             "drive",
+            "root_drive",
             "drive_power",
             "accelerations_into",
+            "rescale",
+            "evaluate",
         ],
     );
 }

@@ -6,16 +6,42 @@ use std::time::Instant;
 
 use branched_pendulum::batch::Batch;
 use branched_pendulum::scalar::Lane;
-use branched_pendulum::{Pendulum, Rescale};
+use branched_pendulum::{Pendulum, Rescale, branched_pendulum};
 
 use super::large::{Bush127, Bush500, Loops127, Loops1023};
 use super::measure::states_of;
 use super::states::random;
 
+/// 127 links in generations.
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 7, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7, code = loops),
+    drive(torque = 0.4 * cos(3 * t), x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t)),
+)]
+struct Driven;
+
+/// 127 links in a table, one of them at a place of its own.
+#[branched_pendulum(
+    gravity = 9.80665,
+    code = loops,
+    trunk: rod(mass = 0.12, length = 0.3) [
+        hook: rod(mass = 0.12, length = 0.3, at = 0.1),
+        a: generations(count = 6, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+            mass_ratio = 0.5, length_ratio = 0.7),
+        b: generations(count = 4, branching = 3, shape = rod, mass = 0.12, length = 0.3,
+            mass_ratio = 0.5, length_ratio = 0.7),
+        c: rod(mass = 0.12, length = 0.3),
+        d: generations(count = 3, branching = 4, shape = rod, mass = 0.12, length = 0.3,
+            mass_ratio = 0.5, length_ratio = 0.7),
+    ],
+)]
+struct Rack;
+
 /// Least times for one state of a large tree, ns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// Generations or a table.
+    /// Generations, a table, generations of a driven tree, a table with places.
     pub scene: &'static str,
     /// Number of links.
     pub links: usize,
@@ -35,6 +61,8 @@ pub fn all() -> Vec<Row> {
         row("generations", &Loops1023::new(), &Loops1023::default()),
         row("table", &Bush127::new(), &Bush127::default()),
         row("table", &Bush500::new(), &Bush500::default()),
+        row("driven", &Driven::new(), &Driven::default()),
+        row("places", &Rack::new(), &Rack::default()),
     ]
 }
 
@@ -104,7 +132,10 @@ fn pass<P: Rescale<T>, T: Lane>(
 /// The table that the program prints.
 #[must_use]
 pub fn table(rows: &[Row]) -> String {
-    let mut text = "\nMany states of large trees: least time for one state, ns.\n\n".to_owned();
+    let mut text =
+        "\nMany states of large trees: least time for one state, ns. The driven one is in\n\
+        generations; `places` is a table with children at several places of a link.\n\n"
+            .to_owned();
     let _ = writeln!(
         text,
         "{:>12} {:>6} {:>10} {:>10} {:>10}",

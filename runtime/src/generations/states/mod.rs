@@ -4,7 +4,8 @@
 //! need no neighbours: one subtree goes up after the other, each so small that what is
 //! passed on in it stays in the first cache, then what is above them up and down, then
 //! the subtrees down, the last one first. Three values of each link are kept for the
-//! way down, and as many more of those with children.
+//! way down, and as many more of those with children. A table goes link by link, depth
+//! first, and passes on one row for each depth.
 //!
 //! # Which bits
 //! The equations are those of one state, and so is the order of each sum: a state
@@ -12,63 +13,83 @@
 
 mod packing;
 mod pieces;
+mod places;
+mod stack;
 mod table;
 mod turns;
 mod walk;
 
 use core::marker::PhantomData;
 
-use packing::{Alone, Packed};
+use packing::{Alone, Packed, Packing};
 
 use super::Generations;
+use super::places::{PlacedRecursion, PlacedTable};
 use super::pool::Pool;
 use super::recursion::Recursion;
+use super::root::RootDrive;
 use super::table::Table;
 use crate::scalar::Scalar;
 use crate::scalar::register::Register;
 use crate::system::rescale::InRegisters;
 
-/// A model and room for its values.
-struct WithRoom<'m, 'r, M, T> {
-    model: &'m M,
-    room: &'r mut [T],
-}
+/// A tree in loops that is computed in values of any packing.
+trait States<T: Scalar> {
+    /// Room for evaluations of one state.
+    fn pool(&self) -> &Pool<T>;
 
-impl<P, R, const C: usize, const L: usize, const A: usize, const K: usize> InRegisters<R>
-    for WithRoom<'_, '_, Generations<P, R::Lane, C, L, A, K>, R::Lane>
-where
-    P: Recursion<C, L, A, K>,
-    R: Register,
-{
+    /// How many values an evaluation needs room for.
+    fn room(&self) -> usize;
+
+    /// Gives the accelerations, link by link in any order. None, and not all of them,
+    /// where the room is too small.
+    fn solve<N: Packing<Number = T>>(
+        &self,
+        drive: Option<RootDrive<N::Value>>,
+        room: &mut [T],
+        theta: impl Fn(usize) -> N::Value,
+        omega: impl Fn(usize) -> N::Value,
+        alpha: impl FnMut(usize, N::Value),
+    ) -> Option<()>;
+
+    /// The same for values that are numbers, in room of the tree's own.
     #[inline(always)]
-    fn evaluate(
-        &mut self,
-        _time: R,
-        theta: impl Fn(usize) -> R,
-        omega: impl Fn(usize) -> R,
-        alpha: impl FnMut(usize, R),
+    fn solve_alone(
+        &self,
+        drive: Option<RootDrive<T>>,
+        theta: impl Fn(usize) -> T,
+        omega: impl Fn(usize) -> T,
+        alpha: impl FnMut(usize, T),
     ) {
-        let packing = PhantomData::<Packed<R>>;
-        let _ = walk::evaluate(packing, self.model, self.room, theta, omega, alpha);
+        let mut room = self.pool().take(self.room(), T::from_f64(0.0));
+        let _ = self.solve::<Alone<T>>(drive, &mut room, theta, omega, alpha);
+        self.pool().give_back(room);
     }
 }
 
-impl<P, R, const C: usize, const A: usize, const K: usize> InRegisters<R>
-    for WithRoom<'_, '_, Table<P, R::Lane, C, A, K>, R::Lane>
+/// A tree at one time of its drive, and room for its values.
+struct WithRoom<'m, 'r, M, T> {
+    model: &'m M,
+    drive: Option<RootDrive<T>>,
+    room: &'r mut [T],
+}
+
+impl<M, R> InRegisters<R> for WithRoom<'_, '_, M, R::Lane>
 where
-    P: Recursion<C, A, A, K>,
+    M: States<R::Lane>,
     R: Register,
 {
     #[inline(always)]
     fn evaluate(
         &mut self,
-        _time: R,
         theta: impl Fn(usize) -> R,
         omega: impl Fn(usize) -> R,
         alpha: impl FnMut(usize, R),
     ) {
-        let packing = PhantomData::<Packed<R>>;
-        let _ = table::evaluate(packing, self.model, self.room, theta, omega, alpha);
+        let drive = self.drive.map(|drive| drive.map(R::splat));
+        let _ = self
+            .model
+            .solve::<Packed<R>>(drive, self.room, theta, omega, alpha);
     }
 }
 
@@ -86,36 +107,6 @@ where
             recursion: PhantomData,
         }
     }
-
-    /// The accelerations in the arithmetic of `T`, as
-    /// [`Rescale::evaluate`](crate::Rescale::evaluate).
-    #[inline(always)]
-    pub fn evaluate(
-        &self,
-        theta: impl Fn(usize) -> T,
-        omega: impl Fn(usize) -> T,
-        alpha: impl FnMut(usize, T),
-    ) {
-        let pool = self.tree.pool();
-        let mut room = pool.take(self.room(), T::from_f64(0.0));
-        let packing = PhantomData::<Alone<T>>;
-        let _ = walk::evaluate(packing, self, &mut room, theta, omega, alpha);
-        pool.give_back(room);
-    }
-
-    /// How many values a state takes in a batch.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn room(&self) -> usize {
-        walk::room::<P, C, L, R, K>(self.tree.plan())
-    }
-
-    /// Many states in registers, with so much room for each.
-    #[doc(hidden)]
-    #[inline(always)]
-    pub fn in_registers<V: Register<Lane = T>>(&self, room: &mut [T]) -> impl InRegisters<V> {
-        WithRoom { model: self, room }
-    }
 }
 
 impl<P, T, const C: usize, const R: usize, const K: usize> Table<P, T, C, R, K>
@@ -123,28 +114,11 @@ where
     P: Recursion<C, R, R, K>,
     T: Scalar,
 {
-    /// The accelerations in the arithmetic of `T`, as
-    /// [`Rescale::evaluate`](crate::Rescale::evaluate).
-    #[inline(always)]
-    pub fn evaluate(
-        &self,
-        theta: impl Fn(usize) -> T,
-        omega: impl Fn(usize) -> T,
-        alpha: impl FnMut(usize, T),
-    ) {
-        let mut room = self.pool.take(self.room(), T::from_f64(0.0));
-        let packing = PhantomData::<Alone<T>>;
-        let _ = table::evaluate(packing, self, &mut room, theta, omega, alpha);
-        self.pool.give_back(room);
-    }
-
     /// The same tree on other scalars.
     #[must_use]
     pub fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Table<P, S, C, R, K> {
         Table {
-            parents: self.parents,
-            depths: self.depths.clone(),
-            order: self.order.clone(),
+            shape: self.shape.clone(),
             constants: self.constants.iter().map(|row| row.map(&convert)).collect(),
             hanging: self.hanging.iter().map(|row| row.map(&convert)).collect(),
             root: self.root.map(&convert),
@@ -153,31 +127,96 @@ where
             recursion: PhantomData,
         }
     }
+}
 
-    fn deepest(&self) -> usize {
-        self.order
-            .last()
-            .map_or(0, |&link| depth(&self.depths, link))
-    }
-
-    /// How many values a state takes in a batch.
-    #[doc(hidden)]
+impl<P, T, const C: usize, const R: usize, const S: usize, const K: usize>
+    PlacedTable<P, T, C, R, S, K>
+where
+    P: PlacedRecursion<C, R, S, K>,
+    T: Scalar,
+{
+    /// The same tree on other scalars.
     #[must_use]
-    pub fn room(&self) -> usize {
-        table::room::<P, C, R, K>(self.deepest())
-    }
-
-    /// Many states in registers, with so much room for each.
-    #[doc(hidden)]
-    #[inline(always)]
-    pub fn in_registers<V: Register<Lane = T>>(&self, room: &mut [T]) -> impl InRegisters<V> {
-        WithRoom { model: self, room }
+    pub fn rescale<V: Scalar>(&self, convert: impl Fn(T) -> V) -> PlacedTable<P, V, C, R, S, K> {
+        PlacedTable {
+            shape: self.shape.clone(),
+            constants: self.constants.iter().map(|row| row.map(&convert)).collect(),
+            hanging: self.hanging.iter().map(|row| row.map(&convert)).collect(),
+            root: self.root.map(&convert),
+            pool: Pool::new(),
+            recursion: PhantomData,
+        }
     }
 }
 
-/// Of a link, 0 where there is none.
-fn depth(depths: &[u32], link: u32) -> usize {
-    depths.get(link as usize).map_or(0, |&depth| depth as usize)
+/// What emitted models ask for, of all kinds of loops alike.
+macro_rules! evaluations {
+    (impl [$($generics:tt)*] $tree:ty, $equations:path) => {
+        impl<P, T, $($generics)*> $tree
+        where
+            P: $equations,
+            T: Scalar,
+        {
+            /// The accelerations in the arithmetic of `T`, as
+            /// [`Rescale::evaluate`](crate::Rescale::evaluate).
+            #[inline(always)]
+            pub fn evaluate(
+                &self,
+                theta: impl Fn(usize) -> T,
+                omega: impl Fn(usize) -> T,
+                alpha: impl FnMut(usize, T),
+            ) {
+                self.solve_alone(None, theta, omega, alpha);
+            }
+
+            /// The same for a driven tree, at a time of this drive.
+            #[inline(always)]
+            pub fn driven_evaluate(
+                &self,
+                drive: RootDrive<T>,
+                theta: impl Fn(usize) -> T,
+                omega: impl Fn(usize) -> T,
+                alpha: impl FnMut(usize, T),
+            ) {
+                self.solve_alone(Some(drive), theta, omega, alpha);
+            }
+
+            /// How many values a state takes in a batch.
+            #[doc(hidden)]
+            #[must_use]
+            pub fn room(&self) -> usize {
+                States::room(self)
+            }
+
+            /// Many states in registers, with so much room for each.
+            #[doc(hidden)]
+            #[inline(always)]
+            pub fn in_registers<V: Register<Lane = T>>(
+                &self,
+                drive: Option<RootDrive<T>>,
+                room: &mut [T],
+            ) -> impl InRegisters<V> {
+                WithRoom {
+                    model: self,
+                    drive,
+                    room,
+                }
+            }
+        }
+    };
+}
+
+evaluations! {
+    impl [const C: usize, const L: usize, const R: usize, const K: usize]
+    Generations<P, T, C, L, R, K>, Recursion<C, L, R, K>
+}
+evaluations! {
+    impl [const C: usize, const R: usize, const K: usize]
+    Table<P, T, C, R, K>, Recursion<C, R, R, K>
+}
+evaluations! {
+    impl [const C: usize, const R: usize, const S: usize, const K: usize]
+    PlacedTable<P, T, C, R, S, K>, PlacedRecursion<C, R, S, K>
 }
 
 // A loop: `map` and `from_fn` are not always inlined, and must be.

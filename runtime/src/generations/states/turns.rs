@@ -1,28 +1,32 @@
 //! Sines and cosines of links, and what else their equations read.
 
-use core::marker::PhantomData;
-
 use super::packing::{Packing, Rows};
 use crate::generations::Motion;
+use crate::generations::links::Shape;
 use crate::scalar::Scalar;
 
 /// Registers of sines that are formed in step: while the result of one operation is
 /// awaited, the others keep the processor busy.
-pub(super) const STEP: usize = 2;
+const STEP: usize = 2;
 
-/// Rows of `M` values: sine, cosine, velocity of a link, and where `M` is 5, angle
-/// and velocity relative to its parent.
-pub(super) struct Turns<'a, P: Packing, const M: usize> {
-    rows: Rows<'a, P::Number, M>,
-    packing: PhantomData<P>,
+/// Values that so many links need room for.
+pub(super) const fn room(links: usize, joints: bool) -> usize {
+    (links + STEP - 1) * if joints { 5 } else { 3 }
 }
 
-impl<'a, P: Packing, const M: usize> Turns<'a, P, M> {
+/// A row for each link: sine, cosine, velocity, and where the equations read them,
+/// angle and velocity relative to the parent.
+pub(super) struct Turns<'a, P: Packing> {
+    rows: Rows<'a, P::Number, 1>,
+    joints: bool,
+}
+
+impl<'a, P: Packing> Turns<'a, P> {
     #[inline(always)]
-    pub(super) fn new(room: &'a mut [P::Number]) -> Self {
+    pub(super) fn new(room: &'a mut [P::Number], joints: bool) -> Self {
         Self {
             rows: Rows(room),
-            packing: PhantomData,
+            joints,
         }
     }
 
@@ -48,38 +52,58 @@ impl<'a, P: Packing, const M: usize> Turns<'a, P, M> {
             let (sines, cosines) = P::Value::sin_cos_each(&angles);
             for i in 0..STEP {
                 let (link, parent) = links[i];
-                let velocity = omega(link);
-                let mut values = [velocity; M];
-                values[0] = sines[i];
-                values[1] = cosines[i];
-                if M == 5 {
-                    let (mut bend, mut rate) = (angles[i], velocity);
-                    if let Some(parent) = parent {
-                        bend = bend - theta(parent);
-                        rate = rate - omega(parent);
-                    }
-                    values[3] = bend;
-                    values[4] = rate;
+                let (row, velocity) = (row + i, omega(link));
+                let [sine, cosine] = [sines[i], cosines[i]];
+                if !self.joints {
+                    self.rows.store::<P, 3>(3 * row, [sine, cosine, velocity])?;
+                    continue;
                 }
-                self.rows.store::<P, M>(row + i, values)?;
+                let (mut bend, mut rate) = (angles[i], velocity);
+                if let Some(parent) = parent {
+                    bend = bend - theta(parent);
+                    rate = rate - omega(parent);
+                }
+                self.rows
+                    .store::<P, 5>(5 * row, [sine, cosine, velocity, bend, rate])?;
             }
             row += STEP;
         }
         Some(())
     }
 
+    /// Forms those of all links of a table, in their order.
+    #[inline(always)]
+    pub(super) fn form_all(
+        &mut self,
+        shape: &Shape,
+        theta: &impl Fn(usize) -> P::Value,
+        omega: &impl Fn(usize) -> P::Value,
+    ) -> Option<()> {
+        let count = shape.parents.len();
+        let last = count.checked_sub(1)?;
+        let mut links = 0..;
+        let next = || {
+            // Behind the last link there is room for what nobody reads.
+            let link = links.next().map_or(last, |link: usize| link.min(last));
+            (link, (link > 0).then(|| shape.parent(link)))
+        };
+        self.form(0, count, next, theta, omega)
+    }
+
     /// The motion in a row.
     #[inline(always)]
     pub(super) fn motion(&self, row: usize) -> Option<Motion<P::Value>> {
-        let values = self.rows.load::<P, M>(row)?;
-        let [bend, bend_rate] = match M {
-            5 => [values[3], values[4]],
-            _ => [values[2]; 2],
-        };
+        let (sine, cosine, omega, bend, bend_rate);
+        if self.joints {
+            [sine, cosine, omega, bend, bend_rate] = self.rows.load::<P, 5>(5 * row)?;
+        } else {
+            [sine, cosine, omega] = self.rows.load::<P, 3>(3 * row)?;
+            (bend, bend_rate) = (omega, omega);
+        }
         Some(Motion {
-            sine: values[0],
-            cosine: values[1],
-            omega: values[2],
+            sine,
+            cosine,
+            omega,
             bend,
             bend_rate,
         })

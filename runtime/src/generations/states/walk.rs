@@ -4,128 +4,102 @@ use core::marker::PhantomData;
 
 use super::packing::{Packing, Rows, splat};
 use super::pieces::{Level, Piece, Pieces};
-use super::sum;
-use super::turns::{STEP, Turns};
+use super::turns::{self, Turns};
+use super::{States, sum};
 use crate::generations::Generations;
 use crate::generations::memory::take;
-use crate::generations::plan::Plan;
+use crate::generations::pool::Pool;
 use crate::generations::recursion::Recursion;
+use crate::generations::root::RootDrive;
 use crate::scalar::Scalar;
 
-/// Values that an evaluation needs room for.
-pub(super) fn room<P, const C: usize, const L: usize, const R: usize, const K: usize>(
-    plan: &Plan,
-) -> usize
+impl<P, T, const C: usize, const L: usize, const R: usize, const K: usize> States<T>
+    for Generations<P, T, C, L, R, K>
 where
-    P: Recursion<C, L, R, K>,
-{
-    let row = if P::JOINTS { 5 } else { 3 };
-    let others = Pieces::new(plan).map_or(0, |pieces| pieces.passed() * R + pieces.kept() * K);
-    (plan.links() + STEP) * row + others
-}
-
-/// Gives the accelerations, link by link in any order.
-#[inline(always)]
-pub(super) fn evaluate<N, P, T, const C: usize, const L: usize, const R: usize, const K: usize>(
-    packing: PhantomData<N>,
-    model: &Generations<P, T, C, L, R, K>,
-    room: &mut [T],
-    theta: impl Fn(usize) -> N::Value,
-    omega: impl Fn(usize) -> N::Value,
-    alpha: impl FnMut(usize, N::Value),
-) -> Option<()>
-where
-    N: Packing<Number = T>,
     P: Recursion<C, L, R, K>,
     T: Scalar,
 {
-    // Where nothing acts in joints, rows are shorter.
-    if P::JOINTS {
-        pieces::<N, P, T, C, L, R, K, 5>(packing, model, room, theta, omega, alpha)
-    } else {
-        pieces::<N, P, T, C, L, R, K, 3>(packing, model, room, theta, omega, alpha)
+    fn pool(&self) -> &Pool<T> {
+        self.tree.pool()
     }
-}
 
-#[inline(always)]
-fn pieces<N, P, T, const C: usize, const L: usize, const R: usize, const K: usize, const M: usize>(
-    packing: PhantomData<N>,
-    model: &Generations<P, T, C, L, R, K>,
-    mut room: &mut [T],
-    theta: impl Fn(usize) -> N::Value,
-    omega: impl Fn(usize) -> N::Value,
-    mut alpha: impl FnMut(usize, N::Value),
-) -> Option<()>
-where
-    N: Packing<Number = T>,
-    P: Recursion<C, L, R, K>,
-    T: Scalar,
-{
-    let pieces = Pieces::new(model.tree.plan())?;
-    let room = &mut room;
-    let mut walk = Walk::<N, P, C, L, R, K, M> {
-        constants: model.tree.constants.as_chunks().0,
-        leaves: pieces.leaves(),
-        passed: Rows(take(room, pieces.passed() * R * N::COUNT)),
-        kept: Rows(take(room, pieces.kept() * K * N::COUNT)),
-        turns: Turns::new(core::mem::take(room)),
-        recursion: PhantomData,
-        packing,
-    };
-    // What is formed behind the last link of one is written over by the next.
-    let top = pieces.top();
-    walk.turn(&top, pieces.above, &theta, &omega)?;
-    for index in 0..pieces.count {
-        let piece = pieces.subtree(index);
-        walk.turn(&piece, pieces.links, &theta, &omega)?;
-        walk.stems_up(&piece)?;
-        walk.inners_up(&piece, piece.inner - 1)?;
-        walk.hand(&piece, pieces.above + index)?;
+    fn room(&self) -> usize {
+        let plan = self.tree.plan();
+        let others = Pieces::new(plan).map_or(0, |pieces| pieces.passed() * R + pieces.kept() * K);
+        turns::room(plan.links(), P::JOINTS) + others
     }
-    walk.inners_up(&top, top.inner)?;
-    walk.passed
-        .store::<N, 2>(0, splat::<N, 2>(&model.tree.root))?;
-    walk.inners_down(&top, top.inner, &mut alpha)?;
-    for index in (0..pieces.count).rev() {
-        let piece = pieces.subtree(index);
-        walk.hand_back(&piece, pieces.above + index)?;
-        walk.inners_down(&piece, piece.inner - 1, &mut alpha)?;
-        walk.stems_down(&piece, &mut alpha)?;
+
+    #[inline(always)]
+    fn solve<N: Packing<Number = T>>(
+        &self,
+        drive: Option<RootDrive<N::Value>>,
+        mut room: &mut [T],
+        theta: impl Fn(usize) -> N::Value,
+        omega: impl Fn(usize) -> N::Value,
+        mut alpha: impl FnMut(usize, N::Value),
+    ) -> Option<()> {
+        let pieces = Pieces::new(self.tree.plan())?;
+        let room = &mut room;
+        let mut walk = Walk::<N, P, C, L, R, K> {
+            constants: self.tree.constants.as_chunks().0,
+            torque: drive.map(|drive| drive.torque),
+            leaves: pieces.leaves(),
+            passed: Rows(take(room, pieces.passed() * R * N::COUNT)),
+            kept: Rows(take(room, pieces.kept() * K * N::COUNT)),
+            turns: Turns::new(core::mem::take(room), P::JOINTS),
+            recursion: PhantomData,
+        };
+        // What is formed behind the last link of one is written over by the next.
+        let top = pieces.top();
+        walk.turn(&top, pieces.above, &theta, &omega)?;
+        for index in 0..pieces.count {
+            let piece = pieces.subtree(index);
+            walk.turn(&piece, pieces.links, &theta, &omega)?;
+            walk.stems_up(&piece)?;
+            walk.inners_up(&piece, piece.inner - 1)?;
+            walk.hand(&piece, pieces.above + index)?;
+        }
+        walk.inners_up(&top, top.inner)?;
+        let root = RootDrive::above(splat::<N, 2>(&self.tree.root), drive);
+        walk.passed.store::<N, 2>(0, root)?;
+        walk.inners_down(&top, top.inner, &mut alpha)?;
+        for index in (0..pieces.count).rev() {
+            let piece = pieces.subtree(index);
+            walk.hand_back(&piece, pieces.above + index)?;
+            walk.inners_down(&piece, piece.inner - 1, &mut alpha)?;
+            walk.stems_down(&piece, &mut alpha)?;
+        }
+        Some(())
     }
-    Some(())
 }
 
 /// What all pieces are computed with and in.
-struct Walk<
-    'a,
-    N: Packing,
-    P,
-    const C: usize,
-    const L: usize,
-    const R: usize,
-    const K: usize,
-    const M: usize,
-> {
+struct Walk<'a, N: Packing, P, const C: usize, const L: usize, const R: usize, const K: usize> {
     constants: &'a [[N::Number; C]],
+    /// On the root.
+    torque: Option<N::Value>,
     /// The generation of leaves.
     leaves: usize,
     /// Answers on the way up, accelerations of pivots on the way down.
     passed: Rows<'a, N::Number, R>,
     kept: Rows<'a, N::Number, K>,
-    turns: Turns<'a, N, M>,
+    turns: Turns<'a, N>,
     recursion: PhantomData<P>,
-    packing: PhantomData<N>,
 }
 
-impl<N, P, const C: usize, const L: usize, const R: usize, const K: usize, const M: usize>
-    Walk<'_, N, P, C, L, R, K, M>
+impl<N, P, const C: usize, const L: usize, const R: usize, const K: usize>
+    Walk<'_, N, P, C, L, R, K>
 where
     N: Packing,
     P: Recursion<C, L, R, K>,
 {
     #[inline(always)]
     fn constants(&self, generation: usize) -> Option<[N::Value; C]> {
-        self.constants.get(generation).map(|row| splat::<N, C>(row))
+        let row = splat::<N, C>(self.constants.get(generation)?);
+        Some(match self.torque {
+            Some(torque) if P::TORQUE && generation == 0 => RootDrive::row(torque, &row),
+            _ => row,
+        })
     }
 
     /// Motions of so many links of a piece.

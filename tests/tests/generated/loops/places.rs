@@ -32,6 +32,17 @@ pair!(MobileTable, MobileUnrolled, MOBILE:
     drive(torque = 0.4 * cos(3 * t), x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t))
 );
 powered!(MobileTable, MobileUnrolled, braked);
+// Pendulums on one axis, that springs connect: a discrete sine-Gordon chain.
+pair!(AxisTable, AxisUnrolled, AXIS:
+    tree: generations(count = 12, branching = 1, mass = 0.2, com = 0.05, inertia = 1e-4,
+        joint = 0, spring = 0.1)
+);
+pair!(HubTable, HubUnrolled, HUB:
+    tree: generations(count = 4, branching = 2, mass = 0.2, com = (0.01, 0.05), inertia = 1e-4,
+        joint = (0, 0), mass_ratio = 0.7, friction = 2e-4, spring = 0.1),
+    drive(torque = 0.4 * cos(3 * t), x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t))
+);
+powered!(HubTable, HubUnrolled, braked);
 
 #[test]
 fn tables_with_places_agree_with_code_written_out_and_with_the_oracle() {
@@ -39,6 +50,16 @@ fn tables_with_places_agree_with_code_written_out_and_with_the_oracle() {
     agree(&table, &unrolled, RACK, [false, false]);
     let (table, unrolled) = (MobileTable::<f64>::new(), MobileUnrolled::<f64>::new());
     agree(&table, &unrolled, MOBILE, [true, true]);
+    balance(&table, &unrolled);
+}
+
+/// A rule of which no distance is a unit of length is a table of links.
+#[test]
+fn rules_in_one_pivot_agree_with_code_written_out_and_with_the_oracle() {
+    let (table, unrolled) = (AxisTable::<f64>::new(), AxisUnrolled::<f64>::new());
+    agree(&table, &unrolled, AXIS, [false, false]);
+    let (table, unrolled) = (HubTable::<f64>::new(), HubUnrolled::<f64>::new());
+    agree(&table, &unrolled, HUB, [true, true]);
     balance(&table, &unrolled);
 }
 
@@ -90,4 +111,20 @@ fn large_trees_with_places_get_a_table() {
     assert!(scene_of(&tree(10)).table.is_none());
     let table = scene_of(&tree(50)).table.expect("101 links are many");
     assert_eq!(table.hanging.map(|hanging| hanging.len()), Some(101));
+}
+
+#[test]
+fn large_rules_in_one_pivot_get_a_table() {
+    let chain = |count: usize, joint: &str, code: &str| {
+        scene_of(&format!(
+            "gravity = 9.81, tree: generations(count = {count}, branching = 1, mass = 0.1, \
+             com = 0.05, inertia = 0, joint = {joint}, spring = 0.1{code})"
+        ))
+    };
+    let rows = |scene: super::Scene| scene.table.map(|table| table.hanging.unwrap().len());
+    assert_eq!(rows(chain(100, "0", "")), None);
+    assert_eq!(rows(chain(101, "(0, 0)", "")), Some(101));
+    assert_eq!(rows(chain(101, "0", ", code = unrolled")), None);
+    assert_eq!(rows(chain(3, "0", ", code = loops")), Some(3));
+    assert!(chain(101, "0.1", "").generations.is_some());
 }

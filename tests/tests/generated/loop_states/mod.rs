@@ -1,5 +1,7 @@
 //! Models in loops, for many states: batches, trajectories in lanes, other scalars.
 
+mod forced;
+
 use branched_pendulum::batch::Batch;
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
@@ -74,6 +76,9 @@ struct Bush;
 )]
 struct Sprung;
 
+/// Of driven trees.
+const TIME: f64 = 0.7;
+
 /// Numbers of states: below, at and above the lanes of every register.
 const COUNTS: [usize; 9] = [0, 1, 7, 8, 9, 15, 16, 17, 100];
 
@@ -98,17 +103,17 @@ fn alone<T: Lane, P: Rescale<T>>(
     theta: &[T],
     omega: &[T],
 ) -> Vec<T> {
-    let zero = T::from_f64(0.0);
+    let (time, zero) = (T::from_f64(TIME), T::from_f64(0.0));
     if set > InstructionSet::Build {
         let mut alpha = vec![zero; theta.len()];
-        model.accelerations_into(zero, theta, omega, &mut alpha);
+        model.accelerations_into(time, theta, omega, &mut alpha);
         return alpha;
     }
     let lanes = |numbers: &[T]| -> Vec<Lanes<T, 1>> {
         numbers.iter().map(|&number| Lanes([number])).collect()
     };
     let mut alpha = lanes(&vec![zero; theta.len()]);
-    plain.accelerations_into(Lanes([zero]), &lanes(theta), &lanes(omega), &mut alpha);
+    plain.accelerations_into(Lanes([time]), &lanes(theta), &lanes(omega), &mut alpha);
     alpha.into_iter().map(|Lanes([number])| number).collect()
 }
 
@@ -132,7 +137,7 @@ fn batch_agrees<T: Lane, P: Rescale<T>>(model: &P, bits: fn(&T) -> u64) {
             }
             let mut alpha = vec![vec![zero; count]; links];
             batch
-                .accelerations(zero, &theta, &omega, &mut alpha)
+                .accelerations(T::from_f64(TIME), &theta, &omega, &mut alpha)
                 .unwrap();
             for i in 0..count {
                 let own = state(&alpha, i);
@@ -219,7 +224,7 @@ fn derivatives_agree<P: Rescale<f64>>(model: &P, link: usize) {
     varied[link] = Dual::variable(theta[link], 0);
     let omega_duals = constant(&omega);
     let mut alpha = constant(&omega);
-    let time = Dual::constant(0.0);
+    let time = Dual::constant(TIME);
     duals.evaluate(
         time,
         |i| varied[i],
@@ -230,7 +235,7 @@ fn derivatives_agree<P: Rescale<f64>>(model: &P, link: usize) {
         let mut theta = theta.clone();
         theta[link] += step;
         let mut alpha = vec![0.0; links];
-        model.accelerations_into(0.0, &theta, &omega, &mut alpha);
+        model.accelerations_into(TIME, &theta, &omega, &mut alpha);
         alpha
     };
     let (forwards, backwards, here) = (shifted(1e-5), shifted(-1e-5), shifted(0.0));
