@@ -104,7 +104,7 @@ impl Emission<'_> {
         lines.extend([
             String::new(),
             format!(
-                "[x]_s is the part of x in the symmetric coordinates of the sector, links summed; V_s sums to U and has the period 2π in every angle, springs aside. {closes}"
+                "`[x]_s` is the part of x in the symmetric coordinates of the sector, links summed; V_s sums to U and has the period 2π in every angle, springs aside. {closes}"
             ),
         ]);
         let lateral = self.mechanics.sectors.as_ref().is_some_and(|sectors| {

@@ -145,7 +145,7 @@ fn motion_column(name: &str, shape: Shape) -> &'static str {
         ("reach", _) => "factor of the acceleration that its parent hands on",
         ("along", Shape::Placed) => "direction of a leaf's centre of mass, along the link; 1 else",
         ("across", Shape::Placed) => "the same across the link; 0 else",
-        ("along", _) => "the children's pivots (of leaves: centre of mass) along the link, over ℓ",
+        ("along", _) => "children's pivot or leaf's centre of mass, along the link, over ℓ",
         ("across", _) => "the same across the link",
         ("lateral", _) => "first moment across the direction of that place",
         ("friction", _) => "c in the pivot (N m s)",

@@ -117,7 +117,7 @@ impl Emission<'_> {
                     None => "",
                 }),
                 String::new(),
-                "Row k of `coefficients` gets θ[k] (in rad/sᵏ), then ω[k] (in rad/sᵏ⁺¹), of θ(t₀ + τ) = Σ θ[k] τᵏ: as many orders as there are rows. They are formed in `work`, of any content: `TaylorPendulum::taylor_workspace` of the highest order; if there is less, all coefficients are NaN.".into(),
+                "Row k of `coefficients` gets `θ[k]` (in rad/sᵏ), then `ω[k]` (in rad/sᵏ⁺¹), of `θ(t₀+τ) = Σ θ[k] τᵏ`: as many orders as there are rows. They are formed in `work`, of any content: `TaylorPendulum::taylor_workspace` of the highest order; if there is less, all coefficients are NaN.".into(),
                 String::new(),
                 "With S = (sin θ)'' and C = (cos θ)'', the equation of link i is linear in these second derivatives, whose coefficients follow from the rates of sine and cosine (Jorba and Zou, Experimental Mathematics 14 (2005) 99, proposition 2.1), sums over 0 < j ≤ k + 1:".into(),
                 String::new(),
@@ -344,7 +344,9 @@ pub(super) fn doc_lines(lines: &[String]) -> TokenStream {
         }
         let mut current = String::new();
         for word in line.split(' ') {
-            if !current.is_empty() && current.chars().count() + word.chars().count() >= WIDTH {
+            let full = current.chars().count() + word.chars().count() >= WIDTH;
+            // At the start of a line a sign would begin a list.
+            if full && !current.is_empty() && !matches!(word, "+" | "-" | "*") {
                 wrapped.push(std::mem::take(&mut current));
             }
             if !current.is_empty() {

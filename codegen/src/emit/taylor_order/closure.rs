@@ -2,7 +2,7 @@
 
 use super::super::function::{Binding, ident};
 use super::{Factor, Recurrences};
-use crate::program::{Argument, Op};
+use crate::program::{Argument, Op, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
@@ -107,7 +107,10 @@ impl Recurrences<'_> {
 
     /// `let [theta_parent_k, _, theta_bob_k] = known.theta;`, if any is read.
     fn list(&self, list: &str, op: impl Fn(usize) -> Option<Op>) -> Option<TokenStream> {
-        let name = |index| self.names.get(&self.find(&op(index)?)?);
+        let name = |index| {
+            let id = self.find(&op(index)?).filter(|id| self.is_read(*id))?;
+            self.names.get(&id)
+        };
         let names: Vec<Option<&Ident>> = (0..self.links).map(name).collect();
         let read = names.iter().any(Option::is_some);
         let elements = names.into_iter().map(|name| match name {
@@ -116,5 +119,14 @@ impl Recurrences<'_> {
         });
         let (known, list) = (&self.known, ident(list));
         read.then(|| quote!(let [#(#elements),*] = #known.#list;))
+    }
+
+    /// Whether a coefficient of order k that is given is read: sines and cosines
+    /// are given as angles are, none is formed of the other.
+    fn is_read(&self, id: ValueId) -> bool {
+        let formed = |other: &&ValueId| !self.is_given(self.emission.op(**other));
+        let mut formed = self.needed.iter().filter(formed);
+        let reads = |other: &ValueId| self.emission.op(*other).operands().any(|read| read == id);
+        self.bias.contains(&id) || formed.any(reads)
     }
 }
