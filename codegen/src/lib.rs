@@ -14,10 +14,13 @@
 pub mod description;
 pub mod emit;
 pub mod exact;
+mod layout;
 pub mod mechanics;
 pub mod program;
 pub mod report;
 pub mod scene;
+
+pub use layout::layout;
 
 use description::Description;
 use mechanics::{AlgebraError, Mechanics};

@@ -65,7 +65,10 @@ fn processes_agree_and_keep_the_rest_of_the_file() {
     assert!(first.status.success(), "{}", text(&first.stderr));
     let printed = text(&first.stdout);
     assert_eq!(printed, text(&second.stdout));
-    assert!(printed.contains("// A comment.\n") && printed.ends_with("// Below.\nfn below() {}\n"));
+    assert!(
+        printed.contains("// A comment.\n\n/// A rod.\n")
+            && printed.ends_with("// Below.\nfn below() {}\n")
+    );
     assert!(!printed.contains("use branched_pendulum::branched_pendulum"));
     assert!(printed.contains("pub struct Rod<T = f64>"));
     std::fs::remove_file(path).expect("it is ours");

@@ -5,7 +5,7 @@
 //! `--check` tell when it is stale.
 
 use branched_pendulum_codegen::program::Pass;
-use branched_pendulum_codegen::{Stages, program, stages_without};
+use branched_pendulum_codegen::{Stages, layout, program, stages_without};
 use proc_macro2::TokenStream;
 use quote::ToTokens;
 use std::ops::Range;
@@ -190,8 +190,8 @@ fn show(stages: &Stages, stage: &str) -> String {
 }
 
 fn format_tokens(stages: &Stages) -> Result<String, String> {
-    syn::parse2(stages.tokens.clone())
-        .map(|file| prettyplease::unparse(&file))
+    layout(stages.tokens.clone())
+        .map(|text| text.trim_end().to_owned())
         .map_err(|error| format!("the emitted code is no Rust (a bug of this tool): {error}"))
 }
 
@@ -269,8 +269,13 @@ fn replace(source: &str, mut replacements: Vec<(Range<usize>, String)>, path: &P
     let mut at = 0;
     for (range, replacement) in replacements {
         text.push_str(source.get(at..range.start).unwrap_or_default());
-        text.push_str(replacement.trim_end());
+        text.push_str(&replacement);
         at = range.end;
+        // What is left out takes its line along.
+        let rest = source.get(at..).unwrap_or_default();
+        if replacement.is_empty() && rest.starts_with('\n') {
+            at += 1;
+        }
     }
     text.push_str(source.get(at..).unwrap_or_default());
     if !text.ends_with('\n') {

@@ -104,7 +104,7 @@ impl Emission<'_> {
         lines.extend([
             String::new(),
             format!(
-                "[x]_s is the part of x in the symmetric coordinates of the sector, links summed; V_s sums to U and has the period 2π in every angle, springs aside. {closes}"
+                "`[x]_s` is the part of x in the symmetric coordinates of the sector, links summed; V_s sums to U and has the period 2π in every angle, springs aside. {closes}"
             ),
         ]);
         let lateral = self.mechanics.sectors.as_ref().is_some_and(|sectors| {
@@ -128,7 +128,7 @@ impl Emission<'_> {
                 "Energy transfer W_s = {E_s, H} (in W) into every sector without truncation, by what does it: the kinetic energy of the rest of the tree or its potential energy. E_s as in `budget_canonical`.".to_owned(),
             ],
             Some((Counting::Angle, order)) => vec![
-                format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector with the kinetic energy through order {order} in the angles of all differences, momenta whole, as the paper counts. The slope of that energy in the differences has one order less. E_s as in `budget_canonical`."),
+                format!("Energy transfer W_s = {{E_s, H}} (in W) into every sector with the kinetic energy through order {order} in the angles of all differences, momenta whole, as Toda and Ooshida count. The slope of that energy in the differences has one order less. E_s as in `budget_canonical`."),
                 String::new(),
                 "In an oscillation, momenta are as small as angles: `sector_transfers_amplitude_…` count both.".into(),
             ],

@@ -16,6 +16,9 @@ const ROWS: usize = 8;
 /// A formula longer than this is left to `expand --stage mechanics`.
 const LONGEST_FORMULA: usize = 600;
 
+/// What w is in formulas of transfers.
+const IN_PHASE: &str = "In the formulas w are the angular velocities (in rad/s) of the in-phase motion: those that belong to the in-phase momenta where all differences vanish.";
+
 /// Prose of emitted docs is wrapped at this width.
 const WIDTH: usize = 80;
 
@@ -24,7 +27,8 @@ impl Emission<'_> {
         mechanics::text(expr, &self.mechanics.symbols)
     }
 
-    pub(super) fn model_docs(&self) -> TokenStream {
+    /// What the model's docs say beside its author's words.
+    pub(super) fn model_docs(&self) -> Vec<String> {
         let scene = self.scene;
         if let Some(generations) = &scene.generations {
             return self.generations_docs(generations);
@@ -33,15 +37,12 @@ impl Emission<'_> {
             return self.table_docs();
         }
         let links: Vec<&str> = scene.links.iter().map(|link| link.name.as_str()).collect();
-        let mut lines = vec![
-            String::new(),
-            format!(
-                "A planar tree of {} rigid {}; angles are absolute, from the downward vertical, in the order {} SI units throughout, angles in radians.",
-                links.len(),
-                if links.len() == 1 { "link" } else { "links" },
-                wrapped_names(&links),
-            ),
-        ];
+        let mut lines = vec![format!(
+            "A planar tree of {} rigid {}; angles are absolute, from the downward vertical, in the order {} SI units throughout, angles in radians.",
+            links.len(),
+            if links.len() == 1 { "link" } else { "links" },
+            wrapped_names(&links),
+        )];
         if let Some(frame) = &self.mechanics.symmetric {
             let names: Vec<&str> = frame
                 .coordinates
@@ -62,7 +63,7 @@ impl Emission<'_> {
             lines.push(String::new());
             lines.push("More can be asked for with `emit(…)` in the attribute.".into());
         }
-        doc_lines(&lines)
+        lines
     }
 
     pub(super) fn entry_docs(&self, entry: &Entry) -> TokenStream {
@@ -116,7 +117,7 @@ impl Emission<'_> {
                     None => "",
                 }),
                 String::new(),
-                "Row k of `coefficients` gets θ[k] (in rad/sᵏ), then ω[k] (in rad/sᵏ⁺¹), of θ(t₀ + τ) = Σ θ[k] τᵏ: as many orders as there are rows. They are formed in `work`, of any content: `TaylorPendulum::taylor_workspace` of the highest order; if there is less, all coefficients are NaN.".into(),
+                "Row k of `coefficients` gets `θ[k]` (in rad/sᵏ), then `ω[k]` (in rad/sᵏ⁺¹), of `θ(t₀+τ) = Σ θ[k] τᵏ`: as many orders as there are rows. They are formed in `work`, of any content: `TaylorPendulum::taylor_workspace` of the highest order; if there is less, all coefficients are NaN.".into(),
                 String::new(),
                 "With S = (sin θ)'' and C = (cos θ)'', the equation of link i is linear in these second derivatives, whose coefficients follow from the rates of sine and cosine (Jorba and Zou, Experimental Mathematics 14 (2005) 99, proposition 2.1), sums over 0 < j ≤ k + 1:".into(),
                 String::new(),
@@ -130,34 +131,34 @@ impl Emission<'_> {
                 String::new(),
                 "for the mass matrix M_ij = A_ij cos(θ_i − θ_j) + B_ij sin(θ_i − θ_j): one linear system with the matrix of order 0 for each order. See `branched_pendulum::taylor`.".into(),
             ],
-            Purpose::KineticEnergy => vec![format!("Kinetic energy K = ½ ωᵀ M(θ) ω (in J).{}", self.frame_note())],
+            Purpose::KineticEnergy => vec![format!("Kinetic energy K = ½ ωᵀ M(θ) ω (in J) at angles `theta` (in rad) and angular velocities `omega` (in rad/s).{}", self.frame_note())],
             Purpose::PotentialEnergy => {
-                vec!["Potential energy U (in J), zero where all angles are zero.".into()]
+                vec!["Potential energy U (in J) at angles `theta` (in rad), zero where all are zero.".into()]
             }
             Purpose::AbsoluteMomenta => {
-                vec!["Generalized momenta p = M(θ) ω (in kg m²/s) that belong to the absolute angles.".into()]
+                vec!["Generalized momenta p = M(θ) ω (in kg m²/s) of the absolute angles `theta` (in rad), at angular velocities `omega` (in rad/s).".into()]
             }
             Purpose::AbsoluteVelocities => {
-                vec!["Angular velocities ω (in rad/s) that belong to the momenta: solves M(θ) ω = p.".into()]
+                vec!["Angular velocities ω (in rad/s) at angles `theta` (in rad) and `momenta` p (in kg m²/s): solves M(θ) ω = p with M of [`accelerations`](Self::accelerations).".into()]
             }
             Purpose::CanonicalRates => vec![
-                "Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta ∂L/∂θ + Q (in N m), friction, drag and drive included, at angles and momenta.".into(),
+                "Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta ∂L/∂θ + Q (in N m), friction, drag and drive included, at angles `theta` (in rad) and `momenta` (in kg m²/s).".into(),
                 String::new(),
                 "For methods in canonical variables, as `integrate::Gauss` with `system::CanonicalVariables`.".into(),
             ],
             Purpose::MassMatrix => vec![
-                "Mass matrix M(θ) (in kg m²) by rows. Zero between links of different branches.".into(),
+                "Mass matrix M(θ) (in kg m²) by rows, at angles `theta` (in rad); [`accelerations`](Self::accelerations) shows its elements. Zero between links of different branches.".into(),
                 String::new(),
-                "With `stiffness_matrix` at an equilibrium, the linear modes solve K v = (2πf)² M v.".into(),
+                "With K = [`stiffness_matrix`](Self::stiffness_matrix) at an equilibrium, linear modes v of frequency f (in Hz) solve K v = (2πf)² M v.".into(),
             ],
             Purpose::StiffnessMatrix => {
-                vec!["Stiffness matrix ∂²U/∂θ∂θ (in J) by rows.".into()]
+                vec!["Stiffness matrix ∂²U/∂θ∂θ (in J) by rows, at angles `theta` (in rad).".into()]
             }
             Purpose::ToSymmetric => vec![
-                "Symmetric coordinates of absolute angles, or the velocities of the ones from those of the others.".into(),
+                "Symmetric coordinates of absolute angles (in rad), or their velocities of angular velocities (in rad/s): means and differences of copies.".into(),
             ],
             Purpose::FromSymmetric => vec![
-                "Absolute angles from symmetric coordinates, or angular velocities from their velocities.".into(),
+                "Absolute angles of symmetric coordinates (in rad), or angular velocities of their velocities (in rad/s).".into(),
             ],
             Purpose::SymmetricAccelerations => vec![
                 format!("Second time derivatives (in rad/s²) of the symmetric coordinates at {}`coordinates` (in rad) and `rates` (in rad/s).", self.at_time()),
@@ -165,24 +166,28 @@ impl Emission<'_> {
                 format!("Solves M̃(q) q̈ + b̃(q, q̇{}) = 0. A difference that is zero with its rate stays exactly zero.", self.and_time()),
             ],
             Purpose::SymmetricMomenta => {
-                vec!["Generalized momenta p = M̃(q) q̇ (in kg m²/s) in symmetric coordinates (paper, Eq. 10).".into()]
+                vec!["Generalized momenta p = M̃(q) q̇ (in kg m²/s) at symmetric `coordinates` (in rad) and their `rates` (in rad/s) (Toda and Ooshida, Eq. 10).".into()]
             }
             Purpose::SymmetricVelocities => {
-                vec!["Velocities q̇ (in rad/s) of the symmetric coordinates: solves M̃(q) q̇ = p.".into()]
+                vec!["Velocities q̇ (in rad/s) of the symmetric `coordinates` (in rad) at `momenta` p (in kg m²/s): solves M̃(q) q̇ = p with M̃ of [`symmetric_accelerations`](Self::symmetric_accelerations).".into()]
             }
             Purpose::Hamiltonian => {
-                vec!["Energy H = ½ pᵀ M̃⁻¹ p + U (in J) in symmetric coordinates and momenta.".into()]
+                vec!["Energy H = ½ pᵀ M̃⁻¹ p + U (in J) at symmetric `coordinates` (in rad) and `momenta` (in kg m²/s), with M̃ of [`symmetric_accelerations`](Self::symmetric_accelerations).".into()]
             }
             Purpose::SubHamiltonian(n) => vec![
-                format!("Energy H_d (in J) of the antiphase coordinate `{}` by itself: the sub-Hamiltonian whose growth W explains (paper, Eq. 12; for more than two copies, Parseval's share of the potential energy).", difference(n)),
+                format!("Energy H_d (in J) of the antiphase coordinate `{}` by itself: the sub-Hamiltonian whose growth W explains (Toda and Ooshida, Eq. 12; for more than two copies, Parseval's share of the potential energy).", difference(n)),
             ],
             Purpose::AngleTransfer(n) => vec![
-                format!("Energy transfer W (in W) into `{}` to first order in the difference angles, momenta untouched: W_K and W_P as published (paper, Eqs. 16b and 16c).", difference(n)),
+                format!("Energy transfer W (in W) into `{}` to first order in the difference angles, momenta untouched: W_K and W_P as published (Toda and Ooshida, Eqs. 16b and 16c).", difference(n)),
                 String::new(),
                 "Of first order in the angles only: for an oscillation, where momenta are as small as angles, two of four terms of the leading order are missing; `transfer_amplitude_2` has all four. Remainder O(θ_d) in W_K, O(θ_d³) in W_P.".into(),
+                String::new(),
+                IN_PHASE.into(),
             ],
             Purpose::AmplitudeTransfer(n) => vec![
                 format!("Energy transfer W (in W) into `{}` to second order in the amplitude of the differences: the complete quadratic form in them and their momenta. {}", difference(n), self.remainder(n)),
+                String::new(),
+                format!("ε scales the differences and their momenta. {IN_PHASE}"),
             ],
             Purpose::HigherTransfer(n, index) => {
                 let truncated = &self.mechanics.transfers[n].higher[index];
@@ -206,6 +211,8 @@ impl Emission<'_> {
             }
             Purpose::QuadraticForm(n) => vec![
                 format!("Coefficients a_pp, a_pq, a_qq of the quadratic form W ≈ a_pp p² + a_pq p θ + a_qq θ² for `{}`, at the in-phase state given; the difference's own coordinate and momentum are not read.", difference(n)),
+                String::new(),
+                IN_PHASE.into(),
             ],
             Purpose::ExactTransfer(n) => vec![
                 format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and momenta: the velocities are solved for, no inverse is expanded. Conservative part; {}.", difference(n), self.on_top()),
@@ -281,8 +288,19 @@ pub(super) fn wrapped_names(names: &[&str]) -> String {
     }
 }
 
-/// A formula on lines of bounded width, broken before the signs of its sum.
+/// A formula on lines of bounded width, broken before the signs of its sum; within
+/// parentheses only where that does not do.
 fn broken(formula: &str) -> Vec<String> {
+    let fits = |lines: &Vec<String>| lines.iter().all(|line| line.chars().count() <= WIDTH + 4);
+    let outermost = broken_within(formula, 0);
+    if fits(&outermost) {
+        return outermost;
+    }
+    broken_within(formula, 1)
+}
+
+/// Lines of a formula, broken before signs in at most so many parentheses.
+fn broken_within(formula: &str, most: i32) -> Vec<String> {
     let mut lines = Vec::new();
     let mut line = String::new();
     let mut depth = 0_i32;
@@ -297,7 +315,7 @@ fn broken(formula: &str) -> Vec<String> {
         term.clear();
     };
     for word in formula.split_inclusive(' ') {
-        if depth == 0 && matches!(word.trim_end(), "+" | "−") {
+        if depth <= most && matches!(word.trim_end(), "+" | "−") {
             flush(&mut term, &mut line);
         }
         for letter in word.chars() {
@@ -326,7 +344,9 @@ pub(super) fn doc_lines(lines: &[String]) -> TokenStream {
         }
         let mut current = String::new();
         for word in line.split(' ') {
-            if !current.is_empty() && current.chars().count() + word.chars().count() >= WIDTH {
+            let full = current.chars().count() + word.chars().count() >= WIDTH;
+            // At the start of a line a sign would begin a list.
+            if full && !current.is_empty() && !matches!(word, "+" | "-" | "*") {
                 wrapped.push(std::mem::take(&mut current));
             }
             if !current.is_empty() {

@@ -4,8 +4,11 @@ use super::Emission;
 use super::function::{Binding, ident, number_tokens};
 use super::names::Locals;
 use crate::program::{Fused, Op, ValueId};
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
+
+/// Fused operations in one another that stand in one line.
+const MOST_NESTED: usize = 1;
 
 impl Emission<'_> {
     /// A value where it is used: its name, or its definition in parentheses if
@@ -23,8 +26,46 @@ impl Emission<'_> {
         }
     }
 
+    /// `let name = value;`, in several steps where the value is a long sum of
+    /// products: fused operations in one another are hard to read.
+    pub(super) fn named(&self, id: ValueId, name: &Ident, locals: &Locals) -> TokenStream {
+        let mut terms = Vec::new();
+        let mut innermost = id;
+        while let Some(fused) = locals.fused.get(&innermost) {
+            terms.push(fused);
+            innermost = fused.addend;
+            if locals.names.contains_key(&innermost) {
+                break;
+            }
+        }
+        if terms.len() <= MOST_NESTED {
+            let (value, _) = self.definition(id, locals);
+            return quote!(let #name = #value;);
+        }
+        let leaf = matches!(*self.op(innermost), Op::Constant(_) | Op::Number(_));
+        let first = match leaf || locals.names.contains_key(&innermost) {
+            true => terms.pop().map(|fused| self.fused(fused, locals)),
+            false => None,
+        };
+        let first = first.unwrap_or_else(|| self.bound(innermost, locals, Binding::Sum));
+        let steps = terms.iter().rev().map(|fused| {
+            let value = self.fused_with(fused, &quote!(#name), locals);
+            quote!(let #name = #value;)
+        });
+        quote!(let #name = #first; #(#steps)*)
+    }
+
     /// `x.mul_add(y, z)`, which is x y + z.
     fn fused(&self, fused: &Fused, locals: &Locals) -> TokenStream {
+        let place = match fused.minus_addend {
+            true => Binding::Atom,
+            false => Binding::Sum,
+        };
+        let addend = self.bound(fused.addend, locals, place);
+        self.fused_with(fused, &addend, locals)
+    }
+
+    fn fused_with(&self, fused: &Fused, addend: &TokenStream, locals: &Locals) -> TokenStream {
         let Op::Mul(x, y) = *self.op(fused.product) else {
             unreachable!("products alone are fused");
         };
@@ -35,13 +76,10 @@ impl Emission<'_> {
             self.bound(x, locals, Binding::Atom)
         };
         let y = self.bound(y, locals, Binding::Sum);
-        let z = if fused.minus_addend {
-            let z = self.bound(fused.addend, locals, Binding::Atom);
-            quote!(-#z)
-        } else {
-            self.bound(fused.addend, locals, Binding::Sum)
-        };
-        quote!(#x.mul_add(#y, #z))
+        match fused.minus_addend {
+            true => quote!(#x.mul_add(#y, -#addend)),
+            false => quote!(#x.mul_add(#y, #addend)),
+        }
     }
 
     /// A value's definition. Sums and products associate to the left, so that

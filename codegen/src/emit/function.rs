@@ -4,6 +4,7 @@ use super::Emission;
 use super::gather::Gathered;
 use super::names::Locals;
 use super::parts::{self, Line};
+use super::quantities::float;
 use crate::exact::Rational;
 use crate::program::{Argument, Entry, Op, Pass, Purpose, Shape, ValueId};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -215,12 +216,11 @@ impl Emission<'_> {
             return None;
         }
         let name = ident(locals.names.get(&id)?);
-        let (value, _) = self.definition(id, locals);
         Some(Line {
             defines: vec![id],
             reads: self.op(id).operands().collect(),
             whole: None,
-            tokens: quote!(let #name = #value;),
+            tokens: self.named(id, &name, locals),
         })
     }
 
@@ -364,13 +364,8 @@ pub(super) fn part_tokens(number: &Rational) -> [TokenStream; 2] {
         false => quote!(#size),
     };
     let (high, low) = number.to_parts();
-    let decimal = signed(high, Literal::f64_unsuffixed(high.abs()));
     if low == 0.0 {
-        return [decimal, quote!(0.0)];
+        return [signed(high, float(high.abs())), quote!(0.0)];
     }
-    // Some eighteen zeros lead it.
-    let size = low.abs();
-    let short = format!("{size:e}").parse();
-    let rest = signed(low, short.unwrap_or_else(|_| Literal::f64_unsuffixed(size)));
-    [decimal, rest]
+    [high, low].map(|part| signed(part, float(part.abs())))
 }

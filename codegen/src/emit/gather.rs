@@ -87,7 +87,7 @@ impl Emission<'_> {
                 .iter()
                 .map(move |&angle| self.local(&op(angle), needed, locals))
         };
-        let (sines, cosines) = (names(Op::Sin), names(Op::Cos));
+        let (sines, cosines): (Vec<_>, Vec<_>) = names(Op::Sin).zip(names(Op::Cos)).unzip();
         let argument = match whole {
             Some(argument) => {
                 let name = Ident::new(argument.name(), Span::call_site());
@@ -100,10 +100,21 @@ impl Emission<'_> {
                 quote!(&[#(#angles),*])
             }
         };
+        // Those that nothing reads have no name.
+        let taken = |array: &str, elements: &[TokenStream]| {
+            let unread = elements.iter().all(|name| name.to_string() == "_");
+            let array = Ident::new(array, Span::call_site());
+            match unread {
+                true => (quote!(_), TokenStream::new()),
+                false => (quote!(#array), quote!(let [#(#elements),*] = #array;)),
+            }
+        };
+        let (sine_array, sines) = taken("sines", &sines);
+        let (cosine_array, cosines) = taken("cosines", &cosines);
         quote! {
-            let (sines, cosines) = T::sin_cos_each(#argument);
-            let [#(#sines),*] = sines;
-            let [#(#cosines),*] = cosines;
+            let (#sine_array, #cosine_array) = T::sin_cos_each(#argument);
+            #sines
+            #cosines
         }
     }
 

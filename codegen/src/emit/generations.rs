@@ -2,9 +2,9 @@
 //! that takes them through the tree.
 
 use super::Emission;
-use super::docs::doc_lines;
-use super::function::number_tokens;
-use crate::scene::{Constants, Forces, Generations, Quantity};
+use super::columns::Constants as Table;
+use super::quantities::Numbers;
+use crate::scene::{Constants, Forces, Generations};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -31,7 +31,7 @@ impl Emission<'_> {
         format_ident!("{}Equations", self.item.ident)
     }
 
-    pub(super) fn generations_docs(&self, generations: &Generations) -> TokenStream {
+    pub(super) fn generations_docs(&self, generations: &Generations) -> Vec<String> {
         let Generations {
             branching,
             links,
@@ -43,7 +43,6 @@ impl Emission<'_> {
             false => " Energies can be asked for with `emit(energies)`.",
         };
         let mut lines = vec![
-            String::new(),
             format!(
                 "A planar tree of {links} rigid links in {count} generations, {branching} under each link but the last ones. Angles are absolute, in radians from the downward vertical; SI units throughout."
             ),
@@ -55,7 +54,7 @@ impl Emission<'_> {
             ),
         ];
         self.drive_lines(&mut lines);
-        doc_lines(&lines)
+        lines
     }
 
     /// The numbers of constants, of a leaf's and an inner link's answers, and of
@@ -76,12 +75,12 @@ impl Emission<'_> {
     /// `Self { … }`, the constants in place: one row a generation.
     pub(super) fn generations_value(&self, constants: &Constants) -> TokenStream {
         let runtime = self.runtime();
-        let [motion, motion_value] = self.constant_rows("motion", &constants.motion);
+        let [motion, motion_value] = self.constant_rows(Table::Motion, &constants.motion);
         let [energy, energy_value] = match self.scene.requests.energies && !self.has_bodies() {
-            true => self.constant_rows("energy", &constants.energy),
+            true => self.constant_rows(Table::Energy, &constants.energy),
             false => [TokenStream::new(), quote!([])],
         };
-        let root = self.scalar(&constants.root);
+        let root = self.quantity(&constants.root, Numbers::Scalar);
         let (extra, fields) = self.loop_values(constants.per_lever.as_ref());
         quote! {
             #motion
@@ -94,40 +93,6 @@ impl Emission<'_> {
                     &#energy_value,
                 ),
                 #(#fields),*
-            }
-        }
-    }
-
-    /// A quantity in the model's scalar.
-    pub(super) fn scalar(&self, quantity: &Quantity) -> TokenStream {
-        let joined = |parts: &[Quantity], operator: &TokenStream| {
-            let mut parts = parts.iter().map(|part| self.scalar(part));
-            let first = parts.next();
-            quote!((#first #(#operator #parts)*))
-        };
-        match quantity {
-            Quantity::Exact(number) => number_tokens(number),
-            Quantity::Parameter(id) => {
-                let field = format_ident!("{}", self.scene.parameters[id.0].name);
-                quote!(parameters.#field)
-            }
-            Quantity::Sum(parts) => joined(parts, &quote!(+)),
-            Quantity::Product(parts) => joined(parts, &quote!(*)),
-            Quantity::Quotient(above, below) => {
-                let (above, below) = (self.scalar(above), self.scalar(below));
-                quote!((#above / #below))
-            }
-            Quantity::Power(base, exponent) => {
-                let power = vec![(**base).clone(); exponent.unsigned_abs() as usize];
-                let power = joined(&power, &quote!(*));
-                match *exponent < 0 {
-                    true => quote!((T::from_f64(1.0) / #power)),
-                    false => power,
-                }
-            }
-            Quantity::Negative(value) => {
-                let value = self.scalar(value);
-                quote!((-#value))
             }
         }
     }
@@ -158,20 +123,20 @@ impl Emission<'_> {
             note => Some(quote!(#[doc = #note])),
         };
         quote! {
-            /// Kinetic energy, J, for angles `theta` (rad) and angular
-            /// velocities `omega` (rad/s): ½ m **V**² + ½ I ω² of all links,
-            /// from the velocities **V** of their centres of mass. NaN for
-            /// slices of another length than there are links. O(links).
+            /// Kinetic energy K (in J) at angles `theta` (in rad) and angular velocities
+            /// `omega` (in rad/s): Σ ½ m **V**² + ½ I ω² over the links, **V** being the
+            /// velocities of their centres of mass. NaN for slices of another length than
+            /// there are links. O(links).
             #frame
             #[must_use]
             pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
                 self.#loops.kinetic_energy(theta, omega)
             }
 
-            /// Potential energy, J, for angles `theta` (rad): m g h of all
-            /// links and ½ κ (θ − θ_parent)² of torsion springs, zero where
-            /// every link hangs straight down. NaN for a slice of another
-            /// length than there are links. O(links).
+            /// Potential energy U (in J) at angles `theta` (in rad), zero where all are
+            /// zero: Σ m g h + ½ κ (θ − θ_parent)² over the links, h being the height of
+            /// their centres of mass, κ the stiffness of torsion springs. NaN for a slice
+            /// of another length than there are links. O(links).
             #[must_use]
             pub fn potential_energy(&self, theta: &[T]) -> T {
                 self.#loops.potential_energy(theta)
@@ -187,16 +152,16 @@ impl Emission<'_> {
         quote! {
             #allow
             impl<T: #runtime::Scalar> #name<T> {
-                /// Index of the link that one comes to from the root by these
-                /// copies, each counted from 0; the root's path is empty. None
+                /// Index of the link at the end of a path from the root: of each
+                /// generation the copy, counted from 0. The root's path is empty. `None`
                 /// where there is no such link.
                 #[must_use]
                 pub fn link(path: &[usize]) -> ::core::option::Option<usize> {
                     <#loops>::link(path)
                 }
 
-                /// Computes on so many threads, where the tree is large enough.
-                /// The results do not depend on it.
+                /// Sets how many threads compute where the tree is large enough for
+                /// several. Results do not depend on it.
                 pub fn set_threads(&mut self, threads: ::core::num::NonZeroUsize) {
                     self.generations.set_threads(threads);
                 }

@@ -2,8 +2,9 @@
 
 use super::Emission;
 use super::docs::doc_lines;
+use super::one_link::{Torques, read, with_torques};
 use crate::scene::Forces;
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
@@ -19,64 +20,14 @@ impl Emission<'_> {
         let forces = Forces::of(self.scene);
         let columns = forces.columns();
         let sizes = self.recursion_sizes();
-        let [constants, leaf_answers, answers, kept] = sizes.clone();
+        let [_, leaf_answers, ..] = &sizes;
         let links = Literal::usize_unsuffixed(links);
         let joints = forces.in_joints();
-        // What a function does not read is not taken apart.
-        let read = |used: &[&str]| {
-            let columns = columns.iter().map(|column| match used.contains(column) {
-                true => {
-                    let column = Ident::new(column, Span::call_site());
-                    quote!(#column)
-                }
-                false => quote!(_),
-            });
-            quote!(let [#(#columns),*] = *constants;)
-        };
-        let force_names = ["friction", "drag", "spring"];
-        let with = |own: &[&'static str]| -> Vec<&'static str> {
-            own.iter().copied().chain(force_names).collect()
-        };
-        let torque = torque(forces);
-        let in_joint = in_joint(forces);
-        let (leaf_read, unread) = match forces.any() {
-            true => (read(&with(&["inertia"])), None),
-            false => (TokenStream::new(), Some(quote!(let _ = constants;))),
-        };
-        let (leaf_x, leaf_y) = match forces.any() {
-            true => (
-                quote!(square * link.sine - push * link.cosine),
-                quote!(square.mul_add(link.cosine, push * link.sine)),
-            ),
-            false => (quote!(square * link.sine), quote!(square * link.cosine)),
-        };
-        let push = forces.any().then(|| {
-            quote! {
-                // Q / J
-                let push = (#torque) * inertia;
-            }
-        });
-        let leaf_torque = joints.then(|| quote!(, #in_joint));
-        let torque_parameter = joints.then(|| quote!(torque: V,));
-        let torque_argument = joints.then(|| quote!(, torque));
-        let node_forces = forces.any().then(|| {
-            let from_below = joints.then(|| quote!(+ torque));
-            quote! {
-                let kappa = kappa - (#torque #from_below);
-            }
-        });
-        let node_answer = joints.then(|| quote!(, #in_joint));
-        let node_constants = read(&with(&["inertia", "moment", "lateral", "root_torque"]));
-        let (torque_column, root_torque) = (self.torque_column(), self.root_torque());
-        let inner_constants = read(&["rest", "square", "ratio"]);
-        let turn_constants = read(&["reach"]);
-        let turned_leaf = match forces.any() {
-            true => quote!(swing + (#torque) * inertia),
-            false => quote!(swing),
-        };
-        let unread = unread.filter(|_| !forces.lateral);
-        let (facing, faced, [lateral_b, lateral_f]) =
-            (self.facing(&columns), self.faced(), self.lateral_moment());
+        let torque_column = self.torque_column();
+        let (facing, node) = (self.facing(&columns), self.node_function(&columns));
+        let [leaf, turn_leaf] = self.leaf_functions(&columns, leaf_answers);
+        let [joined, inner] = self.sum_functions(&columns);
+        let turn = self.turn_function(&columns);
         let docs = doc_lines(&equations_docs(self.scene.table.is_some(), forces));
         // Of commas: all tokens stand where the attribute does, see `emit`.
         let allow =
@@ -89,46 +40,7 @@ impl Emission<'_> {
             #allow
             impl #name {
                 #facing
-
-                #[inline(always)]
-                fn node<V: #runtime::Scalar>(
-                    constants: &[V; #constants],
-                    link: #runtime::generations::Motion<V>,
-                    [xx, xy, yy]: [V; 3],
-                    [x, y]: [V; 2],
-                    #torque_parameter
-                ) -> ([V; #answers], [V; #kept]) {
-                    #node_constants
-                    #faced
-                    let (sine, cosine) = (link.sine, link.cosine);
-                    let pull_x = xx.mul_add(cosine, xy * sine);
-                    let pull_y = xy.mul_add(cosine, yy * sine);
-                    let b_x = moment.mul_add(cosine, pull_x);
-                    let b_y = moment.mul_add(sine, pull_y);
-                    #lateral_b
-                    let whole = sine.mul_add(pull_y, cosine.mul_add(pull_x, inertia));
-                    let square = link.omega * link.omega;
-                    let trace = xx + yy + moment;
-                    let f_x = square.mul_add((-trace).mul_add(sine, pull_y), x);
-                    let f_y = (-square).mul_add((-trace).mul_add(cosine, pull_x), y);
-                    let kappa = cosine.mul_add(f_x, sine * f_y);
-                    #node_forces
-                    #root_torque
-                    #lateral_f
-                    let inverse = V::from_f64(1.0) / whole;
-                    let (g_x, g_y) = (b_x * inverse, b_y * inverse);
-                    (
-                        [
-                            (-b_x).mul_add(g_x, xx),
-                            (-b_x).mul_add(g_y, xy),
-                            (-b_y).mul_add(g_y, yy),
-                            (-g_x).mul_add(kappa, f_x),
-                            (-g_y).mul_add(kappa, f_y)
-                            #node_answer
-                        ],
-                        [g_x, g_y, kappa * inverse],
-                    )
-                }
+                #node
             }
 
             #allow
@@ -139,93 +51,134 @@ impl Emission<'_> {
                 const JOINTS: bool = #joints;
                 #torque_column
 
-                #[inline(always)]
-                fn leaf<V: #runtime::Scalar>(
-                    constants: &[V; #constants],
-                    link: #runtime::generations::Motion<V>,
-                ) -> [V; #leaf_answers] {
-                    #leaf_read
-                    #unread
-                    #faced
-                    let square = link.omega * link.omega;
-                    #push
+                #leaf
+                #joined
+                #inner
+                #turn
+                #turn_leaf
+            }
+        }
+    }
+
+    /// `node`: a link with children, of the sums of what these answer.
+    fn node_function(&self, columns: &[&str]) -> TokenStream {
+        let (runtime, forces) = (self.runtime(), Forces::of(self.scene));
+        let [constants, _, answers, kept] = self.recursion_sizes();
+        let torques = Torques::of(forces);
+        let (joint, kappa) = (torques.answered(), torques.in_kappa());
+        let torque = torques.of_children().map(|_| quote!(torque: V,));
+        let read = with_torques(columns, &["inertia", "moment", "lateral", "root_torque"]);
+        let (faced, root_torque) = (self.faced(), self.root_torque());
+        let [lateral_b, lateral_f] = self.lateral_moment();
+        let also = match torques.of_children() {
+            Some(_) => ", and the torque at its pivot",
+            None => "",
+        };
+        let docs = doc_lines(&[format!(
+            "What a link with children answers: Φ (xx, xy, yy) and **β** (x, y){also}; and what `turn` reads later, g and κ / J. `phi` and `beta` are sums over the children."
+        )]);
+        quote! {
+            #docs
+            #[inline(always)]
+            fn node<V: #runtime::Scalar>(
+                constants: &[V; #constants],
+                link: #runtime::generations::Motion<V>,
+                phi: [V; 3],
+                beta: [V; 2],
+                #torque
+            ) -> ([V; #answers], [V; #kept]) {
+                #read
+                #faced
+                let (sine, cosine) = (link.sine, link.cosine);
+                let [xx, xy, yy] = phi;
+                let [x, y] = beta;
+                let pull_x = xx.mul_add(cosine, xy * sine);
+                let pull_y = xy.mul_add(cosine, yy * sine);
+                let b_x = moment.mul_add(cosine, pull_x);
+                let b_y = moment.mul_add(sine, pull_y);
+                #lateral_b
+                let whole = sine.mul_add(pull_y, cosine.mul_add(pull_x, inertia));
+                let square = link.omega * link.omega;
+                let trace = xx + yy + moment;
+                let f_x = square.mul_add((-trace).mul_add(sine, pull_y), x);
+                let f_y = (-square).mul_add((-trace).mul_add(cosine, pull_x), y);
+                let kappa = cosine.mul_add(f_x, sine * f_y);
+                #kappa
+                #root_torque
+                #lateral_f
+                let inverse = V::from_f64(1.0) / whole;
+                let (g_x, g_y) = (b_x * inverse, b_y * inverse);
+                (
                     [
-                        link.sine * link.sine,
-                        link.cosine * link.sine,
-                        link.cosine * link.cosine,
-                        #leaf_x,
-                        #leaf_y
-                        #leaf_torque
-                    ]
-                }
+                        (-b_x).mul_add(g_x, xx),
+                        (-b_x).mul_add(g_y, xy),
+                        (-b_y).mul_add(g_y, yy),
+                        (-g_x).mul_add(kappa, f_x),
+                        (-g_y).mul_add(kappa, f_y)
+                        #joint
+                    ],
+                    [g_x, g_y, kappa * inverse],
+                )
+            }
+        }
+    }
 
+    /// `joined` and `inner`: sums of answers in the units of the parent.
+    fn sum_functions(&self, columns: &[&str]) -> [TokenStream; 2] {
+        let runtime = self.runtime();
+        let [constants, leaf_answers, answers, kept] = self.recursion_sizes();
+        let torque = Torques::of(Forces::of(self.scene)).of_children();
+        let read = read(columns, &["rest", "square", "ratio"]);
+        [
+            quote! {
                 #[inline(always)]
-                fn joined<V: #runtime::Scalar>(
-                    [xx, xy, yy, x, y #torque_argument]: [V; #leaf_answers],
-                ) -> [V; #answers] {
-                    [xx, -xy, yy, -x, y #torque_argument]
+                fn joined<V: #runtime::Scalar>(below: [V; #leaf_answers]) -> [V; #answers] {
+                    let [xx, xy, yy, x, y #torque] = below;
+                    [xx, -xy, yy, -x, y #torque]
                 }
-
+            },
+            quote! {
                 #[inline(always)]
                 fn inner<V: #runtime::Scalar>(
                     constants: &[V; #constants],
                     link: #runtime::generations::Motion<V>,
                     below: [V; #answers],
                 ) -> ([V; #answers], [V; #kept]) {
-                    #inner_constants
-                    let [xx, xy, yy, x, y #torque_argument] = below;
+                    #read
+                    let [xx, xy, yy, x, y #torque] = below;
                     let phi = [square.mul_add(xx, rest), square * xy, square.mul_add(yy, rest)];
-                    Self::node(constants, link, phi, [ratio * x, ratio * y] #torque_argument)
+                    let beta = [ratio * x, ratio * y];
+                    Self::node(constants, link, phi, beta #torque)
                 }
+            },
+        ]
+    }
 
-                #[inline(always)]
-                fn turn<V: #runtime::Scalar>(
-                    constants: &[V; #constants],
-                    link: #runtime::generations::Motion<V>,
-                    [g_x, g_y, turn]: [V; #kept],
-                    [x, y]: [V; 2],
-                ) -> (V, [V; 2]) {
-                    #turn_constants
-                    #faced
-                    let alpha = g_x.mul_add(x, g_y.mul_add(y, -turn));
-                    let square = link.omega * link.omega;
-                    let end_x = square.mul_add(link.sine, (-alpha).mul_add(link.cosine, x));
-                    let end_y = (-square).mul_add(link.cosine, (-alpha).mul_add(link.sine, y));
-                    (alpha, [reach * end_x, reach * end_y])
-                }
-
-                #[inline(always)]
-                fn turn_leaf<V: #runtime::Scalar>(
-                    constants: &[V; #constants],
-                    link: #runtime::generations::Motion<V>,
-                    [x, y]: [V; 2],
-                ) -> V {
-                    #leaf_read
-                    #unread
-                    #faced
-                    let swing = link.cosine.mul_add(x, link.sine * y);
-                    #turned_leaf
-                }
+    /// `turn`: the way back from the root.
+    fn turn_function(&self, columns: &[&str]) -> TokenStream {
+        let runtime = self.runtime();
+        let [constants, _, _, kept] = self.recursion_sizes();
+        let (read, faced) = (read(columns, &["reach"]), self.faced());
+        quote! {
+            #[inline(always)]
+            fn turn<V: #runtime::Scalar>(
+                constants: &[V; #constants],
+                link: #runtime::generations::Motion<V>,
+                kept: [V; #kept],
+                pivot: [V; 2],
+            ) -> (V, [V; 2]) {
+                #read
+                #faced
+                let [g_x, g_y, turn] = kept;
+                let [x, y] = pivot;
+                let alpha = g_x.mul_add(x, g_y.mul_add(y, -turn));
+                let square = link.omega * link.omega;
+                let end_x = square.mul_add(link.sine, (-alpha).mul_add(link.cosine, x));
+                let end_y = (-square).mul_add(link.cosine, (-alpha).mul_add(link.sine, y));
+                (alpha, [reach * end_x, reach * end_y])
             }
         }
     }
-}
-
-/// The torque that acts on a link from outside of its subtree: friction and
-/// spring in its pivot, drag.
-pub(super) fn torque(forces: Forces) -> TokenStream {
-    let joint = forces.in_joints().then(|| in_joint(forces));
-    let drag = forces.drag.then(|| quote!(drag * link.omega));
-    let parts = joint.into_iter().chain(drag);
-    quote!(-(#(#parts)+*))
-}
-
-/// What a link's pivot does to its parent.
-pub(super) fn in_joint(forces: Forces) -> TokenStream {
-    let friction = forces.friction.then(|| quote!(friction * link.bend_rate));
-    let spring = forces.spring.then(|| quote!(spring * link.bend));
-    let parts = friction.into_iter().chain(spring);
-    quote!(#(#parts)+*)
 }
 
 fn equations_docs(table: bool, forces: Forces) -> Vec<String> {

@@ -2,8 +2,11 @@
 //! beside the others.
 
 use super::Emission;
+use super::columns::Constants;
 use super::docs::doc_lines;
 use super::function::ident;
+use super::one_link::read;
+use super::quantities::Numbers;
 use crate::program::Purpose;
 use crate::scene::{Forces, Quantity, has_bodies};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -32,22 +35,18 @@ impl Emission<'_> {
     /// What does so, with constants of these columns.
     pub(super) fn facing(&self, columns: &[&str]) -> Option<TokenStream> {
         let (runtime, forces) = (self.runtime(), Forces::of(self.scene));
-        let names = columns.iter().map(|column| match *column {
-            "along" | "across" => {
-                let column = ident(column);
-                quote!(#column)
-            }
-            _ => quote!(_),
-        });
+        let read = read(columns, &["along", "across"]);
         let count = Literal::usize_unsuffixed(columns.len());
         forces.lateral.then(|| {
             quote! {
+                /// The motion with sine and cosine turned and stretched to the place of
+                /// the children's pivots, of a leaf to that of its centre of mass.
                 #[inline(always)]
                 fn facing<V: #runtime::Scalar>(
                     constants: &[V; #count],
                     link: #runtime::generations::Motion<V>,
                 ) -> #runtime::generations::Motion<V> {
-                    let [#(#names),*] = *constants;
+                    #read
                     #runtime::generations::Motion {
                         sine: along.mul_add(link.sine, across * link.cosine),
                         cosine: along.mul_add(link.cosine, -(across * link.sine)),
@@ -142,7 +141,7 @@ impl Emission<'_> {
             fields.push(quote!(bodies: #value));
         }
         if let (Some(value), true) = (per_lever, self.pivot_moves()) {
-            let value = self.scalar(value);
+            let value = self.quantity(value, Numbers::Scalar);
             fields.push(quote!(per_lever: #value));
         }
         fields.extend(names.iter().map(|name| quote!(#name)));
@@ -153,7 +152,7 @@ impl Emission<'_> {
     fn bodies(&self) -> (TokenStream, TokenStream) {
         let runtime = self.runtime();
         let rows = crate::scene::body_rows(self.scene);
-        let [table, value] = self.constant_rows("bodies", &rows);
+        let [table, value] = self.constant_rows(Constants::Bodies, &rows);
         let hanging = match &self.scene.generations {
             None => quote!(Parents(&PARENTS)),
             Some(_) => {
@@ -246,8 +245,8 @@ impl Emission<'_> {
         let links = Literal::usize_unsuffixed(self.scene.links.len());
         let body = self.loop_accelerations("links");
         quote! {
-            /// Angular accelerations (rad/s²) at `time` (s), angles `theta` (rad)
-            /// and angular velocities `omega` (rad/s), in fused arithmetic where
+            /// Angular accelerations (in rad/s²) at `time` (in s), angles `theta` (in rad)
+            /// and angular velocities `omega` (in rad/s), in fused arithmetic where
             /// the machine has it. O(links).
             #[must_use]
             pub fn accelerations(

@@ -2,6 +2,7 @@
 //! entry point, the runtime's traits, and the docs that carry the formulas.
 
 mod budget;
+mod columns;
 mod docs;
 mod drive;
 mod expressions;
@@ -15,8 +16,10 @@ mod loops;
 mod model;
 mod names;
 mod observables;
+mod one_link;
 mod parts;
 mod places;
+mod quantities;
 mod rescale;
 mod stub;
 mod table;
@@ -59,14 +62,15 @@ pub fn emit(
         mechanics,
         program,
     };
-    let model = emission.model();
+    let (model, values) = (emission.model(), emission.values());
+    // The tables of loops are long: they come last.
     if let Some(generations) = &scene.generations {
         let code = emission.generations(generations);
-        return quote!(#model #code);
+        return quote!(#model #code #values);
     }
     if let Some(table) = &scene.table {
         let code = emission.table(table);
-        return quote!(#model #code);
+        return quote!(#model #code #values);
     }
     let functions = program.entries.iter().map(|entry| match entry.purpose {
         Purpose::TaylorCoefficients => emission.taylor_coefficients(entry),
@@ -80,12 +84,14 @@ pub fn emit(
     quote! {
         #model
 
+        #values
+
         // All tokens stand where the attribute does, of many lines: clippy
         // takes that for arrays whose elements were broken across lines.
         #[allow(clippy::possible_missing_comma)]
         impl<T: #runtime::Scalar> #name<T> {
-            #accessors
             #(#functions)*
+            #accessors
         }
 
         #parts

@@ -2,7 +2,8 @@
 
 use super::Emission;
 use super::docs::doc_lines;
-use super::function::number_tokens;
+use super::function::{Binding, number_tokens};
+use super::quantities::{Numbers, enclosed, product, sum};
 use crate::program::{ConstantId, ConstantOp};
 use crate::scene::{LinkId, Offset, ParameterId, Quantity, Sign};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -15,7 +16,11 @@ const DERIVED: [&str; 4] = ["Clone", "Copy", "Debug", "PartialEq"];
 impl Emission<'_> {
     pub(super) fn model(&self) -> TokenStream {
         let (attrs, vis, name) = (&self.item.attrs, &self.item.vis, &self.item.ident);
-        let docs = self.model_docs();
+        let mut docs = self.model_docs();
+        if attrs.iter().any(|written| written.path().is_ident("doc")) {
+            docs.insert(0, String::new());
+        }
+        let docs = doc_lines(&docs);
         let derives = self.missing_derives();
         let fields = self.stored_constants().into_iter().map(|id| {
             let field = self.field(id);
@@ -30,10 +35,9 @@ impl Emission<'_> {
         } else {
             fields.collect()
         };
-        let constructors = if self.scene.parameters.is_empty() {
-            self.literal_constructors()
-        } else {
-            self.parameter_constructors()
+        let constructor = match self.scene.parameters.is_empty() {
+            true => self.literal_constructor(),
+            false => self.parameter_constructor(),
         };
         quote! {
             #(#attrs)*
@@ -43,7 +47,7 @@ impl Emission<'_> {
                 #(#fields),*
             }
 
-            #constructors
+            #constructor
         }
     }
 
@@ -96,7 +100,7 @@ impl Emission<'_> {
         let (mut lines, mut fields) = (Vec::new(), Vec::new());
         for id in self.stored_constants() {
             let field = self.field(id);
-            let value = self.constant_value(id, &known);
+            let (value, _) = self.constant_value(id, &known);
             lines.push(quote!(let #field = #value;));
             fields.push(field.clone());
             known.insert(id, field);
@@ -104,33 +108,28 @@ impl Emission<'_> {
         (lines, fields)
     }
 
-    fn constant_value(&self, id: ConstantId, known: &BTreeMap<ConstantId, Ident>) -> TokenStream {
+    fn constant_value(
+        &self,
+        id: ConstantId,
+        known: &BTreeMap<ConstantId, Ident>,
+    ) -> (TokenStream, Binding) {
         let definition = self.program.setup.get(id);
         if let Some(exact) = &definition.exact {
-            return number_tokens(exact);
+            return (number_tokens(exact), Binding::Atom);
         }
         let at = |operand: ConstantId| match known.get(&operand) {
-            Some(name) => quote!(#name),
-            None => {
-                let value = self.constant_value(operand, known);
-                match self.program.setup.get(operand).op {
-                    ConstantOp::Parameter(_) | ConstantOp::Number(_) => value,
-                    _ => quote!((#value)),
-                }
-            }
+            Some(name) => (quote!(#name), Binding::Atom),
+            None => self.constant_value(operand, known),
         };
         match definition.op {
-            ConstantOp::Number(ref number) => number_tokens(number),
+            ConstantOp::Number(ref number) => (number_tokens(number), Binding::Atom),
             ConstantOp::Parameter(index) => {
                 let name = format_ident!("{}", self.scene.parameters[index].name);
-                quote!(parameters.#name)
+                (quote!(parameters.#name), Binding::Atom)
             }
-            ConstantOp::Named(_, formed) | ConstantOp::Called(formed) => match known.get(&formed) {
-                Some(name) => quote!(#name),
-                None => self.constant_value(formed, known),
-            },
+            ConstantOp::Named(_, formed) | ConstantOp::Called(formed) => at(formed),
             ConstantOp::Product(ref number, ref powers) => {
-                let mut above = vec![number_tokens(number)];
+                let mut above = vec![(number_tokens(number), Binding::Atom)];
                 let mut below = Vec::new();
                 for &(id, power) in powers {
                     let side = if power > 0 { &mut above } else { &mut below };
@@ -140,30 +139,53 @@ impl Emission<'_> {
                 if number.is_one() && above.len() > 1 {
                     above.remove(0);
                 }
-                let above = joined(&above, &quote!(*));
-                match below.as_slice() {
-                    [] => above,
-                    [divisor] => quote!(#above / #divisor),
-                    divisors => {
-                        let below = joined(divisors, &quote!(*));
-                        quote!(#above / (#below))
-                    }
+                let above = product(above);
+                if below.is_empty() {
+                    return above;
                 }
+                let above = enclosed(above, Binding::Product);
+                let below = enclosed(product(below), Binding::Prefix);
+                (quote!(#above / #below), Binding::Product)
             }
-            ConstantOp::Add(a, b) => {
-                let (a, b) = (at(a), at(b));
-                quote!(#a + #b)
-            }
+            ConstantOp::Add(a, b) => sum(vec![at(a), at(b)]),
             ConstantOp::Sub(a, b) => {
-                let (a, b) = (at(a), at(b));
-                quote!(#a - #b)
+                let (a, b) = (at(a).0, enclosed(at(b), Binding::Product));
+                (quote!(#a - #b), Binding::Sum)
             }
         }
     }
 
-    fn literal_constructors(&self) -> TokenStream {
+    /// How the constants are formed, of numbers or of parameters.
+    pub(super) fn values(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let constants = self.constants();
+        if self.scene.parameters.is_empty() {
+            return quote! {
+                impl<T: #runtime::Scalar> ::core::default::Default for #name<T> {
+                    fn default() -> Self {
+                        #constants
+                    }
+                }
+            };
+        }
+        let parameters = format_ident!("{}Parameters", name);
+        quote! {
+            // As for the functions, see `emit`.
+            #[allow(clippy::possible_missing_comma)]
+            impl<T: #runtime::Scalar> #name<T> {
+                /// The model for the given parameters, taken as they are:
+                /// other scalars than `f64` have no order by which masses
+                /// could be checked.
+                #[must_use]
+                pub fn from_parameters(parameters: #parameters<T>) -> Self {
+                    #constants
+                }
+            }
+        }
+    }
+
+    fn literal_constructor(&self) -> TokenStream {
+        let name = &self.item.ident;
         quote! {
             impl #name<f64> {
                 /// The model in double precision, its constants rounded once
@@ -174,23 +196,17 @@ impl Emission<'_> {
                     <Self as ::core::default::Default>::default()
                 }
             }
-
-            impl<T: #runtime::Scalar> ::core::default::Default for #name<T> {
-                fn default() -> Self {
-                    #constants
-                }
-            }
         }
     }
 
-    fn parameter_constructors(&self) -> TokenStream {
+    fn parameter_constructor(&self) -> TokenStream {
         let (vis, name, runtime) = (&self.item.vis, &self.item.ident, self.runtime());
         let parameters = format_ident!("{}Parameters", name);
         let fields = self.scene.parameters.iter().map(|parameter| {
             let field = format_ident!("{}", parameter.name);
-            let doc = format!(" {}", parameter.doc);
+            let docs = doc_lines(&[format!("{}.", parameter.doc)]);
             quote! {
-                #[doc = #doc]
+                #docs
                 #vis #field: T
             }
         });
@@ -213,11 +229,10 @@ impl Emission<'_> {
                 self.requirement(&what, &quote!(parameters.#field), Sign::Any)
             });
         let signs = self.scene.requirements.iter().map(|requirement| {
-            let value = self.quantity(&requirement.quantity);
+            let value = self.quantity(&requirement.quantity, Numbers::Double);
             self.requirement(&requirement.what, &value, requirement.sign)
         });
         let regular = self.regularity();
-        let constants = self.constants();
         quote! {
             #[doc = #docs]
             #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
@@ -243,16 +258,6 @@ impl Emission<'_> {
                     ::core::result::Result::Ok(Self::from_parameters(parameters))
                 }
             }
-
-            impl<T: #runtime::Scalar> #name<T> {
-                /// The model for the given parameters, taken as they are:
-                /// other scalars than `f64` have no order by which masses
-                /// could be checked.
-                #[must_use]
-                pub fn from_parameters(parameters: #parameters<T>) -> Self {
-                    #constants
-                }
-            }
         }
     }
 
@@ -270,6 +275,7 @@ impl Emission<'_> {
     /// Refuses parameters that make the mass matrix singular.
     fn regularity(&self) -> TokenStream {
         let runtime = self.runtime();
+        let double = |quantity: &Quantity| self.quantity(quantity, Numbers::Double);
         let bodies = self.scene.links.iter().map(|link| {
             let what = format!(
                 "moment of inertia of `{}` about its pivot, in some configuration,",
@@ -283,11 +289,10 @@ impl Emission<'_> {
                 None => quote!(::core::option::Option::None),
             };
             let point = |offset: &Offset| {
-                let (along, lateral) =
-                    (self.quantity(&offset.along), self.quantity(&offset.lateral));
+                let (along, lateral) = (double(&offset.along), double(&offset.lateral));
                 quote!([#along, #lateral])
             };
-            let (mass, inertia) = (self.quantity(&link.mass), self.quantity(&link.inertia));
+            let (mass, inertia) = (double(&link.mass), double(&link.inertia));
             let (com, pivot) = (point(&link.com), point(&link.pivot));
             quote! {
                 #runtime::model::LinkBody {
@@ -301,56 +306,6 @@ impl Emission<'_> {
             }
         });
         quote!(#runtime::model::require_regular(&[#(#bodies),*])?;)
-    }
-
-    /// A quantity computed in f64 from the parameters.
-    fn quantity(&self, quantity: &Quantity) -> TokenStream {
-        let operands = |parts: &[Quantity]| -> Vec<TokenStream> {
-            parts.iter().map(|part| self.operand(part)).collect()
-        };
-        match quantity {
-            Quantity::Exact(number) => {
-                let value = Literal::f64_unsuffixed(number.to_f64().abs());
-                if number.is_negative() {
-                    quote!(-#value)
-                } else {
-                    quote!(#value)
-                }
-            }
-            Quantity::Parameter(id) => {
-                let field = format_ident!("{}", self.scene.parameters[id.0].name);
-                quote!(parameters.#field)
-            }
-            Quantity::Sum(parts) => joined(&operands(parts), &quote!(+)),
-            Quantity::Product(parts) => joined(&operands(parts), &quote!(*)),
-            Quantity::Quotient(a, b) => {
-                let (a, b) = (self.operand(a), self.operand(b));
-                quote!(#a / #b)
-            }
-            Quantity::Power(base, exponent) => {
-                let factors = vec![self.operand(base); exponent.unsigned_abs() as usize];
-                let power = joined(&factors, &quote!(*));
-                if *exponent < 0 {
-                    quote!(1.0 / (#power))
-                } else {
-                    power
-                }
-            }
-            Quantity::Negative(value) => {
-                let value = self.operand(value);
-                quote!(-#value)
-            }
-        }
-    }
-
-    /// A quantity inside another one.
-    fn operand(&self, quantity: &Quantity) -> TokenStream {
-        let value = self.quantity(quantity);
-        match quantity {
-            Quantity::Parameter(_) => value,
-            Quantity::Exact(number) if !number.is_negative() => value,
-            _ => quote!((#value)),
-        }
     }
 
     /// One reading function for each named constant.
@@ -382,12 +337,4 @@ impl Emission<'_> {
         });
         quote!(#(#accessors)*)
     }
-}
-
-/// Tokens with an operator between them.
-fn joined(parts: &[TokenStream], operator: &TokenStream) -> TokenStream {
-    let mut parts = parts.iter();
-    let first = parts.next();
-    let rest = parts.map(|part| quote!(#operator #part));
-    quote!(#first #(#rest)*)
 }

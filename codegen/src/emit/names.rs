@@ -1,7 +1,7 @@
 //! Names of the local values of an emitted function.
 
 use super::Emission;
-use crate::program::{Argument, Entry, Fused, Op, ValueId};
+use crate::program::{Argument, Entry, Fused, Op, ValueId, spelling};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longer generated names say less than a number.
@@ -144,15 +144,7 @@ impl Emission<'_> {
             _ => locals.names.get(&operand).cloned(),
         };
         let described = match self.op(id) {
-            Op::Number(number) => match number.to_string().as_str() {
-                "0" => "zero".to_owned(),
-                "1" => "one".to_owned(),
-                "2" => "two".to_owned(),
-                "3" => "three".to_owned(),
-                "4" => "four".to_owned(),
-                "0.5" => "half".to_owned(),
-                _ => "number".to_owned(),
-            },
+            Op::Number(number) => spelling::number(number),
             Op::Neg(a) => format!("minus_{}", name(*a)?),
             Op::Add(a, b) => format!("{}_plus_{}", name(*a)?, name(*b)?),
             Op::Sub(a, b) => format!("{}_minus_{}", name(*a)?, name(*b)?),

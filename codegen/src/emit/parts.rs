@@ -154,7 +154,9 @@ impl Emission<'_> {
             let arguments = arguments.map(|argument| ident(argument.name()));
             if entry.purpose == Purpose::Accelerations {
                 let number = Literal::usize_unsuffixed(part.number);
-                quote!(T::outlined::<#number, _, _>(self, (#(#arguments,)* &mut #shared));)
+                let handed = arguments.map(|name| quote!(#name));
+                let handed = together(handed.chain([quote!(&mut #shared)]).collect());
+                quote!(T::outlined::<#number, _, _>(self, #handed);)
             } else {
                 let name = part.name(entry);
                 quote!(self.#name(#(#arguments,)* &mut #shared);)
@@ -221,17 +223,20 @@ impl Emission<'_> {
         let implementations = parts.parts.iter().map(|part| {
             let number = Literal::usize_unsuffixed(part.number);
             let arguments = part.arguments.iter();
-            let names: Vec<Ident> = arguments.clone().map(|a| ident(a.name())).collect();
-            let types: Vec<TokenStream> = arguments.map(|&a| self.argument_type(a)).collect();
+            let names = arguments.clone().map(|argument| {
+                let name = ident(argument.name());
+                quote!(#name)
+            });
+            let names = together(names.chain([quote!(#shared)]).collect());
+            let types = arguments.map(|&argument| self.argument_type(argument));
+            let types = together(types.chain([quote!(&mut [T; #size])]).collect());
             let body = self.part_body(part, &parts, &locals);
             quote! {
-                impl<T: #runtime::Scalar>
-                    #runtime::model::Part<#number, (#(#types,)* &mut [T; #size])> for #name<T>
-                {
+                impl<T: #runtime::Scalar> #runtime::model::Part<#number, #types> for #name<T> {
                     type Output = ();
 
                     #[inline(always)]
-                    fn part(&self, (#(#names,)* #shared): (#(#types,)* &mut [T; #size])) {
+                    fn part(&self, #names: #types) {
                         #body
                     }
                 }
@@ -391,6 +396,14 @@ impl Emission<'_> {
             returns,
             lines: lines.map(|line| line.tokens.clone()).collect(),
         }
+    }
+}
+
+/// Several things as one: a tuple, or the only one.
+fn together(parts: Vec<TokenStream>) -> TokenStream {
+    match parts.as_slice() {
+        [only] => only.clone(),
+        parts => quote!((#(#parts),*)),
     }
 }
 

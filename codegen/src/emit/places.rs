@@ -2,9 +2,10 @@
 //! link, and what holds them.
 
 use super::Emission;
+use super::columns::Constants;
 use super::docs::doc_lines;
-use super::function::ident;
-use super::link_equations::{in_joint, torque};
+use super::one_link::{Torques, with_torques};
+use super::quantities::Numbers;
 use crate::scene::{Forces, Quantity, Table, placed_columns};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -33,9 +34,9 @@ impl Emission<'_> {
         hanging: &[[Quantity; 6]],
     ) -> [TokenStream; 2] {
         let runtime = self.runtime();
-        let [motion, motion_value] = self.constant_rows("motion", &table.motion);
-        let [hanging, hanging_value] = self.constant_rows("hanging", hanging);
-        let root = self.scalar(&table.root);
+        let [motion, motion_value] = self.constant_rows(Constants::Motion, &table.motion);
+        let [hanging, hanging_value] = self.constant_rows(Constants::Hanging, hanging);
+        let root = self.quantity(&table.root, Numbers::Scalar);
         [
             quote!(#motion #hanging),
             quote! {
@@ -55,55 +56,16 @@ impl Emission<'_> {
         let forces = Forces::of(self.scene);
         let columns = placed_columns(forces);
         let sizes = self.placed_sizes();
-        let [constants, answers, sums, kept] = sizes.clone();
+        let [_, answers, sums, kept] = sizes.clone();
         let links = Literal::usize_unsuffixed(self.scene.links.len());
         let joints = forces.in_joints();
-        let read = |used: &[&str]| {
-            let used = used.iter().chain(&["friction", "drag", "spring"]);
-            let used: Vec<&str> = used.copied().collect();
-            let columns = columns.iter().map(|column| match used.contains(column) {
-                true => {
-                    let column = ident(column);
-                    quote!(#column)
-                }
-                false => quote!(_),
-            });
-            quote!(let [#(#columns),*] = *constants;)
-        };
-        let leaf_constants = match (forces.any(), forces.lateral) {
-            (true, _) => read(&["inertia"]),
-            (false, true) => TokenStream::new(),
-            (false, false) => quote!(let _ = constants;),
-        };
-        let inner_constants = read(&["inertia", "moment", "lateral", "root_torque"]);
+        let [leaf, turn_leaf] = self.leaf_functions(&columns, &answers);
         let facing = self
             .facing(&columns)
             .map(|facing| quote!(impl #name { #facing }));
-        let faced = self.faced();
-        let [lateral_b, lateral_f] = self.lateral_moment();
-        let (torque_column, root_torque) = (self.torque_column(), self.root_torque());
-        let (torque, in_joint) = (torque(forces), in_joint(forces));
-        let (push, leaf_x, leaf_y, turned_leaf) = match forces.any() {
-            true => (
-                // Q / J
-                Some(quote!(let push = (#torque) * inertia;)),
-                quote!(square * link.sine - push * link.cosine),
-                quote!(square.mul_add(link.cosine, push * link.sine)),
-                quote!(swing + (#torque) * inertia),
-            ),
-            false => (
-                None,
-                quote!(square * link.sine),
-                quote!(square * link.cosine),
-                quote!(swing),
-            ),
-        };
-        let own_torque = joints.then(|| quote!(, #in_joint));
-        let below_torque = joints.then(|| quote!(, torque));
-        let inner_forces = forces.any().then(|| {
-            let from_below = joints.then(|| quote!(+ torque));
-            quote!(let kappa = kappa - (#torque #from_below);)
-        });
+        let torque_column = self.torque_column();
+        let torque = Torques::of(forces).of_children();
+        let inner = self.placed_inner(&columns);
         let docs = doc_lines(&docs(forces));
         let allow =
             quote!(#[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]);
@@ -120,31 +82,16 @@ impl Emission<'_> {
                 const JOINTS: bool = #joints;
                 #torque_column
 
-                #[inline(always)]
-                fn leaf<V: #runtime::Scalar>(
-                    constants: &[V; #constants],
-                    link: #runtime::generations::Motion<V>,
-                ) -> [V; #answers] {
-                    #leaf_constants
-                    #faced
-                    let square = link.omega * link.omega;
-                    #push
-                    [
-                        link.sine * link.sine,
-                        link.cosine * link.sine,
-                        link.cosine * link.cosine,
-                        #leaf_x,
-                        #leaf_y
-                        #own_torque
-                    ]
-                }
+                #leaf
 
                 #[inline(always)]
                 fn hang<V: #runtime::Scalar>(
                     link: #runtime::generations::Motion<V>,
-                    [along, across]: [V; 2],
-                    [xx, xy, yy, x, y #below_torque]: [V; #answers],
+                    place: [V; 2],
+                    answers: [V; #answers],
                 ) -> [V; #sums] {
+                    let [along, across] = place;
+                    let [xx, xy, yy, x, y #torque] = answers;
                     let sine = along.mul_add(link.sine, across * link.cosine);
                     let cosine = along.mul_add(link.cosine, -(across * link.sine));
                     let pull_x = xx.mul_add(cosine, xy * sine);
@@ -155,49 +102,19 @@ impl Emission<'_> {
                     let f_x = square.mul_add((-trace).mul_add(sine, pull_y), x);
                     let f_y = (-square).mul_add((-trace).mul_add(cosine, pull_x), y);
                     let kappa = cosine.mul_add(f_x, sine * f_y);
-                    [xx, xy, yy, pull_x, pull_y, whole, f_x, f_y, kappa #below_torque]
+                    [xx, xy, yy, pull_x, pull_y, whole, f_x, f_y, kappa #torque]
                 }
 
-                #[inline(always)]
-                fn inner<V: #runtime::Scalar>(
-                    constants: &[V; #constants],
-                    link: #runtime::generations::Motion<V>,
-                    below: [V; #sums],
-                ) -> ([V; #answers], [V; #kept]) {
-                    #inner_constants
-                    let [xx, xy, yy, pull_x, pull_y, whole, f_x, f_y, kappa #below_torque] = below;
-                    let (sine, cosine) = (link.sine, link.cosine);
-                    let b_x = moment.mul_add(cosine, pull_x);
-                    let b_y = moment.mul_add(sine, pull_y);
-                    #lateral_b
-                    let square = link.omega * link.omega;
-                    let swing = square * moment;
-                    let f_x = (-swing).mul_add(sine, f_x);
-                    let f_y = swing.mul_add(cosine, f_y);
-                    #lateral_f
-                    #inner_forces
-                    #root_torque
-                    let inverse = V::from_f64(1.0) / (inertia + whole);
-                    let (g_x, g_y) = (b_x * inverse, b_y * inverse);
-                    (
-                        [
-                            (-b_x).mul_add(g_x, xx),
-                            (-b_x).mul_add(g_y, xy),
-                            (-b_y).mul_add(g_y, yy),
-                            (-g_x).mul_add(kappa, f_x),
-                            (-g_y).mul_add(kappa, f_y)
-                            #own_torque
-                        ],
-                        [g_x, g_y, kappa * inverse],
-                    )
-                }
+                #inner
 
                 #[inline(always)]
                 fn turn<V: #runtime::Scalar>(
                     link: #runtime::generations::Motion<V>,
-                    [g_x, g_y, turn]: [V; #kept],
-                    [x, y]: [V; 2],
+                    kept: [V; #kept],
+                    pivot: [V; 2],
                 ) -> (V, [V; 2]) {
+                    let [g_x, g_y, turn] = kept;
+                    let [x, y] = pivot;
                     let alpha = g_x.mul_add(x, g_y.mul_add(y, -turn));
                     let square = link.omega * link.omega;
                     let turn_x = square.mul_add(link.sine, -(alpha * link.cosine));
@@ -205,17 +122,56 @@ impl Emission<'_> {
                     (alpha, [turn_x, turn_y])
                 }
 
-                #[inline(always)]
-                fn turn_leaf<V: #runtime::Scalar>(
-                    constants: &[V; #constants],
-                    link: #runtime::generations::Motion<V>,
-                    [x, y]: [V; 2],
-                ) -> V {
-                    #leaf_constants
-                    #faced
-                    let swing = link.cosine.mul_add(x, link.sine * y);
-                    #turned_leaf
-                }
+                #turn_leaf
+            }
+        }
+    }
+
+    /// `inner`: a link with children, of the sums of what these answer about its pivot.
+    fn placed_inner(&self, columns: &[&str]) -> TokenStream {
+        let (runtime, torques) = (self.runtime(), Torques::of(Forces::of(self.scene)));
+        let [constants, answers, sums, kept] = self.placed_sizes();
+        let (joint, kappa, torque) = (
+            torques.answered(),
+            torques.in_kappa(),
+            torques.of_children(),
+        );
+        let read = with_torques(columns, &["inertia", "moment", "lateral", "root_torque"]);
+        let [lateral_b, lateral_f] = self.lateral_moment();
+        let root_torque = self.root_torque();
+        quote! {
+            #[inline(always)]
+            fn inner<V: #runtime::Scalar>(
+                constants: &[V; #constants],
+                link: #runtime::generations::Motion<V>,
+                below: [V; #sums],
+            ) -> ([V; #answers], [V; #kept]) {
+                #read
+                let [xx, xy, yy, pull_x, pull_y, whole, f_x, f_y, kappa #torque] = below;
+                let (sine, cosine) = (link.sine, link.cosine);
+                let b_x = moment.mul_add(cosine, pull_x);
+                let b_y = moment.mul_add(sine, pull_y);
+                #lateral_b
+                let square = link.omega * link.omega;
+                let swing = square * moment;
+                let f_x = (-swing).mul_add(sine, f_x);
+                let f_y = swing.mul_add(cosine, f_y);
+                #lateral_f
+                #kappa
+                #root_torque
+                let inverse = V::from_f64(1.0) / (inertia + whole);
+                let (g_x, g_y) = (b_x * inverse, b_y * inverse);
+                (
+                    [
+                        (-b_x).mul_add(g_x, xx),
+                        (-b_x).mul_add(g_y, xy),
+                        (-b_y).mul_add(g_y, yy),
+                        (-g_x).mul_add(kappa, f_x),
+                        (-g_y).mul_add(kappa, f_y)
+                        #joint
+                    ],
+                    [g_x, g_y, kappa * inverse],
+                )
             }
         }
     }

@@ -2,8 +2,9 @@
 //! equations of one link through it.
 
 use super::Emission;
-use super::docs::doc_lines;
+use super::columns::Constants;
 use super::function::part_tokens;
+use super::quantities::Numbers;
 use crate::scene::{Quantity, Table};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -28,14 +29,13 @@ impl Emission<'_> {
         }
     }
 
-    pub(super) fn table_docs(&self) -> TokenStream {
+    pub(super) fn table_docs(&self) -> Vec<String> {
         let count = self.scene.links.len();
         let energies = match self.scene.requests.energies {
             true => "",
             false => " Energies can be asked for with `emit(energies)`.",
         };
         let mut lines = vec![
-            String::new(),
             format!(
                 "A planar tree of {count} rigid links. Angles are absolute, in radians from the downward vertical, in the order of `LINK_NAMES`; SI units throughout."
             ),
@@ -45,7 +45,7 @@ impl Emission<'_> {
             ),
         ];
         self.drive_lines(&mut lines);
-        doc_lines(&lines)
+        lines
     }
 
     /// The type of the model's one field, `links`.
@@ -67,11 +67,15 @@ impl Emission<'_> {
             let parent = link.parent.map_or(0, |parent| parent.0);
             Literal::usize_unsuffixed(parent)
         });
+        let parents = quote! {
+            /// The parent of each link, which stands before it; the root has none.
+            static PARENTS: [u32; #count] = [#(#parents),*];
+        };
         let (extra, fields) = self.loop_values(table.per_lever.as_ref());
         if let Some(hanging) = &table.hanging {
             let [rows, value] = self.placed_value(table, hanging);
             return quote! {
-                static PARENTS: [u32; #count] = [#(#parents),*];
+                #parents
                 #rows
                 #extra
                 Self {
@@ -80,15 +84,15 @@ impl Emission<'_> {
                 }
             };
         }
-        let [motion, motion_value] = self.constant_rows("motion", &table.motion);
+        let [motion, motion_value] = self.constant_rows(Constants::Motion, &table.motion);
         let energies = self.scene.requests.energies && !self.has_bodies();
         let [energy, energy_value] = match energies {
-            true => self.constant_rows("energy", &table.energy),
+            true => self.constant_rows(Constants::Energy, &table.energy),
             false => [TokenStream::new(), quote!(#runtime::generations::rows(&[]))],
         };
-        let root = self.scalar(&table.root);
+        let root = self.quantity(&table.root, Numbers::Scalar);
         quote! {
-            static PARENTS: [u32; #count] = [#(#parents),*];
+            #parents
             #motion
             #energy
             #extra
@@ -108,12 +112,13 @@ impl Emission<'_> {
     /// which values of parameters are put in place.
     pub(super) fn constant_rows<R: AsRef<[Quantity]>>(
         &self,
-        name: &str,
+        table: Constants,
         rows: &[R],
     ) -> [TokenStream; 2] {
         let runtime = self.runtime();
-        let constants = Ident::new(&name.to_uppercase(), Span::call_site());
-        let name = Ident::new(name, Span::call_site());
+        let constants = Ident::new(&table.name().to_uppercase(), Span::call_site());
+        let name = Ident::new(table.name(), Span::call_site());
+        let docs = self.columns(table);
         let count = Literal::usize_unsuffixed(rows.len());
         let width = rows.first().map_or(0, |row| row.as_ref().len());
         let width = Literal::usize_unsuffixed(width);
@@ -122,7 +127,7 @@ impl Emission<'_> {
             let numbers = row.as_ref().iter().enumerate().map(|(column, value)| {
                 let parts = value.exact().map(part_tokens);
                 let [high, low] = parts.unwrap_or_else(|| {
-                    let value = self.scalar(value);
+                    let value = self.quantity(value, Numbers::Scalar);
                     let link = Literal::usize_unsuffixed(link);
                     let column = Literal::usize_unsuffixed(column);
                     placed.push(quote!(#name[#link][#column] = #value;));
@@ -134,6 +139,7 @@ impl Emission<'_> {
         });
         let lines = quote!(#(#lines),*);
         let table = quote! {
+            #docs
             static #constants: [[[f64; 2]; #width]; #count] = [#lines];
         };
         let value = quote!(#runtime::generations::rows(&#constants));
@@ -156,9 +162,9 @@ impl Emission<'_> {
         let accelerations = match self.mechanics.drive {
             Some(_) => self.driven_table_accelerations(),
             None => quote! {
-                /// Angular accelerations (rad/s²) for angles `theta` (rad) and
-                /// angular velocities `omega` (rad/s), in fused arithmetic where
-                /// the machine has it. O(links).
+                /// Angular accelerations (in rad/s²) at angles `theta` (in rad) and
+                /// angular velocities `omega` (in rad/s), in fused arithmetic where the
+                /// machine has it. O(links).
                 #[must_use]
                 pub fn accelerations(&self, theta: &[T; #links], omega: &[T; #links]) -> [T; #links] {
                     let mut alpha = [T::from_f64(0.0); #links];

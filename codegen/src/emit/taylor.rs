@@ -1,6 +1,6 @@
-//! The function for the Taylor coefficients of the motion: the constants that the recurrences of the runtime ask
-//! for, and what is not among these, at the start and as a closure for one
-//! order.
+//! The function for the Taylor coefficients of the motion: the constants that the
+//! recurrences of the runtime ask for, and what is not among these, at the start
+//! and as a closure for one order.
 
 use super::Emission;
 use super::docs::doc_lines;
@@ -21,20 +21,31 @@ impl Emission<'_> {
         let gathered = self.gathered(&start, &needed);
         let whole = gathered.whole;
         let read = self.read(&start, &needed, whole.is_some().then_some(&gathered.inputs));
+        // Angles and velocities are handed on besides.
         let inputs = entry
             .arguments
             .iter()
-            .filter(|argument| whole != Some(**argument) || self.reads(**argument, &read))
+            .filter(|argument| **argument == Argument::Time || self.reads(**argument, &read))
             .map(|&argument| self.take_apart(argument, &read, locals));
         let lines = self.lines(&gathered, &needed, locals);
-        let lines = lines.into_iter().map(|line| line.tokens);
+        let sines_alone = whole == Some(Argument::Theta) && lines.len() == 1;
         let list = |values: &[ValueId]| {
             let values = values
                 .iter()
                 .map(|&id| self.bound(id, locals, Binding::Sum));
             quote!([#(#values),*])
         };
-        let (sines, cosines) = (list(&expansion.sines), list(&expansion.cosines));
+        let (lines, sines) = match sines_alone {
+            true => (
+                quote!(let (sines, cosines) = T::sin_cos_each(theta);),
+                quote!(sines, cosines),
+            ),
+            false => {
+                let lines = lines.into_iter().map(|line| line.tokens);
+                let (sines, cosines) = (list(&expansion.sines), list(&expansion.cosines));
+                (lines.collect(), quote!(sines: #sines, cosines: #cosines))
+            }
+        };
         let bias_0 = list(&expansion.bias);
         let (inertias, weights) = (list(&expansion.inertias), list(&expansion.weights));
         let lateral_weights = list(&expansion.lateral_weights);
@@ -64,7 +75,10 @@ impl Emission<'_> {
             ),
             false => {
                 let (rows, closure) = (recurrences.rows(), recurrences.closure());
-                (rows, quote!(::core::option::Option::Some(#closure)))
+                (
+                    quote!(#rows let bias = #closure;),
+                    quote!(::core::option::Option::Some(bias)),
+                )
             }
         };
         let docs = self.taylor_docs(entry, &expansion, recurrences.count());
@@ -85,12 +99,11 @@ impl Emission<'_> {
                 work: &mut [#runtime::taylor::Quad<T>],
             ) {
                 #(#inputs)*
-                #(#lines)*
+                #lines
                 let start = #runtime::taylor::Start {
                     theta,
                     omega,
-                    sines: #sines,
-                    cosines: #cosines,
+                    #sines,
                     bias: #bias_0,
                 };
                 let tree = #runtime::taylor::Tree {

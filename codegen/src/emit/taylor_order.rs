@@ -7,6 +7,8 @@
 //! of its order, so that all are formed at once, side by side; what is added
 //! last is newest, and in general largest.
 
+mod closure;
+
 use super::Emission;
 use super::function::{Binding, ident};
 use super::names::Locals;
@@ -70,8 +72,9 @@ impl<'e> Recurrences<'e> {
             },
             &all,
         );
-        let reserved = ["coefficients", "work", "start", "tree", "factors"];
-        for name in reserved.into_iter().chain(["sines", "cosines"]) {
+        let reserved = ["coefficients", "work", "start", "tree", "bias"];
+        let of_sums = ["factors", "products", "sines", "cosines"];
+        for name in reserved.into_iter().chain(of_sums) {
             locals.fresh(name.to_owned());
         }
         let mut varies: BTreeMap<ValueId, bool> = BTreeMap::new();
@@ -251,117 +254,6 @@ impl<'e> Recurrences<'e> {
             Some(id) => id,
             None => unreachable!("the entry holds both partners of a sine and cosine"),
         }
-    }
-
-    /// The coefficient of order k of the bias, of what is known of that order.
-    pub(super) fn closure(&self) -> TokenStream {
-        let (runtime, links) = (self.emission.runtime(), self.emission.links());
-        let (k, known) = (&self.order, &self.known);
-        let (order, inverse) = (&self.order_number, &self.inverse_order);
-        let turned = self
-            .sums
-            .iter()
-            .any(|sum| matches!(sum.of, Op::Sin(_) | Op::Cos(_)));
-        let counted = !self.sums.is_empty() || self.time.is_some();
-        let counter = counted.then(|| quote!(let #k = #known.order;));
-        let numbers = turned.then(|| {
-            quote! {
-                let #order = #runtime::taylor::whole::<T>(#k);
-                let #inverse = T::from_f64(1.0) / #order;
-            }
-        });
-        let time = self
-            .time
-            .as_ref()
-            .map(|time| quote!(let #time = T::from_f64(if #k == 1 { 1.0 } else { 0.0 });));
-        let inputs = self.inputs();
-        let lines = self.needed.iter().filter_map(|&id| {
-            let given = self.is_given(self.emission.op(id));
-            let name = self.names.get(&id).filter(|_| !given)?;
-            let (value, _) = self.definition(id);
-            Some(quote!(let #name = #value;))
-        });
-        let sums = (!self.sums.is_empty()).then(|| {
-            let names = self.in_quads(
-                self.sums.iter().map(|sum| {
-                    let name = &sum.name;
-                    quote!(#name)
-                }),
-                &quote!(_),
-            );
-            quote!(let [#(#names),*] = #runtime::taylor::sums(#k, factors);)
-        });
-        let factors = (!self.sums.is_empty()).then(|| {
-            let zero = quote!(T::from_f64(0.0));
-            let side = |side: usize| {
-                let factors = self.sums.iter().map(move |sum| match sum.factors[side] {
-                    Factor::Value(id) => self.bound(id, Binding::Sum),
-                    Factor::Rate(id) => {
-                        let angle = self.bound(id, Binding::Prefix);
-                        quote!(#order * #angle)
-                    }
-                });
-                self.in_quads(factors, &zero)
-            };
-            let (left, right) = (side(0), side(1));
-            quote!(factors[#k - 1] = [[#(#left),*], [#(#right),*]];)
-        });
-        let bias = self.bias.iter().map(|&id| match self.varies[&id] {
-            true => self.bound(id, Binding::Sum),
-            false => quote!(T::from_f64(0.0)),
-        });
-        quote! {
-            |#known: &#runtime::taylor::Known<T, #links>| {
-                #counter
-                #numbers
-                #time
-                #inputs
-                #sums
-                #(#lines)*
-                #factors
-                [#(#bias),*]
-            }
-        }
-    }
-
-    /// `Quad([a, b, c, d]), …`, filled up to whole quads.
-    fn in_quads(
-        &self,
-        values: impl Iterator<Item = TokenStream>,
-        filling: &TokenStream,
-    ) -> Vec<TokenStream> {
-        let runtime = self.emission.runtime();
-        let mut values: Vec<TokenStream> = values.collect();
-        values.resize(4 * self.quads(), filling.clone());
-        let quads = values.chunks(4);
-        quads
-            .map(|quad| quote!(#runtime::taylor::Quad([#(#quad),*])))
-            .collect()
-    }
-
-    /// What is given of order k, taken apart.
-    fn inputs(&self) -> TokenStream {
-        let angle = |index: usize| self.find(&Op::Input(Argument::Theta, index));
-        let lists = [
-            self.list("theta", |index| Some(Op::Input(Argument::Theta, index))),
-            self.list("omega", |index| Some(Op::Input(Argument::Omega, index))),
-            self.list("sines", |index| angle(index).map(Op::Sin)),
-            self.list("cosines", |index| angle(index).map(Op::Cos)),
-        ];
-        lists.into_iter().flatten().collect()
-    }
-
-    /// `let [theta_parent_k, _, theta_bob_k] = known.theta;`, if any is read.
-    fn list(&self, list: &str, op: impl Fn(usize) -> Option<Op>) -> Option<TokenStream> {
-        let name = |index| self.names.get(&self.find(&op(index)?)?);
-        let names: Vec<Option<&Ident>> = (0..self.links).map(name).collect();
-        let read = names.iter().any(Option::is_some);
-        let elements = names.into_iter().map(|name| match name {
-            Some(name) => quote!(#name),
-            None => quote!(_),
-        });
-        let (known, list) = (&self.known, ident(list));
-        read.then(|| quote!(let [#(#elements),*] = #known.#list;))
     }
 
     /// The value of an operation, if it is needed.

@@ -35,14 +35,14 @@ impl Recurrences<'_> {
             }
             Op::Mul(a, b) if varies(&a) && varies(&b) => {
                 // (u v)[k] = Σ u[j] v[k−j] + u[0] v[k] + u[k] v[0]
-                let (u, v) = (at(a, Binding::Prefix), at(b, Binding::Prefix));
+                let (u, v) = (at(a, Binding::Product), at(b, Binding::Prefix));
                 let (u_0, v_0) = (zeroth(a), zeroth(b));
                 let sum = self.sum(op);
                 (quote!(#sum + (#u_0 * #v + #u * #v_0)), Binding::Sum)
             }
             Op::Mul(a, b) => {
                 let (constant, moving) = if varies(&a) { (b, a) } else { (a, b) };
-                let constant = self.zeroth(constant, Binding::Prefix);
+                let constant = self.zeroth(constant, Binding::Product);
                 let moving = at(moving, Binding::Prefix);
                 (quote!(#constant * #moving), Binding::Product)
             }
@@ -75,7 +75,7 @@ impl Recurrences<'_> {
             Op::Sin(angle) | Op::Cos(angle) => {
                 // k s[k] = Σ j a[j] c[k−j], k c[k] = −Σ j a[j] s[k−j]
                 let (sum, inverse) = (self.sum(op), &self.inverse_order);
-                let angle_k = at(angle, Binding::Prefix);
+                let angle_k = at(angle, Binding::Product);
                 if matches!(op, Op::Sin(_)) {
                     let cos = zeroth(self.id(&Op::Cos(angle)));
                     (quote!(#sum * #inverse + #angle_k * #cos), Binding::Sum)

@@ -57,6 +57,14 @@ impl Emission<'_> {
             .iter()
             .map(|name| Ident::new(name, Span::call_site()))
             .collect();
+        if let [name] = names.as_slice() {
+            return quote! {
+                match <&[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#name) {
+                    ::core::result::Result::Ok(#name) => #success,
+                    ::core::result::Result::Err(_) => #failure,
+                }
+            };
+        }
         quote! {
             match (#(<&[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
                 (#(::core::result::Result::Ok(#names),)*) => #success,
@@ -91,10 +99,8 @@ impl Emission<'_> {
         let time = self.time_name();
         let body = self.late().unwrap_or_else(|| {
             quote! {
-                let (theta, omega) = (
-                    ::core::array::from_fn(theta),
-                    ::core::array::from_fn(omega),
-                );
+                let theta = ::core::array::from_fn(theta);
+                let omega = ::core::array::from_fn(omega);
                 let values = #call;
                 for (link, value) in ::core::iter::Iterator::enumerate(
                     ::core::iter::IntoIterator::into_iter(values),
@@ -108,7 +114,10 @@ impl Emission<'_> {
             .into_iter()
             .map(|id| self.field(id))
             .collect();
-        let unused = fields.is_empty().then(|| quote!(let _ = convert;));
+        let convert = match fields.is_empty() {
+            true => quote!(_convert),
+            false => quote!(convert),
+        };
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
                 const LINKS: usize = #links;
@@ -127,9 +136,8 @@ impl Emission<'_> {
                 #[inline(always)]
                 fn rescale<S: #runtime::Scalar>(
                     &self,
-                    convert: impl ::core::ops::Fn(T) -> S,
+                    #convert: impl ::core::ops::Fn(T) -> S,
                 ) -> #name<S> {
-                    #unused
                     #name { #(#fields: convert(self.#fields)),* }
                 }
 

@@ -31,7 +31,7 @@ mod rules;
 mod scale;
 mod sectors;
 mod solve;
-mod spelling;
+pub(crate) mod spelling;
 mod taylor;
 mod terms;
 mod text;

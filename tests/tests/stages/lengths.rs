@@ -1,5 +1,6 @@
 //! Emitted functions stay short enough to be read and compiled.
 
+use branched_pendulum_codegen::layout;
 use branched_pendulum_tests::source::stages_of;
 use syn::spanned::Spanned;
 use syn::visit::Visit;
@@ -31,9 +32,8 @@ fn longest(requests: &str) -> (usize, String) {
     );
     let stages = stages_of(&source);
     assert_eq!(stages.scene.links.len(), 31);
-    let file = syn::parse2(stages.tokens).expect("the code is Rust");
     // Lines count as they are formatted.
-    let formatted = prettyplease::unparse(&file);
+    let formatted = layout(stages.tokens).expect("the code is Rust");
     let mut functions = Functions::default();
     functions.visit_file(&syn::parse_str(&formatted).expect("it is Rust still"));
     functions.0.into_iter().max().expect("it has functions")

@@ -12,9 +12,9 @@ fn pipeline_shows_every_stage() {
     let start = code
         .find("    /// Angular accelerations")
         .expect("it is documented");
-    let end = code.find("impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Pendulum");
-    let function = &code[start..end.expect("the trait follows")];
-    let function = function.trim_end().trim_end_matches('}').trim_end();
+    let function = &code[start..];
+    let end = function.find("\n    }\n").expect("it ends");
+    let function = &function[..end + "\n    }\n".len()];
     for (what, text) in [
         ("source", source.as_str()),
         ("description", &stages.description.to_string()),

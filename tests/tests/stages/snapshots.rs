@@ -4,8 +4,7 @@ use branched_pendulum_tests::source::{scene, stages_of as stages_of_text};
 use proc_macro2::TokenStream;
 
 pub(super) fn pretty(tokens: TokenStream) -> String {
-    let file = syn::parse2(tokens).expect("emitted code is Rust");
-    prettyplease::unparse(&file)
+    branched_pendulum_codegen::layout(tokens).expect("emitted code is Rust")
 }
 
 /// The emitted function of that name, with its docs.

@@ -1,0 +1,126 @@
+//! Quantities of a scene as expressions in its parameters.
+
+use super::Emission;
+use super::function::{Binding, number_tokens};
+use crate::exact::Rational;
+use crate::scene::Quantity;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+/// What the numbers of an expression are written in.
+#[derive(Clone, Copy)]
+pub(super) enum Numbers {
+    /// `f64`.
+    Double,
+    /// The model's scalar.
+    Scalar,
+}
+
+impl Numbers {
+    fn one(self) -> TokenStream {
+        match self {
+            Self::Double => quote!(1.0),
+            Self::Scalar => quote!(T::from_f64(1.0)),
+        }
+    }
+
+    fn number(self, number: &Rational) -> (TokenStream, Binding) {
+        if let Self::Scalar = self {
+            return (number_tokens(number), Binding::Atom);
+        }
+        let size = float(number.to_f64().abs());
+        match number.is_negative() {
+            true => (quote!(-#size), Binding::Prefix),
+            false => (quote!(#size), Binding::Atom),
+        }
+    }
+}
+
+impl Emission<'_> {
+    /// A quantity, formed of the fields of `parameters`.
+    pub(super) fn quantity(&self, quantity: &Quantity, numbers: Numbers) -> TokenStream {
+        self.bound_quantity(quantity, numbers).0
+    }
+
+    fn bound_quantity(&self, quantity: &Quantity, numbers: Numbers) -> (TokenStream, Binding) {
+        let at = |quantity: &Quantity, place: Binding| {
+            enclosed(self.bound_quantity(quantity, numbers), place)
+        };
+        let values = |parts: &[Quantity]| -> Vec<(TokenStream, Binding)> {
+            let parts = parts.iter();
+            parts
+                .map(|part| self.bound_quantity(part, numbers))
+                .collect()
+        };
+        match quantity {
+            Quantity::Exact(number) => numbers.number(number),
+            Quantity::Parameter(id) => {
+                let field = format_ident!("{}", self.scene.parameters[id.0].name);
+                (quote!(parameters.#field), Binding::Atom)
+            }
+            Quantity::Sum(parts) => sum(values(parts)),
+            Quantity::Product(parts) => product(values(parts)),
+            Quantity::Quotient(above, below) => {
+                let (above, below) = (at(above, Binding::Product), at(below, Binding::Prefix));
+                (quote!(#above / #below), Binding::Product)
+            }
+            Quantity::Power(base, exponent) => {
+                let base = self.bound_quantity(base, numbers);
+                let power = product(vec![base; exponent.unsigned_abs() as usize]);
+                if *exponent > 0 {
+                    return power;
+                }
+                let (one, power) = (numbers.one(), enclosed(power, Binding::Prefix));
+                (quote!(#one / #power), Binding::Product)
+            }
+            Quantity::Negative(value) => {
+                let value = at(value, Binding::Atom);
+                (quote!(-#value), Binding::Prefix)
+            }
+        }
+    }
+}
+
+/// A sum, from left to right.
+pub(super) fn sum(parts: Vec<(TokenStream, Binding)>) -> (TokenStream, Binding) {
+    joined(parts, &quote!(+), Binding::Sum, Binding::Product)
+}
+
+/// A product, from left to right.
+pub(super) fn product(parts: Vec<(TokenStream, Binding)>) -> (TokenStream, Binding) {
+    joined(parts, &quote!(*), Binding::Product, Binding::Prefix)
+}
+
+/// Operands of an operator that associates to the left: the first one binds as
+/// tightly as the whole, the others more so.
+fn joined(
+    parts: Vec<(TokenStream, Binding)>,
+    operator: &TokenStream,
+    whole: Binding,
+    others: Binding,
+) -> (TokenStream, Binding) {
+    if let [only] = parts.as_slice() {
+        return only.clone();
+    }
+    let mut parts = parts.into_iter();
+    let first = parts.next().map(|first| enclosed(first, whole));
+    let rest = parts.map(|part| enclosed(part, others));
+    (quote!(#first #(#operator #rest)*), whole)
+}
+
+/// In parentheses where the place asks for a tighter binding.
+pub(super) fn enclosed((value, binding): (TokenStream, Binding), place: Binding) -> TokenStream {
+    match binding < place {
+        true => quote!((#value)),
+        false => value,
+    }
+}
+
+/// A positive number, with an exponent where zeros would lead or follow it.
+pub(super) fn float(value: f64) -> Literal {
+    let plain = Literal::f64_unsuffixed(value);
+    if value == 0.0 || (1e-4..1e16).contains(&value) {
+        return plain;
+    }
+    format!("{value:e}").parse().unwrap_or(plain)
+}

@@ -1,0 +1,132 @@
+//! The closure that gives one order of the coefficients.
+
+use super::super::function::{Binding, ident};
+use super::{Factor, Recurrences};
+use crate::program::{Argument, Op, ValueId};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+impl Recurrences<'_> {
+    /// The coefficient of order k of the bias, of what is known of that order.
+    pub(in crate::emit) fn closure(&self) -> TokenStream {
+        let (runtime, links) = (self.emission.runtime(), self.emission.links());
+        let (k, known) = (&self.order, &self.known);
+        let (order, inverse) = (&self.order_number, &self.inverse_order);
+        let turned = self
+            .sums
+            .iter()
+            .any(|sum| matches!(sum.of, Op::Sin(_) | Op::Cos(_)));
+        let counted = !self.sums.is_empty() || self.time.is_some();
+        let counter = counted.then(|| quote!(let #k = #known.order;));
+        let numbers = turned.then(|| {
+            quote! {
+                let #order = #runtime::taylor::whole::<T>(#k);
+                let #inverse = T::from_f64(1.0) / #order;
+            }
+        });
+        let time = self
+            .time
+            .as_ref()
+            .map(|time| quote!(let #time = T::from_f64(if #k == 1 { 1.0 } else { 0.0 });));
+        let inputs = self.inputs();
+        let lines = self.needed.iter().filter_map(|&id| {
+            let given = self.is_given(self.emission.op(id));
+            let name = self.names.get(&id).filter(|_| !given)?;
+            let (value, _) = self.definition(id);
+            Some(quote!(let #name = #value;))
+        });
+        let sums = (!self.sums.is_empty()).then(|| {
+            let quads = self.sums.chunks(4).enumerate().map(|(quad, sums)| {
+                let quad = Literal::usize_unsuffixed(quad);
+                let names = sums.iter().map(|sum| {
+                    let name = &sum.name;
+                    quote!(#name)
+                });
+                let names = names.chain(std::iter::repeat_n(quote!(_), 4 - sums.len()));
+                quote!(let [#(#names),*] = products[#quad].0;)
+            });
+            quote! {
+                let products = #runtime::taylor::sums(#k, factors);
+                #(#quads)*
+            }
+        });
+        let factors = (!self.sums.is_empty()).then(|| {
+            let side = |side: usize| {
+                let factors = self.sums.iter().map(move |sum| match sum.factors[side] {
+                    Factor::Value(id) => self.bound(id, Binding::Sum),
+                    Factor::Rate(id) => {
+                        let angle = self.bound(id, Binding::Prefix);
+                        quote!(#order * #angle)
+                    }
+                });
+                self.in_quads(factors)
+            };
+            let (left, right) = (side(0), side(1));
+            quote!(factors[#k - 1] = [[#(#left),*], [#(#right),*]];)
+        });
+        let bias = self.bias.iter().map(|&id| match self.varies[&id] {
+            true => self.bound(id, Binding::Sum),
+            false => quote!(T::from_f64(0.0)),
+        });
+        quote! {
+            |#known: &#runtime::taylor::Known<T, #links>| {
+                #counter
+                #numbers
+                #time
+                #inputs
+                #sums
+                #(#lines)*
+                #factors
+                [#(#bias),*]
+            }
+        }
+    }
+
+    /// `Quad([a, b, c, d]), …`, filled up to whole quads by zeros.
+    fn in_quads(&self, values: impl Iterator<Item = TokenStream>) -> Vec<TokenStream> {
+        let runtime = self.emission.runtime();
+        let mut values: Vec<TokenStream> = values.collect();
+        values.resize(4 * self.quads(), quote!(T::from_f64(0.0)));
+        let quads = values.chunks(4);
+        quads
+            .map(|quad| quote!(#runtime::taylor::Quad([#(#quad),*])))
+            .collect()
+    }
+
+    /// What is given of order k, taken apart.
+    fn inputs(&self) -> TokenStream {
+        let angle = |index: usize| self.find(&Op::Input(Argument::Theta, index));
+        let lists = [
+            self.list("theta", |index| Some(Op::Input(Argument::Theta, index))),
+            self.list("omega", |index| Some(Op::Input(Argument::Omega, index))),
+            self.list("sines", |index| angle(index).map(Op::Sin)),
+            self.list("cosines", |index| angle(index).map(Op::Cos)),
+        ];
+        lists.into_iter().flatten().collect()
+    }
+
+    /// `let [theta_parent_k, _, theta_bob_k] = known.theta;`, if any is read.
+    fn list(&self, list: &str, op: impl Fn(usize) -> Option<Op>) -> Option<TokenStream> {
+        let name = |index| {
+            let id = self.find(&op(index)?).filter(|id| self.is_read(*id))?;
+            self.names.get(&id)
+        };
+        let names: Vec<Option<&Ident>> = (0..self.links).map(name).collect();
+        let read = names.iter().any(Option::is_some);
+        let elements = names.into_iter().map(|name| match name {
+            Some(name) => quote!(#name),
+            None => quote!(_),
+        });
+        let (known, list) = (&self.known, ident(list));
+        read.then(|| quote!(let [#(#elements),*] = #known.#list;))
+    }
+
+    /// Whether a coefficient of order k that is given is read: sines and cosines
+    /// are given as angles are, none is formed of the other.
+    fn is_read(&self, id: ValueId) -> bool {
+        let formed = |other: &&ValueId| !self.is_given(self.emission.op(**other));
+        let mut formed = self.needed.iter().filter(formed);
+        let reads = |other: &ValueId| self.emission.op(*other).operands().any(|read| read == id);
+        self.bias.contains(&id) || formed.any(reads)
+    }
+}

@@ -1,0 +1,171 @@
+//! Emitted tokens as text, laid out to be read.
+
+use proc_macro2::TokenStream;
+
+/// Lines are at most this long.
+const WIDTH: usize = 89;
+
+/// Emitted tokens as formatted source text: items, and functions within an
+/// `impl`, stand a blank line apart.
+///
+/// # Errors
+/// Where the tokens are no Rust file, which those of [`crate::expand`] always are.
+pub fn layout(tokens: TokenStream) -> syn::Result<String> {
+    let file = syn::parse2(tokens)?;
+    Ok(spaced(&prettyplease::unparse(&file)))
+}
+
+/// Puts blank lines between items.
+fn spaced(text: &str) -> String {
+    let mut spaced = String::with_capacity(text.len() + text.len() / 32);
+    let mut before = "";
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        if is_apart(before, line) {
+            spaced.push('\n');
+        }
+        before = line;
+        if is_open_pattern(line) {
+            let mut whole = line.to_owned();
+            while !whole.contains(']') {
+                let Some(next) = lines.next() else {
+                    break;
+                };
+                whole.push(' ');
+                whole.push_str(next.trim());
+            }
+            push_pattern(&mut spaced, &whole);
+        } else {
+            spaced.push_str(line);
+            spaced.push('\n');
+        }
+    }
+    spaced
+}
+
+/// Whether `line` begins an item behind one that ends with `before`.
+fn is_apart(before: &str, line: &str) -> bool {
+    let (outer, item) = unindented(line);
+    let (inner, end) = unindented(before);
+    let ended = end == "}" || (end.ends_with(';') && !end.starts_with("//"));
+    if outer != inner || !ended {
+        return false;
+    }
+    // Items stand in the file or in an `impl`; in functions those with docs.
+    if outer > 4 {
+        return item.starts_with("///");
+    }
+    let begins = |words: &[&str], text: &str| words.iter().any(|word| text.starts_with(word));
+    let lines = ["const ", "type ", "use "];
+    if begins(&lines, end) && begins(&lines, item) {
+        return false;
+    }
+    begins(&lines, item)
+        || begins(
+            &["///", "#[", "pub ", "pub(", "fn ", "impl", "struct "],
+            item,
+        )
+}
+
+/// Whether a slice is taken apart from here on, over several lines. (Arrays that
+/// take several lines have none of their elements on the first one.)
+fn is_open_pattern(line: &str) -> bool {
+    let pattern = line.trim_start();
+    let pattern = pattern.strip_prefix("let ").unwrap_or(pattern);
+    let elements = pattern.strip_prefix('[');
+    elements.is_some_and(|elements| !elements.is_empty() && !elements.contains(']'))
+}
+
+/// Writes `let [a, b, …] = value;`, whose elements take several lines.
+fn push_pattern(text: &mut String, pattern: &str) {
+    let (indent, _) = unindented(pattern);
+    let (start, elements) = pattern.split_once('[').unwrap_or((pattern, ""));
+    let (elements, end) = elements.split_once(']').unwrap_or((elements, ""));
+    let (outer, inner) = (" ".repeat(indent), " ".repeat(indent + 4));
+    let mut line = inner.clone();
+    text.push_str(&format!("{start}[\n"));
+    let elements = elements.split(", ").filter(|element| !element.is_empty());
+    for element in elements {
+        if line.len() + element.len() > WIDTH {
+            text.push_str(line.trim_end());
+            text.push('\n');
+            line.clone_from(&inner);
+        }
+        line.push_str(element);
+        line.push_str(", ");
+    }
+    text.push_str(line.trim_end());
+    text.push_str(&format!("\n{outer}]{end}\n"));
+}
+
+fn unindented(line: &str) -> (usize, &str) {
+    let text = line.trim_start();
+    (line.len() - text.len(), text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::layout;
+    use quote::quote;
+
+    #[test]
+    fn patterns_of_several_lines_are_indented() {
+        let names = (0..12).map(|n| quote::format_ident!("value_{n}"));
+        let tokens = quote! { fn f() { let [#(#names),*] = values; g(); } };
+        let expected = "\
+fn f() {
+    let [
+        value_0, value_1, value_2, value_3, value_4, value_5, value_6, value_7, value_8,
+        value_9, value_10, value_11,
+    ] = values;
+    g();
+}
+";
+        assert_eq!(layout(tokens).unwrap(), expected);
+    }
+
+    #[test]
+    fn items_stand_apart_and_statements_do_not() {
+        let tokens = quote! {
+            struct Model { a: u8, b: u8 }
+            impl Model {
+                const A: u8 = 1;
+                const B: u8 = 2;
+                fn first() {
+                    if true {
+                        f();
+                    }
+                    #[allow(unused)]
+                    let a = 1;
+                }
+                /// Second;
+                /// not the third.
+                fn second() {}
+            }
+        };
+        let expected = "\
+struct Model {
+    a: u8,
+    b: u8,
+}
+
+impl Model {
+    const A: u8 = 1;
+    const B: u8 = 2;
+
+    fn first() {
+        if true {
+            f();
+        }
+        #[allow(unused)]
+        let a = 1;
+    }
+
+    /// Second;
+    /// not the third.
+    fn second() {}
+}
+";
+        assert_eq!(layout(tokens).unwrap(), expected);
+    }
+}
