@@ -13,9 +13,9 @@ use super::{Link, Offset, Quantity, Requests, Scene, Solve};
 use crate::exact::ExactError;
 use crate::report::{Message, Report};
 
-/// Trees of at least so many links get loops: straight code for more no longer
-/// fits the instruction cache, and is slower (`docs/performance.md`).
-const FEWEST: usize = 64;
+/// Trees of at least so many links get loops: straight code for one state is slower,
+/// and takes several times as long to compile (`docs/performance.md`).
+const FEWEST: usize = 63;
 
 /// Most links of such a tree: what an index of 32 bits counts.
 const MOST: usize = 1 << 32;

@@ -354,7 +354,8 @@ fn large_rules_get_loops_unless_something_stands_against_it() {
         scene(&source).generations.map(|found| found.links)
     };
     assert_eq!(links("count = 5)"), None);
-    assert_eq!(links("count = 6)"), None);
+    assert_eq!(links("count = 6)"), Some(63));
+    assert_eq!(links("count = 6, code = unrolled)"), None);
     assert_eq!(links("count = 7)"), Some(127));
     assert_eq!(links("count = 2, code = loops)"), Some(3));
     assert_eq!(links("count = 7, code = unrolled)"), None);
