@@ -3,15 +3,12 @@
 //! tree that is taken apart.
 
 use super::super::evaluate::Kernels;
-use super::super::vectors::run_in;
 use super::super::{Generations, RootDrive};
-use super::Access;
-use super::equations::{Down, Up};
+use super::tests::{kernels_in, numbers};
 use crate::generations::{Motion, Recursion};
 use crate::scalar::register::Fused;
 use crate::scalar::{InstructionSet, Lane, Real, Scalar};
 use alloc::vec::Vec;
-use core::marker::PhantomData;
 
 const SHAPES: [&[usize]; 4] = [
     &[1, 2],
@@ -119,12 +116,6 @@ impl<const NUMBER: usize> Recursion<7, 5, 5, 3> for Turned<NUMBER> {
     }
 }
 
-/// Numbers between −`size` and `size`.
-fn numbers(links: usize, seed: usize, size: f64) -> Vec<f64> {
-    let number = |i: usize| (((i + seed) * 7919) % 1009) as f64 / 504.5 - 1.0;
-    (0..links).map(|i| size * number(i)).collect()
-}
-
 fn evaluated<T: Scalar, const NUMBER: usize>(torque: f64, kernels: Option<Kernels<T>>) -> Vec<T> {
     let row = [0.5, 1.5, 0.3, 0.2, 0.4, 0.6, 0.0].map(T::from_f64);
     let rows = SHAPES[NUMBER].iter().map(|_| row).collect();
@@ -152,22 +143,8 @@ fn evaluated<T: Scalar, const NUMBER: usize>(torque: f64, kernels: Option<Kernel
     alpha
 }
 
-/// Equations in the vectors of one instruction set, by its number.
-fn up_in<T: Lane, const SET: usize, const NUMBER: usize>(access: &Access<'_, T>) {
-    let kernel = Up::<Turned<NUMBER>, T, 7, 5, 5, 3>(access, PhantomData);
-    run_in(InstructionSet::ALL[SET], kernel);
-}
-
-fn down_in<T: Lane, const SET: usize, const NUMBER: usize>(access: &Access<'_, T>) {
-    let kernel = Down::<Turned<NUMBER>, T, 7, 5, 5, 3>(access, PhantomData);
-    run_in(InstructionSet::ALL[SET], kernel);
-}
-
 fn kernels<T: Lane, const SET: usize, const NUMBER: usize>() -> Kernels<T> {
-    Kernels {
-        up: up_in::<T, SET, NUMBER>,
-        down: down_in::<T, SET, NUMBER>,
-    }
+    kernels_in::<Turned<NUMBER>, T, SET, 7, 5, 5, 3>()
 }
 
 fn compare<T: Lane + Real, const NUMBER: usize>(one_by_one: impl Fn(usize) -> T) {

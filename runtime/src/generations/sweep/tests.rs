@@ -4,8 +4,8 @@
 use super::super::Generations;
 use super::super::evaluate::Kernels;
 use super::super::vectors::run_in;
-use super::Access;
 use super::equations::{Down, Up};
+use crate::generations::vector::SliceKernel;
 use crate::generations::{Motion, Recursion};
 use crate::scalar::register::Fused;
 use crate::scalar::{InstructionSet, Lane, Real, Scalar};
@@ -168,21 +168,30 @@ fn evaluated<T: Scalar, const NUMBER: usize>(kernels: Option<Kernels<T>>) -> Vec
 }
 
 /// Equations in the vectors of one instruction set, by its number.
-fn up_in<T: Lane, const SET: usize, const NUMBER: usize>(access: &Access<'_, T>) {
-    let kernel = Up::<Shape<NUMBER>, T, 8, 6, 6, 3>(access, PhantomData);
-    run_in(InstructionSet::ALL[SET], kernel);
-}
-
-fn down_in<T: Lane, const SET: usize, const NUMBER: usize>(access: &Access<'_, T>) {
-    let kernel = Down::<Shape<NUMBER>, T, 8, 6, 6, 3>(access, PhantomData);
-    run_in(InstructionSet::ALL[SET], kernel);
+pub(super) fn kernels_in<
+    P,
+    T,
+    const SET: usize,
+    const C: usize,
+    const L: usize,
+    const R: usize,
+    const K: usize,
+>() -> Kernels<T>
+where
+    P: Recursion<C, L, R, K>,
+    T: Lane,
+{
+    fn of<const SET: usize, T: Lane>(kernel: impl SliceKernel<T>) {
+        run_in(InstructionSet::ALL[SET], kernel);
+    }
+    Kernels {
+        up: |access| of::<SET, T>(Up::<P, T, C, L, R, K>(access, PhantomData)),
+        down: |access| of::<SET, T>(Down::<P, T, C, L, R, K>(access, PhantomData)),
+    }
 }
 
 fn kernels<T: Lane, const SET: usize, const NUMBER: usize>() -> Kernels<T> {
-    Kernels {
-        up: up_in::<T, SET, NUMBER>,
-        down: down_in::<T, SET, NUMBER>,
-    }
+    kernels_in::<Shape<NUMBER>, T, SET, 8, 6, 6, 3>()
 }
 
 fn compare<T: Lane + Real, const NUMBER: usize>(one_by_one: impl Fn(usize) -> T) {
