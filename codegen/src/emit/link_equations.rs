@@ -65,7 +65,8 @@ impl Emission<'_> {
         let (runtime, forces) = (self.runtime(), Forces::of(self.scene));
         let [constants, _, answers, kept] = self.recursion_sizes();
         let torques = Torques::of(forces);
-        let (joint, kappa) = (torques.answered(), torques.in_kappa());
+        let kappa = torques.in_kappa();
+        let eliminated = torques.eliminated(&quote!(whole));
         let torque = torques.of_children().map(|_| quote!(torque: V,));
         let read = with_torques(columns, &["inertia", "moment", "lateral", "root_torque"]);
         let (faced, root_torque) = (self.faced(), self.root_torque());
@@ -106,19 +107,7 @@ impl Emission<'_> {
                 #kappa
                 #root_torque
                 #lateral_f
-                let inverse = V::from_f64(1.0) / whole;
-                let (g_x, g_y) = (b_x * inverse, b_y * inverse);
-                (
-                    [
-                        (-b_x).mul_add(g_x, xx),
-                        (-b_x).mul_add(g_y, xy),
-                        (-b_y).mul_add(g_y, yy),
-                        (-g_x).mul_add(kappa, f_x),
-                        (-g_y).mul_add(kappa, f_y)
-                        #joint
-                    ],
-                    [g_x, g_y, kappa * inverse],
-                )
+                #eliminated
             }
         }
     }
