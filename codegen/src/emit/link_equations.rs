@@ -3,8 +3,9 @@
 use super::Emission;
 use super::docs::doc_lines;
 use super::one_link::{Torques, read, with_torques};
+use super::quantities::count;
 use crate::scene::Forces;
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Emission<'_> {
@@ -21,7 +22,7 @@ impl Emission<'_> {
         let columns = forces.columns();
         let sizes = self.recursion_sizes();
         let [_, leaf_answers, ..] = &sizes;
-        let links = Literal::usize_unsuffixed(links);
+        let links = count(links);
         let joints = forces.in_joints();
         let torque_column = self.torque_column();
         let (facing, node) = (self.facing(&columns), self.node_function(&columns));
