@@ -1,7 +1,7 @@
 //! The equations of one link, for loops over generations and over tables.
 
 use super::Emission;
-use super::docs::doc_lines;
+use super::doc_text::doc_lines;
 use super::one_link::{Torques, read, with_torques};
 use super::quantities::count;
 use crate::scene::Forces;

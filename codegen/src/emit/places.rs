@@ -3,7 +3,7 @@
 
 use super::Emission;
 use super::columns::Constants;
-use super::docs::doc_lines;
+use super::doc_text::doc_lines;
 use super::one_link::{Torques, with_torques};
 use super::quantities::Numbers;
 use crate::scene::{Forces, Quantity, Table, placed_columns};
