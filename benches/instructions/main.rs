@@ -4,7 +4,7 @@
 mod scenes;
 
 use branched_pendulum::batch::Batch;
-use branched_pendulum::{Pendulum, Rescale};
+use branched_pendulum::Rescale;
 use std::hint::black_box;
 use std::process::ExitCode;
 

@@ -2,26 +2,8 @@
 # Instructions of one evaluation of the accelerations, counted by valgrind: the table
 # of docs/performance.md. valgrind knows AVX2 and no AVX-512, so the code is that of AVX2.
 set -euo pipefail
-cd "$(dirname "$0")/../.."
-repository="$PWD"
-
-cargo build --quiet --package branched-pendulum-codegen --bin expand
-expand="$(realpath "${CARGO_TARGET_DIR:-target}")/debug/expand"
-folder="$(mktemp -d)"
-trap 'rm -r "$folder"' EXIT
-mkdir "$folder/src"
-cp benches/instructions/main.rs "$folder/src"
-cp Cargo.lock "$folder"
-cat > "$folder/Cargo.toml" <<TOML
-[package]
-name = "instructions"
-edition = "2024"
-
-[dependencies]
-branched-pendulum = { path = "$repository/runtime", default-features = false, features = ["std"] }
-
-[workspace]
-TOML
+source "$(dirname "$0")/../package.sh"
+package instructions
 
 modules=""
 list=""

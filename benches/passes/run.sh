@@ -2,26 +2,8 @@
 # What each pass over programs is worth in time: the tables of docs/pipeline.md.
 # Builds one small crate in a temporary folder; takes some minutes.
 set -euo pipefail
-cd "$(dirname "$0")/../.."
-repository="$PWD"
-
-cargo build --quiet --package branched-pendulum-codegen --bin expand
-expand="$(realpath "${CARGO_TARGET_DIR:-target}")/debug/expand"
-folder="$(mktemp -d)"
-trap 'rm -r "$folder"' EXIT
-mkdir "$folder/src"
-cp benches/passes/main.rs "$folder/src"
-cp Cargo.lock "$folder"
-cat > "$folder/Cargo.toml" <<TOML
-[package]
-name = "passes"
-edition = "2024"
-
-[dependencies]
-branched-pendulum = { path = "$repository/runtime", default-features = false, features = ["std"] }
-
-[workspace]
-TOML
+source "$(dirname "$0")/../package.sh"
+package passes
 
 tree="shape = rod, mass = 0.12, length = 0.3, mass_ratio = 0.5, length_ratio = 0.7"
 counted="sharing folding signs angle-addition common-factors choice fusing"

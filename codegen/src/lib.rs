@@ -7,7 +7,8 @@
 //! tokens -> Description -> Scene -> Mechanics -> Program -> tokens
 //! ```
 //!
-//! [`expand`] is the whole pipeline. The derivation uses
+//! [`expand`] is the whole pipeline, [`stages`] gives what it passes through, and
+//! [`layout`] writes the tokens as text. The derivation uses
 //! [Symbolica](https://symbolica.io) behind one door, `mechanics::algebra`;
 //! what is emitted is free of it.
 

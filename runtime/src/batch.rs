@@ -44,14 +44,17 @@
 //! # Ok::<(), branched_pendulum::batch::BatchError>(())
 //! ```
 
+mod error;
+
 use alloc::vec::Vec;
-use core::fmt;
 
 use crate::scalar::dispatch::{self, RegisterKernel};
 use crate::scalar::register::{Block, Register};
 use crate::scalar::{InstructionSet, Lane, Scalar};
 use crate::system::rescale;
 use crate::system::{InRegisters, Rescale};
+
+pub use error::BatchError;
 
 /// Evaluates a pendulum for any number of states, a register at a time.
 ///
@@ -381,55 +384,3 @@ fn load_late<R: Register>(
     let block = slices.get(link).and_then(|slice| slice.as_ref().get(..end));
     R::from_chunk(block.and_then(R::last_chunk).unwrap_or(nothing))
 }
-
-/// Arguments of a batch that do not fit together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum BatchError {
-    /// An argument has another number of slices than the pendulum has links.
-    Links {
-        /// Its name.
-        argument: &'static str,
-        /// Number of links.
-        expected: usize,
-        /// Number of slices.
-        found: usize,
-    },
-    /// A slice has another length than the first one of the angles.
-    States {
-        /// Name of the argument.
-        argument: &'static str,
-        /// Index of the link.
-        link: usize,
-        /// Length of the first slice of angles.
-        expected: usize,
-        /// Length of this slice.
-        found: usize,
-    },
-}
-
-impl fmt::Display for BatchError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Links {
-                argument,
-                expected,
-                found,
-            } => write!(
-                f,
-                "`{argument}` needs one slice for each of {expected} links, but has {found}"
-            ),
-            Self::States {
-                argument,
-                link,
-                expected,
-                found,
-            } => write!(
-                f,
-                "`{argument}[{link}]` holds {found} states, but `theta[0]` holds {expected}"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for BatchError {}

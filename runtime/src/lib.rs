@@ -16,7 +16,9 @@
 //! - [`transfer_forms`]: several forms of one energy transfer,
 //! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
 //!   errors of truncated transfers,
-//! - [`data`]: CSV files.
+//! - [`data`]: CSV files,
+//! - [`model`]: what emitted models return, and what they refuse,
+//! - `chart`: line charts (feature `chart`).
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
 //! vertical.
@@ -70,8 +72,8 @@
 //! # Features
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
-//!   `alloc` and offers [`scalar`], [`system`], [`batch`], [`generations`], [`taylor`],
-//!   [`sectors`], [`transfer_forms`] and [`integrate`].
+//!   `alloc` and offers [`scalar`], [`system`], [`model`], [`batch`], [`generations`],
+//!   [`taylor`], [`sectors`], [`transfer_forms`] and [`integrate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `chart`: line charts as SVG and PNG.

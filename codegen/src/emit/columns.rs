@@ -1,7 +1,7 @@
 //! What the tables of loops hold, in words: docs above the `static` items.
 
 use super::Emission;
-use super::docs::doc_lines;
+use super::doc_text::doc_lines;
 use crate::scene::{Forces, placed_columns};
 use proc_macro2::TokenStream;
 

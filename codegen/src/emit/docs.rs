@@ -1,15 +1,15 @@
 //! Rustdoc of the emitted items: meaning, units, formulas, cost, source.
 
 use super::Emission;
+use super::doc_text::{broken, doc_lines};
 use super::formulas::Formula;
 use crate::mechanics;
 use crate::mechanics::Counting;
 use crate::mechanics::coordinates::Kind;
 use crate::mechanics::expression::Expr;
-use crate::program::{Entry, Purpose};
+use crate::program::{Argument, Entry, Purpose};
 use crate::scene::Solve;
 use proc_macro2::TokenStream;
-use quote::quote;
 
 /// Formulas of more rows than this are shown up to here.
 const ROWS: usize = 8;
@@ -18,9 +18,6 @@ const LONGEST_FORMULA: usize = 600;
 
 /// What w is in formulas of transfers.
 const IN_PHASE: &str = "In the formulas w are the angular velocities (in rad/s) of the in-phase motion: those that belong to the in-phase momenta where all differences vanish.";
-
-/// Prose of emitted docs is wrapped at this width.
-const WIDTH: usize = 80;
 
 impl Emission<'_> {
     pub(super) fn text(&self, expr: &Expr) -> String {
@@ -55,6 +52,10 @@ impl Emission<'_> {
                 wrapped_names(&names)
             ));
         }
+        if scene.requests.transfer.is_some() {
+            lines.push(String::new());
+            lines.push("Transfers follow Y. Toda and T. Ooshida, *Experimental detection of energy transfer into the anti-phase mode in a branched double pendulum*.".into());
+        }
         if self.mechanics.drive.is_some() {
             lines.extend(self.drive_docs());
             self.show(&self.drive_formulas(), &mut lines);
@@ -68,6 +69,21 @@ impl Emission<'_> {
 
     pub(super) fn entry_docs(&self, entry: &Entry) -> TokenStream {
         let mut lines = self.meaning(entry.purpose);
+        let told = lines.concat();
+        let untold: Vec<&str> = entry
+            .arguments
+            .iter()
+            .filter(|argument| !told.contains(&format!("`{}`", argument.name())))
+            .filter_map(|argument| argument_meaning(*argument))
+            .collect();
+        if !untold.is_empty() {
+            lines.push(String::new());
+            let untold = match untold.as_slice() {
+                [first, second, third] => format!("{first}, {second} and {third}"),
+                untold => untold.join(" and "),
+            };
+            lines.push(format!("At {untold}."));
+        }
         let formulas = self.formulas(entry.purpose);
         self.show(&formulas, &mut lines);
         lines.push(String::new());
@@ -273,6 +289,20 @@ impl Emission<'_> {
     }
 }
 
+/// An argument with its unit, as docs name it; `None` where a function's meaning
+/// says it all.
+fn argument_meaning(argument: Argument) -> Option<&'static str> {
+    match argument {
+        Argument::Time => Some("`time` (in s)"),
+        Argument::Theta => Some("angles `theta` (in rad)"),
+        Argument::Omega => Some("angular velocities `omega` (in rad/s)"),
+        Argument::Coordinates => Some("symmetric `coordinates` (in rad)"),
+        Argument::Rates => Some("their `rates` (in rad/s)"),
+        Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
+        Argument::Absolute | Argument::Symmetric => None,
+    }
+}
+
 pub(super) fn wrapped_names(names: &[&str]) -> String {
     const MOST: usize = 16;
     let listed: Vec<String> = names
@@ -286,85 +316,6 @@ pub(super) fn wrapped_names(names: &[&str]) -> String {
     } else {
         format!("{}.", listed.join(", "))
     }
-}
-
-/// A formula on lines of bounded width, broken before the signs of its sum; within
-/// parentheses only where that does not do.
-fn broken(formula: &str) -> Vec<String> {
-    let fits = |lines: &Vec<String>| lines.iter().all(|line| line.chars().count() <= WIDTH + 4);
-    let outermost = broken_within(formula, 0);
-    if fits(&outermost) {
-        return outermost;
-    }
-    broken_within(formula, 1)
-}
-
-/// Lines of a formula, broken before signs in at most so many parentheses.
-fn broken_within(formula: &str, most: i32) -> Vec<String> {
-    let mut lines = Vec::new();
-    let mut line = String::new();
-    let mut depth = 0_i32;
-    let mut term = String::new();
-    let mut flush = |term: &mut String, line: &mut String| {
-        if !line.is_empty() && line.chars().count() + term.chars().count() > WIDTH {
-            lines.push(std::mem::replace(line, "    ".into()));
-            line.push_str(term.trim_start());
-        } else {
-            line.push_str(term);
-        }
-        term.clear();
-    };
-    for word in formula.split_inclusive(' ') {
-        if depth <= most && matches!(word.trim_end(), "+" | "−") {
-            flush(&mut term, &mut line);
-        }
-        for letter in word.chars() {
-            depth += i32::from(letter == '(') - i32::from(letter == ')');
-        }
-        term.push_str(word);
-    }
-    flush(&mut term, &mut line);
-    lines.push(line);
-    lines
-        .iter()
-        .map(|line| line.trim_end().to_owned())
-        .collect()
-}
-
-/// Doc comments, prose wrapped, blocks as they are.
-pub(super) fn doc_lines(lines: &[String]) -> TokenStream {
-    let mut wrapped: Vec<String> = Vec::new();
-    let mut in_block = false;
-    for line in lines {
-        let fence = line.starts_with("```");
-        in_block ^= fence;
-        if fence || in_block {
-            wrapped.push(line.clone());
-            continue;
-        }
-        let mut current = String::new();
-        for word in line.split(' ') {
-            let full = current.chars().count() + word.chars().count() >= WIDTH;
-            // At the start of a line a sign would begin a list.
-            if full && !current.is_empty() && !matches!(word, "+" | "-" | "*") {
-                wrapped.push(std::mem::take(&mut current));
-            }
-            if !current.is_empty() {
-                current.push(' ');
-            }
-            current.push_str(word);
-        }
-        wrapped.push(current);
-    }
-    let lines = wrapped.iter().map(|line| {
-        let line = if line.is_empty() {
-            String::new()
-        } else {
-            format!(" {line}")
-        };
-        quote!(#[doc = #line])
-    });
-    quote!(#(#lines)*)
 }
 
 fn exponent(number: u32) -> String {

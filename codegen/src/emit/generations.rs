@@ -3,7 +3,7 @@
 
 use super::Emission;
 use super::columns::Constants as Table;
-use super::quantities::Numbers;
+use super::quantities::{Numbers, count};
 use crate::scene::{Constants, Forces, Generations};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -174,7 +174,7 @@ impl Emission<'_> {
 
     fn generation_pendulum(&self, generations: &Generations) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let links = Literal::usize_unsuffixed(generations.links);
+        let links = count(generations.links);
         let loops = self.generations_type();
         let rescale = self.loop_rescale("generations");
         let (time, body) = (self.time_name(), self.loop_accelerations("generations"));

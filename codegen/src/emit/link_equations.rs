@@ -1,10 +1,11 @@
 //! The equations of one link, for loops over generations and over tables.
 
 use super::Emission;
-use super::docs::doc_lines;
+use super::doc_text::doc_lines;
 use super::one_link::{Torques, read, with_torques};
+use super::quantities::count;
 use crate::scene::Forces;
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Emission<'_> {
@@ -21,7 +22,7 @@ impl Emission<'_> {
         let columns = forces.columns();
         let sizes = self.recursion_sizes();
         let [_, leaf_answers, ..] = &sizes;
-        let links = Literal::usize_unsuffixed(links);
+        let links = count(links);
         let joints = forces.in_joints();
         let torque_column = self.torque_column();
         let (facing, node) = (self.facing(&columns), self.node_function(&columns));
@@ -65,7 +66,8 @@ impl Emission<'_> {
         let (runtime, forces) = (self.runtime(), Forces::of(self.scene));
         let [constants, _, answers, kept] = self.recursion_sizes();
         let torques = Torques::of(forces);
-        let (joint, kappa) = (torques.answered(), torques.in_kappa());
+        let kappa = torques.in_kappa();
+        let eliminated = torques.eliminated(&quote!(whole));
         let torque = torques.of_children().map(|_| quote!(torque: V,));
         let read = with_torques(columns, &["inertia", "moment", "lateral", "root_torque"]);
         let (faced, root_torque) = (self.faced(), self.root_torque());
@@ -106,19 +108,7 @@ impl Emission<'_> {
                 #kappa
                 #root_torque
                 #lateral_f
-                let inverse = V::from_f64(1.0) / whole;
-                let (g_x, g_y) = (b_x * inverse, b_y * inverse);
-                (
-                    [
-                        (-b_x).mul_add(g_x, xx),
-                        (-b_x).mul_add(g_y, xy),
-                        (-b_y).mul_add(g_y, yy),
-                        (-g_x).mul_add(kappa, f_x),
-                        (-g_y).mul_add(kappa, f_y)
-                        #joint
-                    ],
-                    [g_x, g_y, kappa * inverse],
-                )
+                #eliminated
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use super::Emission;
 use super::columns::Constants;
-use super::docs::doc_lines;
+use super::doc_text::doc_lines;
 use super::function::ident;
 use super::one_link::read;
 use super::quantities::Numbers;

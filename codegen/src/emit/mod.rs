@@ -3,6 +3,7 @@
 
 mod budget;
 mod columns;
+mod doc_text;
 mod docs;
 mod drive;
 mod expressions;

@@ -1,7 +1,7 @@
 //! The model type: constants, constructors, accessors.
 
 use super::Emission;
-use super::docs::doc_lines;
+use super::doc_text::doc_lines;
 use super::function::{Binding, number_tokens};
 use super::quantities::{Numbers, enclosed, product, sum};
 use crate::program::{ConstantId, ConstantOp};

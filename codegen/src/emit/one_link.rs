@@ -55,7 +55,7 @@ impl Torques {
     }
 
     /// The joint's torque as the last of a link's answers.
-    pub(super) fn answered(&self) -> Option<TokenStream> {
+    fn answered(&self) -> Option<TokenStream> {
         self.joint.as_ref().map(|joint| quote!(, #joint))
     }
 
@@ -74,6 +74,27 @@ impl Torques {
                 false => quote!(let kappa = kappa - (torque - #resistance);),
             },
         })
+    }
+
+    /// The last lines of a link with children: its equation solved, what it answers
+    /// and what is kept. `whole` is J.
+    pub(super) fn eliminated(&self, whole: &TokenStream) -> TokenStream {
+        let joint = self.answered();
+        quote! {
+            let inverse = V::from_f64(1.0) / #whole;
+            let (g_x, g_y) = (b_x * inverse, b_y * inverse);
+            (
+                [
+                    (-b_x).mul_add(g_x, xx),
+                    (-b_x).mul_add(g_y, xy),
+                    (-b_y).mul_add(g_y, yy),
+                    (-g_x).mul_add(kappa, f_x),
+                    (-g_y).mul_add(kappa, f_y)
+                    #joint
+                ],
+                [g_x, g_y, kappa * inverse],
+            )
+        }
     }
 
     /// Force of a leaf in x and y, with the line that it needs.

@@ -3,7 +3,7 @@
 
 use super::Emission;
 use super::columns::Constants;
-use super::docs::doc_lines;
+use super::doc_text::doc_lines;
 use super::one_link::{Torques, with_torques};
 use super::quantities::Numbers;
 use crate::scene::{Forces, Quantity, Table, placed_columns};
@@ -131,11 +131,8 @@ impl Emission<'_> {
     fn placed_inner(&self, columns: &[&str]) -> TokenStream {
         let (runtime, torques) = (self.runtime(), Torques::of(Forces::of(self.scene)));
         let [constants, answers, sums, kept] = self.placed_sizes();
-        let (joint, kappa, torque) = (
-            torques.answered(),
-            torques.in_kappa(),
-            torques.of_children(),
-        );
+        let (kappa, torque) = (torques.in_kappa(), torques.of_children());
+        let eliminated = torques.eliminated(&quote!((inertia + whole)));
         let read = with_torques(columns, &["inertia", "moment", "lateral", "root_torque"]);
         let [lateral_b, lateral_f] = self.lateral_moment();
         let root_torque = self.root_torque();
@@ -159,19 +156,7 @@ impl Emission<'_> {
                 #lateral_f
                 #kappa
                 #root_torque
-                let inverse = V::from_f64(1.0) / (inertia + whole);
-                let (g_x, g_y) = (b_x * inverse, b_y * inverse);
-                (
-                    [
-                        (-b_x).mul_add(g_x, xx),
-                        (-b_x).mul_add(g_y, xy),
-                        (-b_y).mul_add(g_y, yy),
-                        (-g_x).mul_add(kappa, f_x),
-                        (-g_y).mul_add(kappa, f_y)
-                        #joint
-                    ],
-                    [g_x, g_y, kappa * inverse],
-                )
+                #eliminated
             }
         }
     }

@@ -124,3 +124,19 @@ pub(super) fn float(value: f64) -> Literal {
     }
     format!("{value:e}").parse().unwrap_or(plain)
 }
+
+/// A number of links, its digits in groups of three: `1_048_575`.
+pub(super) fn count(number: usize) -> Literal {
+    let digits = number.to_string();
+    let grouped: Vec<&str> = digits
+        .as_bytes()
+        .rchunks(3)
+        .rev()
+        .filter_map(|group| std::str::from_utf8(group).ok())
+        .collect();
+    let plain = Literal::usize_unsuffixed(number);
+    match digits.len() > 4 {
+        true => grouped.join("_").parse().unwrap_or(plain),
+        false => plain,
+    }
+}

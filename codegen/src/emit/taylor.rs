@@ -3,7 +3,7 @@
 //! and as a closure for one order.
 
 use super::Emission;
-use super::docs::doc_lines;
+use super::doc_text::doc_lines;
 use super::function::{Binding, ident};
 use super::taylor_order::Recurrences;
 use crate::exact::Rational;

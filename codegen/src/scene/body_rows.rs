@@ -1,7 +1,8 @@
 //! What energies, momentum and powers of a tree in loops are made of, where it is
 //! driven or has lateral offsets.
 
-use super::generations::{half, product, value};
+use super::forces::value;
+use super::link_constants::{half, product};
 use super::offsets::is_lateral;
 use super::places::has_places;
 use super::{Link, Quantity, Scene};

@@ -4,12 +4,14 @@ use proc_macro2::Span;
 
 use super::bodies::Body;
 use super::body_rows::bodies_fit;
-use super::offsets::{self, add_offsets, is_lateral, unit};
+use super::forces::{Forces, value};
+use super::link_constants::{Turning, half, inner, leaf, product};
+use super::offsets::{add_offsets, unit};
 use super::requests::Resolved;
 use super::rule::Code;
 use super::template::{MAX_LINKS, Template, WholeRule};
 use super::values::message_for;
-use super::{Link, Offset, Quantity, Requests, Scene, Solve};
+use super::{Quantity, Requests, Scene, Solve};
 use crate::exact::ExactError;
 use crate::report::{Message, Report};
 
@@ -210,84 +212,6 @@ pub struct Constants {
     pub per_lever: Option<Quantity>,
 }
 
-/// Which torques act on the links, in one generation at least.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Forces {
-    /// Viscous friction in pivots.
-    pub friction: bool,
-    /// Viscous drag against the ground.
-    pub drag: bool,
-    /// Torsion springs in pivots.
-    pub spring: bool,
-    /// A torque on the root, which has the last column: zero here, and stated anew
-    /// by every evaluation.
-    pub root_torque: bool,
-    /// No torque: whether offsets across the links have columns.
-    pub lateral: bool,
-}
-
-impl Forces {
-    /// Of a scene.
-    pub fn of(scene: &Scene) -> Self {
-        let any = |force: fn(&Link) -> &Option<Quantity>| {
-            scene.links.iter().any(|link| force(link).is_some())
-        };
-        Self {
-            friction: any(|link| &link.friction),
-            drag: any(|link| &link.drag),
-            spring: any(|link| &link.spring),
-            root_torque: scene
-                .drive
-                .as_ref()
-                .is_some_and(|drive| drive.torque.is_some()),
-            lateral: is_lateral(scene),
-        }
-    }
-
-    /// Whether links pull at their parents by torques.
-    pub fn in_joints(self) -> bool {
-        self.friction || self.spring
-    }
-
-    /// Whether there are any but the torque on the root.
-    pub fn any(self) -> bool {
-        self.in_joints() || self.drag
-    }
-
-    /// The values of a link, in the order of the columns.
-    pub(super) fn values(self, link: &Link) -> impl Iterator<Item = Quantity> {
-        let values = [
-            (self.friction, value(&link.friction)),
-            (self.drag, value(&link.drag)),
-            (self.spring, value(&link.spring)),
-            (self.root_torque, Quantity::zero()),
-        ];
-        let there = values.into_iter().filter(|(there, _)| *there);
-        there.map(|(_, value)| value)
-    }
-
-    /// The names of the columns.
-    pub fn columns(self) -> Vec<&'static str> {
-        let mut columns = vec!["rest", "inertia", "moment", "square", "ratio", "reach"];
-        if self.lateral {
-            columns.extend(offsets::COLUMNS);
-        }
-        let forces = [
-            (self.friction, "friction"),
-            (self.drag, "drag"),
-            (self.spring, "spring"),
-            (self.root_torque, "root_torque"),
-        ];
-        columns.extend(
-            forces
-                .into_iter()
-                .filter(|(there, _)| *there)
-                .map(|(_, name)| name),
-        );
-        columns
-    }
-}
-
 impl Constants {
     /// Of a scene whose `links` are one of each generation, below each other.
     ///
@@ -360,92 +284,4 @@ impl Constants {
 pub(super) fn per_lever(scene: &Scene, lever: &Quantity) -> Result<Option<Quantity>, ExactError> {
     let reciprocal = || Quantity::integer(1).divided_by(lever.clone());
     scene.drive.as_ref().map(|_| reciprocal()).transpose()
-}
-
-/// A link about its pivot.
-pub(super) struct Turning {
-    pub(super) mass: Quantity,
-    /// m d, d in the unit of length of the centre of mass.
-    pub(super) moment: Quantity,
-    /// I + m d² of both components.
-    pub(super) inertia: Quantity,
-    /// I.
-    central: Quantity,
-}
-
-impl Turning {
-    pub(super) fn of(link: &Link) -> Result<Self, ExactError> {
-        let Offset { along, lateral } = &link.com;
-        let mut inertia = vec![link.inertia.clone(), product([&link.mass, along, along])];
-        if !lateral.is_zero() {
-            inertia.push(product([&link.mass, lateral, lateral]));
-        }
-        Ok(Self {
-            mass: link.mass.clone(),
-            inertia: Quantity::sum(inertia),
-            moment: product([&link.mass, unit(&link.com)]),
-            central: link.inertia.clone(),
-        })
-    }
-}
-
-pub(super) fn product<const N: usize>(factors: [&Quantity; N]) -> Quantity {
-    Quantity::product(factors.into_iter().cloned())
-}
-
-pub(super) fn half(value: &Quantity) -> Quantity {
-    // Division by an exact number other than zero.
-    let quotient = value.clone().divided_by(Quantity::integer(2));
-    quotient.unwrap_or_else(|_| Quantity::zero())
-}
-
-pub(super) fn value(force: &Option<Quantity>) -> Quantity {
-    force.clone().unwrap_or_else(Quantity::zero)
-}
-
-/// 1/J alone.
-pub(super) fn leaf(body: &Turning) -> Result<Vec<Quantity>, ExactError> {
-    let mut row = vec![Quantity::zero(); 6];
-    row[1] = Quantity::integer(1).divided_by(body.inertia.clone())?;
-    Ok(row)
-}
-
-/// The constants of a link with children at distance ℓ, in units in which ℓ is
-/// one: the children's answers are in units of their own lever ℓ_j, those of
-/// leaves are without unit.
-///
-/// A leaf pulls at its pivot with Φ = m I/J + (m² d²/J) u uᵀ, other children with
-/// Φ = m + (what they answer)/ℓ_j².
-pub(super) fn inner(
-    body: &Turning,
-    lever: &Quantity,
-    copies: &Quantity,
-    child: &Turning,
-    next: Option<&Quantity>,
-) -> Result<Vec<Quantity>, ExactError> {
-    let moment = product([&body.moment, lever]);
-    let share = product([copies, lever, lever, &child.mass]);
-    let (rest, square, ratio, reach) = match next {
-        None => {
-            let turning = product([&child.moment, lever]);
-            (
-                product([&share, &child.central]).divided_by(child.inertia.clone())?,
-                product([&turning, &turning]).divided_by(child.inertia.clone())?,
-                turning.clone(),
-                turning.divided_by(child.inertia.clone())?,
-            )
-        }
-        Some(next) => {
-            let ratio = lever.clone().divided_by(next.clone())?;
-            (share, product([&ratio, &ratio]), ratio.clone(), ratio)
-        }
-    };
-    Ok(vec![
-        rest,
-        body.inertia.clone(),
-        moment,
-        square,
-        ratio,
-        reach,
-    ])
 }

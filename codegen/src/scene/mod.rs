@@ -16,7 +16,9 @@ mod bodies;
 mod body_rows;
 mod drive;
 mod expand;
+mod forces;
 mod generations;
+mod link_constants;
 mod names;
 mod observable_text;
 mod observables;
@@ -37,7 +39,8 @@ mod values;
 
 pub use body_rows::{body_rows, has_bodies};
 pub use drive::{Drive, Signal, TimeFunction};
-pub use generations::{Constants, Forces, Generations};
+pub use forces::Forces;
+pub use generations::{Constants, Generations};
 pub use observables::{
     Function, OBSERVABLE_SUFFIXES, Observable, Observed, Place, Variable, VariableKind,
 };

@@ -8,7 +8,7 @@
 //! for a leaf's centre of mass, as soon as sine and cosine are turned and
 //! stretched so.
 
-use super::generations::product;
+use super::link_constants::product;
 use super::{Link, Offset, Quantity, Scene};
 use crate::exact::ExactError;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::generations::{Turning, product};
+use super::link_constants::{Turning, product};
 use super::offsets::{is_lateral, leaf_columns};
 use super::{Forces, Link, Offset, Quantity, Scene, Table};
 use crate::exact::ExactError;

@@ -3,9 +3,9 @@
 use proc_macro2::Span;
 
 use super::body_rows::bodies_fit;
-use super::generations::{
-    Asked, Forces, Turning, half, inner, leaf, per_lever, product, unlooped, value,
-};
+use super::forces::{Forces, value};
+use super::generations::{Asked, per_lever, unlooped};
+use super::link_constants::{Turning, half, inner, leaf, product};
 use super::offsets::{add_offsets, unit};
 use super::places::{HANGING, columns, has_places, placed};
 use super::rule::Code;

@@ -23,30 +23,31 @@ pub struct Ideal;
 )]
 pub struct Damped;
 
-/// Seven uniform rods: every rod carries two of half its mass and seven tenths
-/// of its length.
-#[branched_pendulum(
-    gravity = 9.80665,
-    rod: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,
-        mass_ratio = 0.5, length_ratio = 0.7),
-    emit(taylor),
-)]
-pub struct Rods;
+/// Uniform rods: every rod carries two of half its mass and seven tenths of its
+/// length.
+macro_rules! rods {
+    ($(#[$doc:meta])* $name:ident: $generations:tt generations) => {
+        $(#[$doc])*
+        #[branched_pendulum(
+            gravity = 9.80665,
+            rod: generations(count = $generations, branching = 2, shape = rod, mass = 0.12,
+                length = 0.3, mass_ratio = 0.5, length_ratio = 0.7),
+            emit(taylor),
+        )]
+        pub struct $name;
+    };
+}
 
-/// The same with one generation more: fifteen rods.
-#[branched_pendulum(
-    gravity = 9.80665,
-    rod: generations(count = 4, branching = 2, shape = rod, mass = 0.12, length = 0.3,
-        mass_ratio = 0.5, length_ratio = 0.7),
-    emit(taylor),
-)]
-pub struct FifteenRods;
-
-/// With two more: thirty-one.
-#[branched_pendulum(
-    gravity = 9.80665,
-    rod: generations(count = 5, branching = 2, shape = rod, mass = 0.12, length = 0.3,
-        mass_ratio = 0.5, length_ratio = 0.7),
-    emit(taylor),
-)]
-pub struct ThirtyOneRods;
+rods! {
+    /// Seven uniform rods: every rod carries two of half its mass and seven tenths
+    /// of its length.
+    Rods: 3 generations
+}
+rods! {
+    /// The same with one generation more: fifteen rods.
+    FifteenRods: 4 generations
+}
+rods! {
+    /// With two more: thirty-one.
+    ThirtyOneRods: 5 generations
+}

@@ -7,4 +7,5 @@ mod late;
 mod lengths;
 mod pages;
 mod passes;
+mod prose;
 mod snapshots;

@@ -5,7 +5,7 @@ use super::tables::{
 };
 use super::{B_MINUS_THIRD, DormandPrince8};
 use crate::integrate::explicit::Span;
-use crate::integrate::explicit::lanes::{LanePair, Memory, sum};
+use crate::integrate::explicit::lanes::{LanePair, Memory, make_stages, sum};
 use crate::integrate::lanes::Models;
 use crate::scalar::register::Register;
 use crate::system::Rescale;
@@ -22,17 +22,7 @@ impl LanePair for DormandPrince8 {
         models: &Models<P, R>,
         span: Span<R>,
     ) {
-        memory.make_stage::<Self, P, 2>(models, span);
-        memory.make_stage::<Self, P, 3>(models, span);
-        memory.make_stage::<Self, P, 4>(models, span);
-        memory.make_stage::<Self, P, 5>(models, span);
-        memory.make_stage::<Self, P, 6>(models, span);
-        memory.make_stage::<Self, P, 7>(models, span);
-        memory.make_stage::<Self, P, 8>(models, span);
-        memory.make_stage::<Self, P, 9>(models, span);
-        memory.make_stage::<Self, P, 10>(models, span);
-        memory.make_stage::<Self, P, 11>(models, span);
-        memory.make_stage::<Self, P, 12>(models, span);
+        make_stages!(memory, models, span: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12);
     }
 
     /// As in the plain method (Solving ODEs I, section II.10, eq. (10.17)).
@@ -59,9 +49,7 @@ impl LanePair for DormandPrince8 {
         models: &Models<P, R>,
         span: Span<R>,
     ) {
-        memory.make_stage::<Self, P, 14>(models, span);
-        memory.make_stage::<Self, P, 15>(models, span);
-        memory.make_stage::<Self, P, 16>(models, span);
+        make_stages!(memory, models, span: 14, 15, 16);
         let [fourth, fifth, sixth, seventh] = &D;
         memory.dense_by_rates::<Self>(&[fourth, fifth, sixth, seventh], 2 * P::LINKS, span);
     }

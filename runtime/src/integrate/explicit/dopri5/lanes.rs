@@ -3,7 +3,7 @@
 use super::tables::{A2, A3, A4, A5, A6, B, C, D, E};
 use super::{DormandPrince5, ESTIMATE_WEIGHT};
 use crate::integrate::explicit::Span;
-use crate::integrate::explicit::lanes::{LanePair, Memory};
+use crate::integrate::explicit::lanes::{LanePair, Memory, make_stages};
 use crate::integrate::lanes::Models;
 use crate::scalar::register::Register;
 use crate::system::Rescale;
@@ -18,11 +18,7 @@ impl LanePair for DormandPrince5 {
         models: &Models<P, R>,
         span: Span<R>,
     ) {
-        memory.make_stage::<Self, P, 2>(models, span);
-        memory.make_stage::<Self, P, 3>(models, span);
-        memory.make_stage::<Self, P, 4>(models, span);
-        memory.make_stage::<Self, P, 5>(models, span);
-        memory.make_stage::<Self, P, 6>(models, span);
+        make_stages!(memory, models, span: 2, 3, 4, 5, 6);
     }
 
     #[inline(always)]

@@ -15,6 +15,7 @@ use core::marker::PhantomData;
 
 pub(super) use self::memory::{Memory, sum};
 pub(super) use self::pair::LanePair;
+pub(super) use self::step::make_stages;
 use self::step::node;
 use super::ExplicitRungeKutta;
 use super::arithmetic::Span;

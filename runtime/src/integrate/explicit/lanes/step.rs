@@ -198,3 +198,12 @@ impl<R: Register> Memory<R> {
         }
     }
 }
+
+/// `make_stages!(memory, models, span: 2, 3);` makes these stages of the pair `Self`
+/// for pendulums `P`, each with its row written out.
+macro_rules! make_stages {
+    ($memory:ident, $models:ident, $span:ident: $($stage:literal),+) => {
+        $($memory.make_stage::<Self, P, $stage>($models, $span);)+
+    };
+}
+pub(in crate::integrate::explicit) use make_stages;

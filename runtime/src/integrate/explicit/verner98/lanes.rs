@@ -6,7 +6,7 @@ use super::tables::{
 };
 use super::{B_MINUS_EIGHTH, Verner9, bernstein};
 use crate::integrate::explicit::Span;
-use crate::integrate::explicit::lanes::{LanePair, Memory, sum};
+use crate::integrate::explicit::lanes::{LanePair, Memory, make_stages, sum};
 use crate::integrate::lanes::Models;
 use crate::scalar::register::Register;
 use crate::system::Rescale;
@@ -24,21 +24,7 @@ impl LanePair for Verner9 {
         models: &Models<P, R>,
         span: Span<R>,
     ) {
-        memory.make_stage::<Self, P, 2>(models, span);
-        memory.make_stage::<Self, P, 3>(models, span);
-        memory.make_stage::<Self, P, 4>(models, span);
-        memory.make_stage::<Self, P, 5>(models, span);
-        memory.make_stage::<Self, P, 6>(models, span);
-        memory.make_stage::<Self, P, 7>(models, span);
-        memory.make_stage::<Self, P, 8>(models, span);
-        memory.make_stage::<Self, P, 9>(models, span);
-        memory.make_stage::<Self, P, 10>(models, span);
-        memory.make_stage::<Self, P, 11>(models, span);
-        memory.make_stage::<Self, P, 12>(models, span);
-        memory.make_stage::<Self, P, 13>(models, span);
-        memory.make_stage::<Self, P, 14>(models, span);
-        memory.make_stage::<Self, P, 15>(models, span);
-        memory.make_stage::<Self, P, 16>(models, span);
+        make_stages!(memory, models, span: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16);
     }
 
     #[inline(always)]
@@ -52,10 +38,7 @@ impl LanePair for Verner9 {
         models: &Models<P, R>,
         span: Span<R>,
     ) {
-        memory.make_stage::<Self, P, 18>(models, span);
-        memory.make_stage::<Self, P, 19>(models, span);
-        memory.make_stage::<Self, P, 20>(models, span);
-        memory.make_stage::<Self, P, 21>(models, span);
+        make_stages!(memory, models, span: 18, 19, 20, 21);
         let n = 2 * P::LINKS;
         let rates = &memory.rates[..STAGES_DENSE * n];
         let part = span.step / R::from_f64(DEGREE as f64);

@@ -1,0 +1,55 @@
+//! What a batch refuses.
+
+use core::fmt;
+
+/// Arguments of a batch that do not fit together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BatchError {
+    /// An argument has another number of slices than the pendulum has links.
+    Links {
+        /// Its name.
+        argument: &'static str,
+        /// Number of links.
+        expected: usize,
+        /// Number of slices.
+        found: usize,
+    },
+    /// A slice has another length than the first one of the angles.
+    States {
+        /// Name of the argument.
+        argument: &'static str,
+        /// Index of the link.
+        link: usize,
+        /// Length of the first slice of angles.
+        expected: usize,
+        /// Length of this slice.
+        found: usize,
+    },
+}
+
+impl fmt::Display for BatchError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Links {
+                argument,
+                expected,
+                found,
+            } => write!(
+                f,
+                "`{argument}` needs one slice for each of {expected} links, but has {found}"
+            ),
+            Self::States {
+                argument,
+                link,
+                expected,
+                found,
+            } => write!(
+                f,
+                "`{argument}[{link}]` holds {found} states, but `theta[0]` holds {expected}"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for BatchError {}

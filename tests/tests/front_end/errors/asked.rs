@@ -1,0 +1,186 @@
+//! Mistakes in the drive, in requests and observables.
+
+use super::Case;
+
+pub(super) const CASES: &[Case] = &[
+    // The drive.
+    (
+        "empty_drive",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), drive())] struct Pendulum;",
+    ),
+    (
+        "unknown_drive",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1),
+    drive(torqe = 1, z = t, 3 = 4),
+)] struct Pendulum;",
+    ),
+    (
+        "duplicate_drive",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1),
+    drive(x = 1, x = 2),
+    drive(y = (1, 2)),
+)] struct Pendulum;",
+    ),
+    (
+        "drive_functions",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1),
+    drive(torque = tau * coz(w * t), x = tan(t) + sin(), y = M * cos(a * t)),
+)] struct Pendulum;",
+    ),
+    (
+        "time_divisor",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1),
+    drive(torque = 1 / (1 + t), x = cos(t)^-1, y = t / (cos(w) * (1 - 1)) + t / 0),
+)] struct Pendulum;",
+    ),
+    (
+        "time_outside_drive",
+        "#[branched_pendulum(gravity = t, t: rod(mass = 1, length = 2 * t + cos(t)) [ drive: rod(mass = 1, length = 1) ],
+    drive(x = t),
+)] struct Pendulum;",
+    ),
+    // Requests.
+    (
+        "unknown_request",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), emit(energy, plots))] struct Pendulum;",
+    ),
+    (
+        "unknown_solve",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), solve = recursive)] struct Pendulum;",
+    ),
+    (
+        "duplicate_solve",
+        "#[branched_pendulum(gravity = 1, solve = recursion, a: rod(mass = 1, length = 1), solve = factorization)] struct Pendulum;",
+    ),
+    (
+        "unknown_code",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), code = tables)] struct Pendulum;",
+    ),
+    (
+        "no_table",
+        "#[branched_pendulum(gravity = 1, code = loops, emit(momenta), a: rod(mass = 1, length = 1) [
+    b: rod(mass = 1, length = 1), c: rod(mass = 1, length = 1, at = 0.5)])] struct Pendulum;",
+    ),
+    (
+        "duplicate_request",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+    emit(energies, energies, transfer(exact, exact)))] struct Pendulum;",
+    ),
+    (
+        "request_forms",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), emit(modes(all)))] struct Pendulum;",
+    ),
+    (
+        "unknown_form",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+    emit(transfer(amplitud = 2, consistent)))] struct Pendulum;",
+    ),
+    (
+        "no_form",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+    emit(transfer()))] struct Pendulum;",
+    ),
+    (
+        "orders",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+    emit(transfer(angle = 9, amplitude, amplitude = 1, exact = 1)))] struct Pendulum;",
+    ),
+    (
+        "no_siblings",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [
+        b: rod(mass = 1, length = 1),
+        c: rod(mass = 1, length = 1),
+    ],
+    emit(symmetric, transfer))] struct Pendulum;",
+    ),
+    (
+        "budget_forms",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(budget(parsival, canonical = 2, matrix, matrix, amplitude = 9, amplitude)),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_small",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(budget(amplitude = 2, small(e, in_phase, d, d), matrix(d))),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_small_without_order",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(budget(canonical, small(d)), transfer(exact(d))),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_small_empty",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(budget(amplitude = 2, small)),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_without_form",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(budget()),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_without_siblings",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1), emit(budget))] struct Pendulum;",
+    ),
+    (
+        "nested_groups",
+        "#[branched_pendulum(gravity = 1,
+    a: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1),
+    emit(transfer(exact)))] struct Pendulum;",
+    ),
+    // Observables.
+    (
+        "observables",
+        "#[branched_pendulum(gravity = g, a: rod(mass = theta_b, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+    observe(
+        first = theta_b_3 + omega_a * p_c,
+        second = whatever * pi,
+        third = tan(theta_a) + sine(theta_a) + sin(cosine),
+        fourth = theta_d / (theta_a - theta_a) + (omega_a - omega_a)^-1,
+        fifth = 1 / 0 + sqrt(-2) + 1e400 * theta_a,
+        sixth = theta_a * 1e300 * omega_a * 1e300,
+    ))] struct Pendulum;",
+    ),
+    (
+        "observable_names",
+        "#[branched_pendulum(gravity = g, a: rod(mass = theta_b_1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+    observe(
+        a = theta_a,
+        theta_a = 2,
+        g = theta_a,
+        twist = theta_a,
+        twist = omega_a,
+        twist_rate = omega_a,
+        hamiltonian = p_a,
+        transfer_exact_d = p_a,
+        inertia_b = p_a,
+        loop = p_a,
+        Twist = theta_b_1,
+        no_equals theta_a,
+        no_value =,
+        no_argument = sin(),
+    ), observe())] struct Pendulum;",
+    ),
+    (
+        "lateral_transfer",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1) [
+        b(mass = 1, com = (0.04, 0.03), inertia = 1) * 2
+    ],
+    emit(transfer(exact)))] struct Pendulum;",
+    ),
+];
