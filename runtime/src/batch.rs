@@ -48,7 +48,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use crate::scalar::dispatch::{self, RegisterKernel};
-use crate::scalar::register::{Block, Register};
+use crate::scalar::register::{Block, Known, Register};
 use crate::scalar::{InstructionSet, Lane, Scalar};
 use crate::system::rescale;
 use crate::system::{InRegisters, Rescale};
@@ -221,6 +221,7 @@ fn check(
 /// enough operations that need not wait for each other. With more links the values
 /// of two registers of states do not find room.
 const FEW: usize = 3;
+const STEP: usize = 1;
 
 /// All states, if they are enough for one register; lengths checked.
 struct Blocks<'a, P, T, In, On, Out> {
@@ -251,13 +252,11 @@ where
         };
         let mut next = 0;
         if P::LINKS <= FEW {
-            let pendulum = self.pendulum.rescale(Block::<R, 2>::splat);
-            while next + 2 * R::LANES <= self.count {
-                if !self.block(&pendulum, next) {
-                    return next;
-                }
-                next += 2 * R::LANES;
-            }
+            next = match P::LINKS {
+                1 => self.pipelined::<R, 1, STEP>(),
+                2 => self.pipelined::<R, 2, STEP>(),
+                _ => self.pipelined::<R, 3, STEP>(),
+            };
         }
         // Links as many as the compiler knows them to be.
         let (Some(theta), Some(omega), Some(alpha)) = (
@@ -298,50 +297,49 @@ where
     On: AsRef<[T]>,
     Out: AsMut<[T]>,
 {
-    /// The states from `start` on, as many as a block holds; false if there are
-    /// not so many.
     #[inline(always)]
-    fn block<R: Register<Lane = T>, const N: usize>(
-        &mut self,
-        pendulum: &P::Of<Block<R, N>>,
-        start: usize,
-    ) -> bool {
-        // Links as many as the compiler knows them to be.
+    fn pipelined<R: Register<Lane = T>, const L: usize, const N: usize>(&mut self) -> usize {
+        let pendulum = self.pendulum.rescale(|x| Known::number(Block::<R, N>::splat(x)));
+        let step = N * R::LANES;
+        if self.count < step { return 0; }
         let (Some(theta), Some(omega), Some(alpha)) = (
-            self.theta.get(..P::LINKS),
-            self.omega.get(..P::LINKS),
-            self.alpha.get_mut(..P::LINKS),
+            self.theta.first_chunk::<L>(),
+            self.omega.first_chunk::<L>(),
+            self.alpha.first_chunk_mut::<L>(),
         ) else {
-            return false;
+            return 0;
         };
-        // Known, and asked here so that the compiler knows it too and reads the
-        // numbers below without a question for each.
-        for (theta, omega) in theta.iter().zip(omega) {
-            for i in 0..N {
-                let start = start + i * R::LANES;
-                let angles = load::<R>(theta.as_ref(), start);
-                if angles.is_none() || load::<R>(omega.as_ref(), start).is_none() {
-                    return false;
-                }
-            }
-        }
-        pendulum.evaluate(
-            Block::splat(self.time),
-            |link| load_block(theta, link, start),
-            |link| load_block(omega, link, start),
-            |link, value: Block<R, N>| {
-                let Some(slice) = alpha.get_mut(link) else {
-                    return;
-                };
-                for i in 0..N {
-                    let start = start + i * R::LANES;
-                    if let Some(states) = slice.as_mut().get_mut(start..start + R::LANES) {
-                        value.0[i].store(states);
+        let angles = |start: usize| -> [Block<R, N>; L] {
+            let mut all = [Block::from_f64(0.0); L];
+            for link in 0..L { all[link] = load_block(theta, link, start); }
+            all
+        };
+        let mut turned = Block::sin_cos_each(&angles(0));
+        let mut next = 0;
+        while next + step <= self.count {
+            let later = (next + step).min(self.count - step);
+            let turned_later = Block::sin_cos_each(&angles(later));
+            let (sines, cosines) = turned;
+            pendulum.evaluate(
+                Known::number(Block::splat(self.time)),
+                |link| Known::angle(Block::from_f64(0.0), sines[link], cosines[link]),
+                |link| Known::number(load_block(omega, link, next)),
+                |link, value: Known<Block<R, N>>| {
+                    let Some(slice) = alpha.get_mut(link) else {
+                        return;
+                    };
+                    for i in 0..N {
+                        let start = next + i * R::LANES;
+                        if let Some(states) = slice.as_mut().get_mut(start..start + R::LANES) {
+                            value.value.0[i].store(states);
+                        }
                     }
-                }
-            },
-        );
-        true
+                },
+            );
+            turned = turned_later;
+            next += step;
+        }
+        next
     }
 }
 

@@ -11,11 +11,13 @@
 #![allow(unreachable_pub)]
 
 mod block;
+mod known;
 mod one;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub(crate) use block::Block;
+pub(crate) use known::Known;
 pub use one::Fused;
 #[cfg(target_arch = "x86_64")]
 pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};

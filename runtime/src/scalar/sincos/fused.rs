@@ -26,6 +26,14 @@ pub trait Pack: Register<Lane: Float> {
     /// From s and c, odd numbers make c and −s; the second bit changes both signs.
     fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self);
 
+    /// The bits of `self`, and those in which a number of quarters, in the lowest
+    /// bits of `quarter`, differs from `round`, the number zero.
+    fn or_differing(self, quarter: Self, round: Self) -> Self;
+
+    /// Whether the lowest bits alone are set: as many as the numbers of quarters
+    /// in the common range have.
+    fn only_low_bits(self) -> bool;
+
     /// Whether all numbers are below `limit`.
     fn all_below(self, limit: Self::Lane) -> bool;
 
@@ -50,6 +58,8 @@ pub trait Float: Lane {
     /// 1.5 times a power of two: adding it rounds to an integer, which it leaves
     /// in the lowest bits.
     const ROUND: Self;
+    const BASE: Self;
+    const QUARTERS: Self;
     /// π/2 as a sum of positive parts. Products with the second are exact, and
     /// have so few digits that the difference from an angle is so too, where
     /// that is smaller than they are.
@@ -74,16 +84,18 @@ impl Float for f64 {
     #[cfg(not(target_arch = "x86_64"))]
     type Several = Fused<f64>;
 
-    const LIMIT: f64 = super::double::LIMIT;
+    const LIMIT: f64 = 102_942.0;
     const TURNS: f64 = core::f64::consts::FRAC_2_PI;
-    const ROUND: f64 = 6_755_399_441_055_744.0;
+    const ROUND: f64 = 6_755_399_441_055_744.0 + 65_536.0;
+    const BASE: f64 = 6_755_399_441_055_744.0;
+    const QUARTERS: f64 = f64::from_bits(!((1 << 17) - 1));
     const HALF_PI: [f64; 3] = [
         core::f64::consts::FRAC_PI_2,
         f64::from_bits(0x3c91a62633140000),
         f64::from_bits(0x3a3701b839a25205),
     ];
-    const SINE: &'static [f64] = &super::double::SINE;
-    const COSINE: &'static [f64] = &super::double::COSINE;
+    const SINE: &'static [f64] = &[-78.5625, 2768.7091728461896, 5553.631346105261, 1.58969099521155e-10, -7.274049114538244e-11, -5.864074156193496e-05, -0.002631410982123178];
+    const COSINE: &'static [f64] = &[-14.900981867561343, 9724.168422042349, -1.1359647557788195e-11, 1.749032516737196e-09, -1.2894558211213827e-05, 0.0016679670015756227];
 
     #[inline(always)]
     fn fused(a: f64, b: f64, c: f64) -> f64 {
@@ -109,9 +121,11 @@ impl Float for f32 {
     #[cfg(not(target_arch = "x86_64"))]
     type Several = Fused<f32>;
 
-    const LIMIT: f32 = 804.0;
+    const LIMIT: f32 = 803.0;
     const TURNS: f32 = core::f32::consts::FRAC_2_PI;
-    const ROUND: f32 = 12_582_912.0;
+    const ROUND: f32 = 12_582_912.0 + 512.0;
+    const BASE: f32 = 12_582_912.0;
+    const QUARTERS: f32 = f32::from_bits(!((1 << 10) - 1));
     const HALF_PI: [f32; 3] = [
         f32::from_bits(0x3fc9_0fda),
         f32::from_bits(0x33a22000),
@@ -159,18 +173,23 @@ macro_rules! for_each {
 
 /// Sines and cosines in the common range.
 #[inline(always)]
-fn common<P: Pack, const G: usize>(angles: [P; G]) -> ([P; G], [P; G]) {
+fn common<P: Pack, const G: usize>(angles: [P; G], seen: &mut P) -> ([P; G], [P; G]) {
     let [part_1, part_2, part_3] = P::Lane::HALF_PI;
     let (part_1, part_2, part_3) = (P::splat(part_1), P::splat(part_2), P::splat(part_3));
     let round = P::splat(P::Lane::ROUND);
     let turns = P::splat(P::Lane::TURNS);
     let quarters = for_each!(round; i => angles[i].mul_add(turns, round));
+    for i in 0..G {
+        *seen = seen.or_differing(quarters[i], P::splat(P::Lane::BASE));
+    }
     let n = for_each!(round; i => quarters[i] - round);
     // Exact: a multiple of the last place of π/2 that is below one.
     let first = for_each!(round; i => (-n[i]).mul_add(part_1, angles[i]));
-    let high = for_each!(round; i => (-n[i]).mul_add(part_2, first[i]));
+    // Exact too, and so is what the difference loses.
+    let second = for_each!(round; i => n[i] * part_2);
+    let high = for_each!(round; i => first[i] - second[i]);
     let low = for_each!(round; i => high[i] - first[i]);
-    let low = for_each!(round; i => n[i].mul_add(part_2, low[i]));
+    let low = for_each!(round; i => low[i] + second[i]);
     let low = for_each!(round; i => n[i].mul_add(part_3, low[i]));
     turn(quarters, high, low)
 }
@@ -206,16 +225,21 @@ fn polynomial<P: Pack, const G: usize>(x: [P; G], coefficients: &[P::Lane]) -> [
             let high = for_each!(a; i => x[i].mul_add(c, b));
             for_each!(a; i => x[i].mul_add(high[i], a))
         }
-        [a, b, c, d, e, f] => {
-            // Pairs of terms: half the latency of Horner's scheme.
+        [b, k, m, f, e, d, a] => {
+            let (a, b, m, k) = (P::splat(a), P::splat(b), P::splat(m), P::splat(k));
+            let (d, e, f) = (P::splat(d), P::splat(e), P::splat(f));
+            let y = for_each!(a; i => x[i].mul_add(x[i] + b, k));
+            let z = for_each!(a; i => x[i].mul_add(f, e));
+            let z = for_each!(a; i => (y[i] + m).mul_add(z[i], d));
+            for_each!(a; i => y[i].mul_add(z[i], a))
+        }
+        [b, c, f, e, d, a] => {
             let (a, b, c) = (P::splat(a), P::splat(b), P::splat(c));
             let (d, e, f) = (P::splat(d), P::splat(e), P::splat(f));
-            let second = for_each!(a; i => x[i] * x[i]);
-            let high = for_each!(a; i => x[i].mul_add(f, e));
-            let middle = for_each!(a; i => x[i].mul_add(d, c));
-            let low = for_each!(a; i => x[i].mul_add(b, a));
-            let high = for_each!(a; i => second[i].mul_add(high[i], middle[i]));
-            for_each!(a; i => second[i].mul_add(high[i], low[i]))
+            let y = for_each!(a; i => x[i].mul_add(x[i] + b, c));
+            let z = for_each!(a; i => x[i].mul_add(f, e));
+            let z = for_each!(a; i => y[i].mul_add(z[i], d));
+            for_each!(a; i => y[i].mul_add(z[i], a))
         }
         _ => unreachable!("polynomials have three or six coefficients"),
     }
@@ -236,12 +260,12 @@ pub(in crate::scalar) fn blocks<P: Pack, const N: usize, const M: usize>(
 ) -> ([[P; N]; M], [[P; N]; M]) {
     let zero = [[P::from_f64(0.0); N]; M];
     let (mut sines, mut cosines) = (zero, zero);
-    groups(
+    let near = groups(
         angles.as_flattened(),
         sines.as_flattened_mut(),
         cosines.as_flattened_mut(),
     );
-    if !all_near(angles.as_flattened()) {
+    if !near {
         // Copies for this block alone: were angles and results themselves lent
         // out, they would live in memory on the common path too.
         let (mut far_sines, mut far_cosines) = (zero, zero);
@@ -286,30 +310,38 @@ pub(in crate::scalar) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Opti
 /// Those of angles in the common range, computed together.
 #[inline(always)]
 pub(in crate::scalar) fn near<P: Pack, const N: usize>(angles: &[P; N]) -> Turned<P, N> {
-    common(*angles)
+    common(*angles, &mut P::from_f64(0.0))
 }
 
-/// Sines and cosines of angles in the common range.
+/// Sines and cosines, if all angles are in the common range.
 #[inline(always)]
-fn groups<P: Pack>(angles: &[P], sines: &mut [P], cosines: &mut [P]) {
+fn groups<P: Pack>(angles: &[P], sines: &mut [P], cosines: &mut [P]) -> bool {
+    let mut seen = P::from_f64(0.0);
     let mut start = 0;
     while start + GROUP <= angles.len() {
-        group::<P, GROUP>(angles, sines, cosines, start);
+        group::<P, GROUP>(angles, sines, cosines, start, &mut seen);
         start += GROUP;
     }
     match angles.len() % GROUP {
         0 => {}
-        1 => group::<P, 1>(angles, sines, cosines, start),
-        2 => group::<P, 2>(angles, sines, cosines, start),
-        _ => group::<P, 3>(angles, sines, cosines, start),
+        1 => group::<P, 1>(angles, sines, cosines, start, &mut seen),
+        2 => group::<P, 2>(angles, sines, cosines, start, &mut seen),
+        _ => group::<P, 3>(angles, sines, cosines, start, &mut seen),
     }
+    seen.only_low_bits()
 }
 
 /// The `G` angles from `start` on.
 #[inline(always)]
-fn group<P: Pack, const G: usize>(angles: &[P], sines: &mut [P], cosines: &mut [P], start: usize) {
+fn group<P: Pack, const G: usize>(
+    angles: &[P],
+    sines: &mut [P],
+    cosines: &mut [P],
+    start: usize,
+    seen: &mut P,
+) {
     let group = for_each!(angles[start]; i => angles[start + i]);
-    let (some_sines, some_cosines) = common(group);
+    let (some_sines, some_cosines) = common(group, seen);
     for i in 0..G {
         (sines[start + i], cosines[start + i]) = (some_sines[i], some_cosines[i]);
     }
@@ -334,11 +366,10 @@ fn beyond<P: Pack, const N: usize>(angles: &[P; N], sines: &mut [P; N], cosines:
 /// One angle anywhere.
 #[inline(always)]
 fn one<T: Float>(angle: T) -> (T, T) {
-    let ([sine], [cosine]) = if T::One::from_f64(0.0)
-        .larger_size(T::One::splat(angle))
-        .all_below(T::LIMIT)
-    {
-        common([T::One::splat(angle)])
+    let mut seen = T::One::from_f64(0.0);
+    let near = common([T::One::splat(angle)], &mut seen);
+    let ([sine], [cosine]) = if seen.only_low_bits() {
+        near
     } else {
         let (quarter, [high, low]) = T::far(angle);
         turn(
@@ -369,7 +400,7 @@ where
         return each(angles);
     }
     let lanes = T::Several::LANES;
-    let mut largest = T::Several::from_f64(0.0);
+    let mut seen = T::Several::from_f64(0.0);
     let mut start = 0;
     while start < N {
         let first = start.min(N.saturating_sub(lanes));
@@ -378,8 +409,7 @@ where
             *number = angle.0;
         }
         let pack = T::Several::from_numbers(numbers);
-        largest = largest.larger_size(pack);
-        let ([sine], [cosine]) = common([pack]);
+        let ([sine], [cosine]) = common([pack], &mut seen);
         let (sine, cosine) = (sine.to_numbers(), cosine.to_numbers());
         let results = sines[first..].iter_mut().zip(&mut cosines[first..]);
         let found = sine.as_ref().iter().zip(cosine.as_ref());
@@ -388,7 +418,7 @@ where
         }
         start += lanes;
     }
-    if !largest.all_below(T::LIMIT) {
+    if !seen.only_low_bits() {
         let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
         let angles = black_box(*angles);
         beyond(&angles, &mut far_sines, &mut far_cosines);
