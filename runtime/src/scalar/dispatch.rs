@@ -82,6 +82,28 @@ pub(crate) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
     machine::run_fused(kernel)
 }
 
+/// A computation on one state, in fused arithmetic. It is told what it needs one by
+/// one: so much goes in the processor's registers, and a structure through memory.
+pub(crate) trait StateKernel<T> {
+    /// Whose state it is.
+    type Model;
+
+    /// Computes `out`.
+    fn run(model: &Self::Model, time: T, theta: &[T], omega: &[T], out: &mut [T]);
+}
+
+/// Runs `K` with the widest instructions that fuse; false if the machine has none.
+#[inline(always)]
+pub(crate) fn run_state<T, K: StateKernel<T>>(
+    model: &K::Model,
+    time: T,
+    theta: &[T],
+    omega: &[T],
+    out: &mut [T],
+) -> bool {
+    machine::run_state::<T, K>(model, time, theta, omega, out)
+}
+
 /// Runs `kernel` in a function of its own with AVX2 and FMA. For types that exist
 /// where the machine has them, and for their methods alone.
 #[inline(always)]
@@ -133,7 +155,7 @@ mod machine {
     use core::marker::PhantomData;
     use core::sync::atomic::{AtomicU8, Ordering};
 
-    use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed};
+    use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel};
 
     /// 0 before the first question, then 1 + the answer.
     static WIDEST: AtomicU8 = AtomicU8::new(0);
@@ -195,8 +217,53 @@ mod machine {
         match widest() {
             InstructionSet::Build => Err(kernel),
             // SAFETY: `widest` has asked for AVX2 and FMA.
-            InstructionSet::Avx2 | InstructionSet::Avx512 => Ok(unsafe { avx2(kernel) }),
+            InstructionSet::Avx2 => Ok(unsafe { avx2(kernel) }),
+            InstructionSet::Avx512 => Ok(unsafe { avx512(kernel) }),
         }
+    }
+
+    #[inline(always)]
+    pub(super) fn run_state<T, K: StateKernel<T>>(
+        model: &K::Model,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        out: &mut [T],
+    ) -> bool {
+        match widest() {
+            InstructionSet::Build => return false,
+            // SAFETY: `widest` has asked for AVX2 and FMA.
+            InstructionSet::Avx2 => unsafe {
+                state_avx2::<T, K>(model, time, theta, omega, out);
+            },
+            // SAFETY: and for AVX-512 here.
+            InstructionSet::Avx512 => unsafe {
+                state_avx512::<T, K>(model, time, theta, omega, out);
+            },
+        }
+        true
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    fn state_avx2<T, K: StateKernel<T>>(
+        model: &K::Model,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        out: &mut [T],
+    ) {
+        K::run(model, time, theta, omega, out);
+    }
+
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
+    fn state_avx512<T, K: StateKernel<T>>(
+        model: &K::Model,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        out: &mut [T],
+    ) {
+        K::run(model, time, theta, omega, out);
     }
 
     #[inline(always)]
@@ -250,7 +317,7 @@ mod machine {
 mod machine {
     use core::marker::PhantomData;
 
-    use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed};
+    use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel};
 
     #[inline(always)]
     pub(super) fn widest() -> InstructionSet {
@@ -265,6 +332,17 @@ mod machine {
     #[inline(always)]
     pub(super) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
         Err(kernel)
+    }
+
+    #[inline(always)]
+    pub(super) fn run_state<T, K: StateKernel<T>>(
+        _model: &K::Model,
+        _time: T,
+        _theta: &[T],
+        _omega: &[T],
+        _out: &mut [T],
+    ) -> bool {
+        false
     }
 
     #[inline(always)]
