@@ -85,6 +85,7 @@ pub(crate) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
 /// A computation on one state, in fused arithmetic. It is told what it needs one by
 /// one: so much goes in the processor's registers, and a structure through memory.
 pub(crate) trait StateKernel<T> {
+    const LINKS: usize;
     /// Whose state it is.
     type Model;
 
@@ -163,11 +164,14 @@ mod machine {
     #[inline(always)]
     pub(super) fn widest() -> InstructionSet {
         // Each thread that comes first finds the same answer.
-        match WIDEST.load(Ordering::Relaxed) {
+        let known = WIDEST.load(Ordering::Relaxed);
+        if known > 2 {
+            return InstructionSet::Avx512;
+        }
+        match known {
             0 => detect(),
             1 => InstructionSet::Build,
-            2 => InstructionSet::Avx2,
-            _ => InstructionSet::Avx512,
+            _ => InstructionSet::Avx2,
         }
     }
 
@@ -230,6 +234,8 @@ mod machine {
         omega: &[T],
         out: &mut [T],
     ) -> bool {
+        if theta.len() != K::LINKS || omega.len() != K::LINKS || out.len() != K::LINKS { return false; }
+        let (theta, omega, out) = (theta.as_ptr(), omega.as_ptr(), out.as_mut_ptr());
         match widest() {
             InstructionSet::Build => return false,
             // SAFETY: `widest` has asked for AVX2 and FMA.
@@ -245,24 +251,30 @@ mod machine {
     }
 
     #[target_feature(enable = "avx2,fma")]
-    fn state_avx2<T, K: StateKernel<T>>(
+    unsafe fn state_avx2<T, K: StateKernel<T>>(
         model: &K::Model,
         time: T,
-        theta: &[T],
-        omega: &[T],
-        out: &mut [T],
+        theta: *const T,
+        omega: *const T,
+        out: *mut T,
     ) {
+        let (theta, omega, out) = unsafe {
+            (core::slice::from_raw_parts(theta, K::LINKS), core::slice::from_raw_parts(omega, K::LINKS), core::slice::from_raw_parts_mut(out, K::LINKS))
+        };
         K::run(model, time, theta, omega, out);
     }
 
     #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
-    fn state_avx512<T, K: StateKernel<T>>(
+    unsafe fn state_avx512<T, K: StateKernel<T>>(
         model: &K::Model,
         time: T,
-        theta: &[T],
-        omega: &[T],
-        out: &mut [T],
+        theta: *const T,
+        omega: *const T,
+        out: *mut T,
     ) {
+        let (theta, omega, out) = unsafe {
+            (core::slice::from_raw_parts(theta, K::LINKS), core::slice::from_raw_parts(omega, K::LINKS), core::slice::from_raw_parts_mut(out, K::LINKS))
+        };
         K::run(model, time, theta, omega, out);
     }
 

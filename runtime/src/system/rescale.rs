@@ -210,6 +210,7 @@ impl<T: Scalar, P: Rescale<T>> StateKernel<T> for OneState<P>
 where
     Fused<T>: Scalar,
 {
+    const LINKS: usize = P::LINKS;
     type Model = P;
 
     #[inline(always)]

@@ -404,7 +404,7 @@ where
     let mut start = 0;
     while start < N {
         let first = start.min(N.saturating_sub(lanes));
-        let mut numbers = T::Several::from_f64(0.0).to_numbers();
+        let mut numbers = T::Several::splat(angles[N - 1].0).to_numbers();
         for (number, angle) in numbers.as_mut().iter_mut().zip(&angles[first..]) {
             *number = angle.0;
         }
