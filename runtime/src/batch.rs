@@ -44,14 +44,16 @@
 //! # Ok::<(), branched_pendulum::batch::BatchError>(())
 //! ```
 
+mod blocks;
+
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::scalar::dispatch::{self, RegisterKernel};
-use crate::scalar::register::{Block, Known, Register};
-use crate::scalar::{InstructionSet, Lane, Scalar};
+use crate::scalar::dispatch;
+use crate::scalar::{InstructionSet, Lane};
+use crate::system::Rescale;
 use crate::system::rescale;
-use crate::system::{InRegisters, Rescale};
+use blocks::Blocks;
 
 /// Evaluates a pendulum for any number of states, a register at a time.
 ///
@@ -215,171 +217,6 @@ fn check(
         }
     }
     Ok(())
-}
-
-/// Links up to which two registers are computed in step: so few alone have not
-/// enough operations that need not wait for each other. With more links the values
-/// of two registers of states do not find room.
-const FEW: usize = 3;
-const STEP: usize = 1;
-
-/// All states, if they are enough for one register; lengths checked.
-struct Blocks<'a, P, T, In, On, Out> {
-    pendulum: &'a P,
-    time: T,
-    count: usize,
-    room: &'a mut [T],
-    theta: &'a [In],
-    omega: &'a [On],
-    alpha: &'a mut [Out],
-}
-
-impl<P, T, In, On, Out> RegisterKernel<T> for Blocks<'_, P, T, In, On, Out>
-where
-    P: Rescale<T>,
-    T: Lane,
-    In: AsRef<[T]>,
-    On: AsRef<[T]>,
-    Out: AsMut<[T]>,
-{
-    /// How many states it has done.
-    type Output = usize;
-
-    #[inline(always)]
-    fn run<R: Register<Lane = T>>(mut self) -> usize {
-        let Some(last) = self.count.checked_sub(R::LANES) else {
-            return 0;
-        };
-        let mut next = 0;
-        if P::LINKS <= FEW {
-            next = match P::LINKS {
-                1 => self.pipelined::<R, 1, STEP>(),
-                2 => self.pipelined::<R, 2, STEP>(),
-                _ => self.pipelined::<R, 3, STEP>(),
-            };
-        }
-        // Links as many as the compiler knows them to be.
-        let (Some(theta), Some(omega), Some(alpha)) = (
-            self.theta.get(..P::LINKS),
-            self.omega.get(..P::LINKS),
-            self.alpha.get_mut(..P::LINKS),
-        ) else {
-            return next;
-        };
-        let mut pendulum = self.pendulum.in_registers::<R>(self.room);
-        let time = R::splat(self.time);
-        let nothing = R::splat(T::from_f64(f64::NAN)).to_chunk();
-        while next < self.count {
-            // The last block overlaps the one before, where it would not be full:
-            // some states are computed twice.
-            let end = next.min(last) + R::LANES;
-            pendulum.evaluate(
-                time,
-                |link| load_late(theta, link, end, &nothing),
-                |link| load_late(omega, link, end, &nothing),
-                |link, value: R| {
-                    if let Some(slice) = alpha.get_mut(link) {
-                        value.store_last(slice.as_mut().get_mut(..end).unwrap_or_default());
-                    }
-                },
-            );
-            next = end;
-        }
-        next
-    }
-}
-
-impl<P, T, In, On, Out> Blocks<'_, P, T, In, On, Out>
-where
-    P: Rescale<T>,
-    T: Lane,
-    In: AsRef<[T]>,
-    On: AsRef<[T]>,
-    Out: AsMut<[T]>,
-{
-    #[inline(always)]
-    fn pipelined<R: Register<Lane = T>, const L: usize, const N: usize>(&mut self) -> usize {
-        let pendulum = self.pendulum.rescale(|x| Known::number(Block::<R, N>::splat(x)));
-        let step = N * R::LANES;
-        if self.count < step { return 0; }
-        let (Some(theta), Some(omega), Some(alpha)) = (
-            self.theta.first_chunk::<L>(),
-            self.omega.first_chunk::<L>(),
-            self.alpha.first_chunk_mut::<L>(),
-        ) else {
-            return 0;
-        };
-        let angles = |start: usize| -> [Block<R, N>; L] {
-            let mut all = [Block::from_f64(0.0); L];
-            for link in 0..L { all[link] = load_block(theta, link, start); }
-            all
-        };
-        let mut turned = Block::sin_cos_each(&angles(0));
-        let mut next = 0;
-        while next + step <= self.count {
-            let later = (next + step).min(self.count - step);
-            let turned_later = Block::sin_cos_each(&angles(later));
-            let (sines, cosines) = turned;
-            pendulum.evaluate(
-                Known::number(Block::splat(self.time)),
-                |link| Known::angle(Block::from_f64(0.0), sines[link], cosines[link]),
-                |link| Known::number(load_block(omega, link, next)),
-                |link, value: Known<Block<R, N>>| {
-                    let Some(slice) = alpha.get_mut(link) else {
-                        return;
-                    };
-                    for i in 0..N {
-                        let start = next + i * R::LANES;
-                        if let Some(states) = slice.as_mut().get_mut(start..start + R::LANES) {
-                            value.value.0[i].store(states);
-                        }
-                    }
-                },
-            );
-            turned = turned_later;
-            next += step;
-        }
-        next
-    }
-}
-
-/// The register that starts with state `start`.
-#[inline(always)]
-fn load<R: Register>(states: &[R::Lane], start: usize) -> Option<R> {
-    states.get(start..start + R::LANES).and_then(R::load)
-}
-
-/// The block of one link that starts with state `start`.
-#[inline(always)]
-fn load_block<R: Register, const N: usize>(
-    slices: &[impl AsRef<[R::Lane]>],
-    link: usize,
-    start: usize,
-) -> Block<R, N> {
-    // Lengths have been checked.
-    let mut block = Block::from_f64(f64::NAN);
-    if let Some(slice) = slices.get(link) {
-        for i in 0..N {
-            if let Some(register) = load(slice.as_ref(), start + i * R::LANES) {
-                block.0[i] = register;
-            }
-        }
-    }
-    block
-}
-
-/// One register of one link, that ends before state `end`; `nothing` where the
-/// slice is too short, which has been excluded. Chosen between are places and not
-/// numbers, so that these are read where they are needed.
-#[inline(always)]
-fn load_late<R: Register>(
-    slices: &[impl AsRef<[R::Lane]>],
-    link: usize,
-    end: usize,
-    nothing: &R::Chunk,
-) -> R {
-    let block = slices.get(link).and_then(|slice| slice.as_ref().get(..end));
-    R::from_chunk(block.and_then(R::last_chunk).unwrap_or(nothing))
 }
 
 /// Arguments of a batch that do not fit together.

@@ -210,8 +210,9 @@ impl<T: Scalar, P: Rescale<T>> StateKernel<T> for OneState<P>
 where
     Fused<T>: Scalar,
 {
-    const LINKS: usize = P::LINKS;
     type Model = P;
+
+    const LINKS: usize = P::LINKS;
 
     #[inline(always)]
     fn run(pendulum: &P, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {

@@ -3,27 +3,35 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::super::Scalar;
+use crate::model::Part;
 
-/// A number that may bring its sine and cosine along: what computes with it does
-/// not compute them. Numbers that come of others bring none.
+/// A number, which may bring its sine and cosine along: code written for any number
+/// takes these then, and does not compute them. What comes of numbers brings none.
+///
+/// The compiler sees which do, and nothing is left of the question.
 #[derive(Clone, Copy, Debug)]
 pub struct Known<S> {
-    pub(crate) value: S,
-    turn: (S, S),
+    /// Without them.
+    pub(crate) number: S,
+    turned: Option<(S, S)>,
 }
 
 impl<S: Scalar> Known<S> {
-    /// An angle of this sine and cosine.
+    /// Brings none.
     #[inline(always)]
-    pub(crate) fn angle(value: S, sine: S, cosine: S) -> Self {
-        Self { value, turn: (sine, cosine) }
+    pub(crate) fn number(number: S) -> Self {
+        let turned = None;
+        Self { number, turned }
     }
 
-    /// A number that is no angle.
+    /// An angle, whose sine and cosine stand in place `index`; none if nothing does.
     #[inline(always)]
-    pub(crate) fn number(value: S) -> Self {
-        let zero = S::from_f64(0.0);
-        Self { value, turn: (zero, zero) }
+    pub(crate) fn angle(number: S, index: usize, sines: &[S], cosines: &[S]) -> Self {
+        let turned = match (sines.get(index), cosines.get(index)) {
+            (Some(sine), Some(cosine)) => Some((*sine, *cosine)),
+            _ => None,
+        };
+        Self { number, turned }
     }
 }
 
@@ -34,7 +42,7 @@ macro_rules! operator {
 
             #[inline(always)]
             fn $function(self, other: Self) -> Self {
-                Self::number(self.value $operator other.value)
+                Self::number(self.number $operator other.number)
             }
         }
     };
@@ -50,7 +58,7 @@ impl<S: Scalar> Neg for Known<S> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Self::number(-self.value)
+        Self::number(-self.number)
     }
 }
 
@@ -63,17 +71,31 @@ impl<S: Scalar> Scalar for Known<S> {
     }
 
     #[inline(always)]
+    fn from_parts(high: f64, low: f64) -> Self {
+        Self::number(S::from_parts(high, low))
+    }
+
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        (Self::number(self.turn.0), Self::number(self.turn.1))
+        let (sine, cosine) = match self.turned {
+            Some(turned) => turned,
+            None => self.number.sin_cos(),
+        };
+        (Self::number(sine), Self::number(cosine))
     }
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self::number(self.value.sqrt())
+        Self::number(self.number.sqrt())
     }
 
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
-        Self::number(self.value.mul_add(factor.value, addend.value))
+        Self::number(self.number.mul_add(factor.number, addend.number))
+    }
+
+    #[inline(always)]
+    fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(model: &M, arguments: A) -> M::Output {
+        S::outlined(model, arguments)
     }
 }

@@ -39,6 +39,10 @@ pub trait Register: Scalar {
     /// This register, and narrower ones for fewer numbers.
     type Vectors: Vectors<Self::Lane>;
 
+    /// Whether a batch of few links computes sines a register of states ahead, which
+    /// needs many registers and sines that take no branch.
+    const AHEAD: bool = false;
+
     /// Says of each lane whether it is meant.
     type Mask: Copy;
 

@@ -151,14 +151,14 @@ macro_rules! fused {
             }
 
             #[inline(always)]
-            fn or_differing(self, quarter: Self, round: Self) -> Self {
-                let differing = quarter.0.to_bits() ^ round.0.to_bits();
+            fn or_differing(self, one: Self, other: Self) -> Self {
+                let differing = one.0.to_bits() ^ other.0.to_bits();
                 Self($float::from_bits(self.0.to_bits() | differing))
             }
 
             #[inline(always)]
             fn only_low_bits(self) -> bool {
-                self.0.to_bits() & <$float as fused::Float>::QUARTERS.to_bits() == 0
+                self.0.to_bits() & <$float as fused::Float>::ABOVE.to_bits() == 0
             }
 
             #[inline(always)]

@@ -14,6 +14,7 @@ use super::super::register::{Fused, Register};
 use super::super::turns::Turned;
 use super::super::{Lane, Scalar};
 use super::reduction;
+use super::tail::{self, Tail, for_each};
 
 /// What one order of operations computes with.
 pub trait Pack: Register<Lane: Float> {
@@ -26,12 +27,10 @@ pub trait Pack: Register<Lane: Float> {
     /// From s and c, odd numbers make c and −s; the second bit changes both signs.
     fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self);
 
-    /// The bits of `self`, and those in which a number of quarters, in the lowest
-    /// bits of `quarter`, differs from `round`, the number zero.
-    fn or_differing(self, quarter: Self, round: Self) -> Self;
+    /// The bits of `self`, and those in which two others differ.
+    fn or_differing(self, one: Self, other: Self) -> Self;
 
-    /// Whether the lowest bits alone are set: as many as the numbers of quarters
-    /// in the common range have.
+    /// Whether none of the bits [`Float::ABOVE`] is set.
     fn only_low_bits(self) -> bool;
 
     /// Whether all numbers are below `limit`.
@@ -50,24 +49,29 @@ pub trait Float: Lane {
     type One: Pack<Lane = Self>;
     /// As many as a register of AVX2 holds.
     type Several: Pack<Lane = Self>;
-    /// The common range: as many quarter turns as have been examined for how
-    /// close an angle comes to them.
+    /// A little less than the common range, which has as many quarter turns as have
+    /// been examined for how close an angle comes to them.
     const LIMIT: Self;
     /// 2/π.
     const TURNS: Self;
-    /// 1.5 times a power of two: adding it rounds to an integer, which it leaves
-    /// in the lowest bits.
-    const ROUND: Self;
-    const BASE: Self;
+    /// How many quarter turns the common range has: −QUARTERS to QUARTERS − 1.
     const QUARTERS: Self;
+    /// 1.5 times a power of two: what is added to it is rounded to an integer,
+    /// which stands in the lowest bits then.
+    const INTEGERS: Self;
+    /// The two together. What is added to them has more bits than the lowest in
+    /// common with INTEGERS if it is in the common range, and only then.
+    const ROUND: Self;
+    /// The bits that are not the lowest.
+    const ABOVE: Self;
     /// π/2 as a sum of positive parts. Products with the second are exact, and
     /// have so few digits that the difference from an angle is so too, where
     /// that is smaller than they are.
     const HALF_PI: [Self; 3];
-    /// sin x = x + x³ (S1 + S2 x² + …) for |x| ≤ π/4.
-    const SINE: &'static [Self];
-    /// cos x = 1 − x²/2 + x⁴ (C1 + C2 x² + …) for |x| ≤ π/4.
-    const COSINE: &'static [Self];
+    /// sin x = x + x³ S(x²) for |x| ≤ π/4.
+    const SINE: Tail<Self>;
+    /// cos x = 1 − x²/2 + x⁴ C(x²) for |x| ≤ π/4.
+    const COSINE: Tail<Self>;
 
     /// `a * b + c`, rounded once.
     fn fused(a: Self, b: Self, c: Self) -> Self;
@@ -86,16 +90,17 @@ impl Float for f64 {
 
     const LIMIT: f64 = 102_942.0;
     const TURNS: f64 = core::f64::consts::FRAC_2_PI;
-    const ROUND: f64 = 6_755_399_441_055_744.0 + 65_536.0;
-    const BASE: f64 = 6_755_399_441_055_744.0;
-    const QUARTERS: f64 = f64::from_bits(!((1 << 17) - 1));
+    const QUARTERS: f64 = 65_536.0;
+    const INTEGERS: f64 = 6_755_399_441_055_744.0;
+    const ROUND: f64 = Self::INTEGERS + Self::QUARTERS;
+    const ABOVE: f64 = f64::from_bits(!((1 << 17) - 1));
     const HALF_PI: [f64; 3] = [
         core::f64::consts::FRAC_PI_2,
         f64::from_bits(0x3c91a62633140000),
         f64::from_bits(0x3a3701b839a25205),
     ];
-    const SINE: &'static [f64] = &[-78.5625, 2768.7091728461896, 5553.631346105261, 1.58969099521155e-10, -7.274049114538244e-11, -5.864074156193496e-05, -0.002631410982123178];
-    const COSINE: &'static [f64] = &[-14.900981867561343, 9724.168422042349, -1.1359647557788195e-11, 1.749032516737196e-09, -1.2894558211213827e-05, 0.0016679670015756227];
+    const SINE: Tail<f64> = tail::SINE;
+    const COSINE: Tail<f64> = tail::COSINE;
 
     #[inline(always)]
     fn fused(a: f64, b: f64, c: f64) -> f64 {
@@ -123,17 +128,18 @@ impl Float for f32 {
 
     const LIMIT: f32 = 803.0;
     const TURNS: f32 = core::f32::consts::FRAC_2_PI;
-    const ROUND: f32 = 12_582_912.0 + 512.0;
-    const BASE: f32 = 12_582_912.0;
-    const QUARTERS: f32 = f32::from_bits(!((1 << 10) - 1));
+    const QUARTERS: f32 = 512.0;
+    const INTEGERS: f32 = 12_582_912.0;
+    const ROUND: f32 = Self::INTEGERS + Self::QUARTERS;
+    const ABOVE: f32 = f32::from_bits(!((1 << 10) - 1));
     const HALF_PI: [f32; 3] = [
         f32::from_bits(0x3fc9_0fda),
         f32::from_bits(0x33a22000),
         f32::from_bits(0x2c34611a),
     ];
     /// Minimax polynomials, up to 2⁻²⁸ of the sine and 2⁻³³.
-    const SINE: &'static [f32] = &[-0.166_666_55, 8.332_177e-3, -1.951_713_8e-4];
-    const COSINE: &'static [f32] = &[4.166_664_6e-2, -1.388_736_7e-3, 2.443_827_2e-5];
+    const SINE: Tail<f32> = Tail::Short([-0.166_666_55, 8.332_177e-3, -1.951_713_8e-4]);
+    const COSINE: Tail<f32> = Tail::Short([4.166_664_6e-2, -1.388_736_7e-3, 2.443_827_2e-5]);
 
     #[inline(always)]
     fn fused(a: f32, b: f32, c: f32) -> f32 {
@@ -159,19 +165,8 @@ impl Float for f32 {
 /// operation is awaited, the others keep the processor busy.
 const GROUP: usize = 4;
 
-/// An array of what the expression gives for each index: a plain loop, because
-/// closures are not sure to be compiled for the surrounding instructions.
-macro_rules! for_each {
-    ($zero:expr; $i:ident => $value:expr) => {{
-        let mut values = [$zero; G];
-        for $i in 0..G {
-            values[$i] = $value;
-        }
-        values
-    }};
-}
-
-/// Sines and cosines in the common range.
+/// Sines and cosines in the common range. Bits above the lowest are set in `seen`
+/// where an angle is outside.
 #[inline(always)]
 fn common<P: Pack, const G: usize>(angles: [P; G], seen: &mut P) -> ([P; G], [P; G]) {
     let [part_1, part_2, part_3] = P::Lane::HALF_PI;
@@ -180,7 +175,7 @@ fn common<P: Pack, const G: usize>(angles: [P; G], seen: &mut P) -> ([P; G], [P;
     let turns = P::splat(P::Lane::TURNS);
     let quarters = for_each!(round; i => angles[i].mul_add(turns, round));
     for i in 0..G {
-        *seen = seen.or_differing(quarters[i], P::splat(P::Lane::BASE));
+        *seen = seen.or_differing(quarters[i], P::splat(P::Lane::INTEGERS));
     }
     let n = for_each!(round; i => quarters[i] - round);
     // Exact: a multiple of the last place of π/2 that is below one.
@@ -201,11 +196,11 @@ fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) ->
     let one = P::from_f64(1.0);
     let half = P::from_f64(-0.5);
     let square = for_each!(one; i => high[i] * high[i]);
-    let tail = polynomial(square, P::Lane::SINE);
+    let tail = tail::evaluate(square, P::Lane::SINE);
     let cube = for_each!(one; i => high[i] * square[i]);
     // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
     let lost = for_each!(one; i => (-cube[i]).mul_add(tail[i], low[i]));
-    let tail = polynomial(square, P::Lane::COSINE);
+    let tail = tail::evaluate(square, P::Lane::COSINE);
     let tail = for_each!(one; i => square[i].mul_add(tail[i], half));
     // cos(high − low) = cos(high) + high low = 1 + high (high tail + low)
     let slope = for_each!(one; i => high[i].mul_add(tail[i], low[i]));
@@ -215,34 +210,6 @@ fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) ->
         (sines[i], cosines[i]) = P::exchange(quarters[i], high[i], lost[i], cosine[i]);
     }
     (sines, cosines)
-}
-
-#[inline(always)]
-fn polynomial<P: Pack, const G: usize>(x: [P; G], coefficients: &[P::Lane]) -> [P; G] {
-    match *coefficients {
-        [a, b, c] => {
-            let (a, b, c) = (P::splat(a), P::splat(b), P::splat(c));
-            let high = for_each!(a; i => x[i].mul_add(c, b));
-            for_each!(a; i => x[i].mul_add(high[i], a))
-        }
-        [b, k, m, f, e, d, a] => {
-            let (a, b, m, k) = (P::splat(a), P::splat(b), P::splat(m), P::splat(k));
-            let (d, e, f) = (P::splat(d), P::splat(e), P::splat(f));
-            let y = for_each!(a; i => x[i].mul_add(x[i] + b, k));
-            let z = for_each!(a; i => x[i].mul_add(f, e));
-            let z = for_each!(a; i => (y[i] + m).mul_add(z[i], d));
-            for_each!(a; i => y[i].mul_add(z[i], a))
-        }
-        [b, c, f, e, d, a] => {
-            let (a, b, c) = (P::splat(a), P::splat(b), P::splat(c));
-            let (d, e, f) = (P::splat(d), P::splat(e), P::splat(f));
-            let y = for_each!(a; i => x[i].mul_add(x[i] + b, c));
-            let z = for_each!(a; i => x[i].mul_add(f, e));
-            let z = for_each!(a; i => y[i].mul_add(z[i], d));
-            for_each!(a; i => y[i].mul_add(z[i], a))
-        }
-        _ => unreachable!("polynomials have three or six coefficients"),
-    }
 }
 
 /// Sines and cosines of angles in registers.
@@ -404,6 +371,7 @@ where
     let mut start = 0;
     while start < N {
         let first = start.min(N.saturating_sub(lanes));
+        // Lanes without an angle have the last one.
         let mut numbers = T::Several::splat(angles[N - 1].0).to_numbers();
         for (number, angle) in numbers.as_mut().iter_mut().zip(&angles[first..]) {
             *number = angle.0;

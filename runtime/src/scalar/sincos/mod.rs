@@ -40,6 +40,7 @@ mod quad;
 pub(super) mod reduction;
 mod several;
 mod single;
+mod tail;
 #[cfg(test)]
 mod tests;
 

@@ -126,15 +126,20 @@ macro_rules! avx2 {
             }
 
             #[inline(always)]
-            fn or_differing(self, quarter: Self, round: Self) -> Self {
+            fn or_differing(self, one: Self, other: Self) -> Self {
                 // SAFETY: see the file above.
-                Self(unsafe { $or(self.0, $xor(quarter.0, round.0)) })
+                Self(unsafe { $or(self.0, $xor(one.0, other.0)) })
             }
 
             #[inline(always)]
             fn only_low_bits(self) -> bool {
                 // SAFETY: see the file above.
-                unsafe { _mm256_testz_si256($integers(self.0), $integers($splat(<$lane as fused::Float>::QUARTERS))) == 1 }
+                unsafe {
+                    _mm256_testz_si256(
+                        $integers(self.0),
+                        $integers($splat(<$lane as fused::Float>::ABOVE)),
+                    ) == 1
+                }
             }
 
             #[inline(always)]
@@ -174,15 +179,12 @@ avx2! {
 /// a ⊕ (b ∧ c), bit by bit, as the table of a ternary instruction.
 const XOR_AND: i32 = 0x78;
 
-/// b where a is set, c elsewhere.
-const CHOOSE: i32 = 0xca;
-
 /// Those of AVX-512.
 macro_rules! avx512 {
     (
-        $name:ident = $lanes:literal of $lane:ident, $splat:ident, 
-        $integers:ident, $numbers:ident, $shift:ident and $right:ident by $parity:literal, $sign:literal,
-        $test:ident, $ternary:ident, $or:ident, $xor:ident, $compare:ident, $testm:ident, $one:ident, $choose:ident
+        $name:ident = $lanes:literal of $lane:ident, $splat:ident, $integer:ident,
+        $integers:ident, $numbers:ident, $shift:ident by $sign:literal, $test:ident,
+        $ternary:ident, $or:ident, $xor:ident, $choose:ident, $compare:ident
     ) => {
         impl fused::Pack for $name {
             type Array = [$lane; $lanes];
@@ -193,7 +195,9 @@ macro_rules! avx512 {
                 unsafe {
                     let sign = $integers($splat(-0.0));
                     let quarter = $integers(quarter.0);
-                    let odd = $testm(quarter, $one(1));
+                    // Writing a mask takes the time of a product: one serves both. A
+                    // sum under a mask takes half of one more than a copy under it.
+                    let odd = $test(quarter, $integer(1));
                     let signs = $shift::<$sign>(quarter);
                     let sine = $integers($choose((high - lost).0, odd, cosine.0));
                     let cosine = $integers($choose(cosine.0, odd, (lost - high).0));
@@ -205,15 +209,18 @@ macro_rules! avx512 {
             }
 
             #[inline(always)]
-            fn or_differing(self, quarter: Self, round: Self) -> Self {
+            fn or_differing(self, one: Self, other: Self) -> Self {
                 // SAFETY: see the file above.
-                Self(unsafe { $or(self.0, $xor(quarter.0, round.0)) })
+                Self(unsafe { $or(self.0, $xor(one.0, other.0)) })
             }
 
             #[inline(always)]
             fn only_low_bits(self) -> bool {
                 // SAFETY: see the file above.
-                unsafe { $test($integers(self.0), $integers($splat(<$lane as fused::Float>::QUARTERS))) == 0 }
+                unsafe {
+                    let above = $splat(<$lane as fused::Float>::ABOVE);
+                    $test($integers(self.0), $integers(above)) == 0
+                }
             }
 
             #[inline(always)]
@@ -236,13 +243,15 @@ macro_rules! avx512 {
 }
 
 avx512! {
-    F64x8 = 8 of f64, _mm512_set1_pd, 
-    _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_slli_epi64 and _mm512_srai_epi64 by 63, 62,
-    _mm512_test_epi64_mask, _mm512_ternarylogic_epi64, _mm512_or_pd, _mm512_xor_pd, _mm512_cmp_pd_mask, _mm512_test_epi64_mask, _mm512_set1_epi64, _mm512_mask_mov_pd
+    F64x8 = 8 of f64, _mm512_set1_pd, _mm512_set1_epi64,
+    _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_slli_epi64 by 62, _mm512_test_epi64_mask,
+    _mm512_ternarylogic_epi64, _mm512_or_pd, _mm512_xor_pd, _mm512_mask_mov_pd,
+    _mm512_cmp_pd_mask
 }
 
 avx512! {
-    F32x16 = 16 of f32, _mm512_set1_ps, 
-    _mm512_castps_si512, _mm512_castsi512_ps, _mm512_slli_epi32 and _mm512_srai_epi32 by 31, 30,
-    _mm512_test_epi32_mask, _mm512_ternarylogic_epi32, _mm512_or_ps, _mm512_xor_ps, _mm512_cmp_ps_mask, _mm512_test_epi32_mask, _mm512_set1_epi32, _mm512_mask_mov_ps
+    F32x16 = 16 of f32, _mm512_set1_ps, _mm512_set1_epi32,
+    _mm512_castps_si512, _mm512_castsi512_ps, _mm512_slli_epi32 by 30, _mm512_test_epi32_mask,
+    _mm512_ternarylogic_epi32, _mm512_or_ps, _mm512_xor_ps, _mm512_mask_mov_ps,
+    _mm512_cmp_ps_mask
 }

@@ -28,6 +28,8 @@ use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, 
 macro_rules! blocks {
     () => {};
     (fused) => {
+        const AHEAD: bool = true;
+
         #[inline(always)]
         fn sin_cos_blocks<const N: usize, const M: usize>(
             angles: &[[Self; N]; M],
