@@ -99,7 +99,7 @@ impl Float for f64 {
         f64::from_bits(0x3c91a62633140000),
         f64::from_bits(0x3a3701b839a25205),
     ];
-    const SINE: Tail<f64> = tail::SINE;
+    const SINE: Tail<f64> = Tail::Long(super::double::SINE);
     const COSINE: Tail<f64> = tail::COSINE;
 
     #[inline(always)]
@@ -174,8 +174,8 @@ fn common<P: Pack, const G: usize>(angles: [P; G], seen: &mut P) -> ([P; G], [P;
     let round = P::splat(P::Lane::ROUND);
     let turns = P::splat(P::Lane::TURNS);
     let quarters = for_each!(round; i => angles[i].mul_add(turns, round));
-    for i in 0..G {
-        *seen = seen.or_differing(quarters[i], P::splat(P::Lane::INTEGERS));
+    for quarters in quarters {
+        *seen = seen.or_differing(quarters, P::splat(P::Lane::INTEGERS));
     }
     let n = for_each!(round; i => quarters[i] - round);
     // Exact: a multiple of the last place of π/2 that is below one.
@@ -215,36 +215,15 @@ fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) ->
 /// Sines and cosines of angles in registers.
 #[inline(always)]
 pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
-    let ([sines], [cosines]) = blocks(&[*angles]);
-    (sines, cosines)
-}
-
-/// The same of `M` blocks of `N` registers, with one look at whether all are in
-/// the common range.
-#[inline(always)]
-pub(in crate::scalar) fn blocks<P: Pack, const N: usize, const M: usize>(
-    angles: &[[P; N]; M],
-) -> ([[P; N]; M], [[P; N]; M]) {
-    let zero = [[P::from_f64(0.0); N]; M];
+    let zero = [P::from_f64(0.0); N];
     let (mut sines, mut cosines) = (zero, zero);
-    let near = groups(
-        angles.as_flattened(),
-        sines.as_flattened_mut(),
-        cosines.as_flattened_mut(),
-    );
-    if !near {
+    if !groups(angles, &mut sines, &mut cosines) {
         // Copies for this block alone: were angles and results themselves lent
         // out, they would live in memory on the common path too.
         let (mut far_sines, mut far_cosines) = (zero, zero);
         let angles = black_box(*angles);
-        for j in 0..M {
-            beyond(&angles[j], &mut far_sines[j], &mut far_cosines[j]);
-        }
-        for j in 0..M {
-            for i in 0..N {
-                (sines[j][i], cosines[j][i]) = (far_sines[j][i], far_cosines[j][i]);
-            }
-        }
+        beyond(&angles, &mut far_sines, &mut far_cosines);
+        (sines, cosines) = (far_sines, far_cosines);
     }
     (sines, cosines)
 }
@@ -266,7 +245,7 @@ pub(in crate::scalar) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Opti
     if all_near(angles) {
         return None;
     }
-    // Copies, as in `blocks`.
+    // Copies, as in `each`.
     let zero = P::from_f64(0.0);
     let (mut sines, mut cosines) = ([zero; N], [zero; N]);
     let angles = black_box(*angles);
