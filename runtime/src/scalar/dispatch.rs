@@ -94,6 +94,10 @@ pub(crate) trait StateKernel<T> {
     /// How long its slices are.
     const LINKS: usize;
 
+    /// Whether its functions are so long that parts of them are functions of their
+    /// own, which are compiled for AVX2: then so is the rest.
+    const IN_PARTS: bool = Self::LINKS > 63;
+
     /// Computes `out`. What it calls profits only as far as it is inlined.
     fn run(model: &Self::Model, time: T, theta: &[T], omega: &[T], out: &mut [T]);
 }
@@ -233,7 +237,12 @@ mod machine {
             return false;
         }
         let (theta, omega, out) = (theta.as_ptr(), omega.as_ptr(), out.as_mut_ptr());
-        match widest() {
+        let widest = if K::IN_PARTS {
+            widest().min(InstructionSet::Avx2)
+        } else {
+            widest()
+        };
+        match widest {
             InstructionSet::Build => return false,
             // SAFETY: `widest` has asked for AVX2 and FMA; the pointers are those of
             // slices of `K::LINKS` numbers, the last one borrowed mutably.
