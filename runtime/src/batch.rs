@@ -44,15 +44,16 @@
 //! # Ok::<(), branched_pendulum::batch::BatchError>(())
 //! ```
 
+mod blocks;
 mod error;
 
 use alloc::vec::Vec;
 
-use crate::scalar::dispatch::{self, RegisterKernel};
-use crate::scalar::register::{Block, Register};
-use crate::scalar::{InstructionSet, Lane, Scalar};
+use crate::scalar::dispatch;
+use crate::scalar::{InstructionSet, Lane};
+use crate::system::Rescale;
 use crate::system::rescale;
-use crate::system::{InRegisters, Rescale};
+use blocks::Blocks;
 
 pub use error::BatchError;
 
@@ -218,169 +219,4 @@ fn check(
         }
     }
     Ok(())
-}
-
-/// Links up to which two registers are computed in step: so few alone have not
-/// enough operations that need not wait for each other. With more links the values
-/// of two registers of states do not find room.
-const FEW: usize = 3;
-
-/// All states, if they are enough for one register; lengths checked.
-struct Blocks<'a, P, T, In, On, Out> {
-    pendulum: &'a P,
-    time: T,
-    count: usize,
-    room: &'a mut [T],
-    theta: &'a [In],
-    omega: &'a [On],
-    alpha: &'a mut [Out],
-}
-
-impl<P, T, In, On, Out> RegisterKernel<T> for Blocks<'_, P, T, In, On, Out>
-where
-    P: Rescale<T>,
-    T: Lane,
-    In: AsRef<[T]>,
-    On: AsRef<[T]>,
-    Out: AsMut<[T]>,
-{
-    /// How many states it has done.
-    type Output = usize;
-
-    #[inline(always)]
-    fn run<R: Register<Lane = T>>(mut self) -> usize {
-        let Some(last) = self.count.checked_sub(R::LANES) else {
-            return 0;
-        };
-        let mut next = 0;
-        if P::LINKS <= FEW {
-            let pendulum = self.pendulum.rescale(Block::<R, 2>::splat);
-            while next + 2 * R::LANES <= self.count {
-                if !self.block(&pendulum, next) {
-                    return next;
-                }
-                next += 2 * R::LANES;
-            }
-        }
-        // Links as many as the compiler knows them to be.
-        let (Some(theta), Some(omega), Some(alpha)) = (
-            self.theta.get(..P::LINKS),
-            self.omega.get(..P::LINKS),
-            self.alpha.get_mut(..P::LINKS),
-        ) else {
-            return next;
-        };
-        let mut pendulum = self.pendulum.in_registers::<R>(self.time, self.room);
-        let nothing = R::splat(T::from_f64(f64::NAN)).to_chunk();
-        while next < self.count {
-            // The last block overlaps the one before, where it would not be full:
-            // some states are computed twice.
-            let end = next.min(last) + R::LANES;
-            pendulum.evaluate(
-                |link| load_late(theta, link, end, &nothing),
-                |link| load_late(omega, link, end, &nothing),
-                |link, value: R| {
-                    if let Some(slice) = alpha.get_mut(link) {
-                        value.store_last(slice.as_mut().get_mut(..end).unwrap_or_default());
-                    }
-                },
-            );
-            next = end;
-        }
-        next
-    }
-}
-
-impl<P, T, In, On, Out> Blocks<'_, P, T, In, On, Out>
-where
-    P: Rescale<T>,
-    T: Lane,
-    In: AsRef<[T]>,
-    On: AsRef<[T]>,
-    Out: AsMut<[T]>,
-{
-    /// The states from `start` on, as many as a block holds; false if there are
-    /// not so many.
-    #[inline(always)]
-    fn block<R: Register<Lane = T>, const N: usize>(
-        &mut self,
-        pendulum: &P::Of<Block<R, N>>,
-        start: usize,
-    ) -> bool {
-        // Links as many as the compiler knows them to be.
-        let (Some(theta), Some(omega), Some(alpha)) = (
-            self.theta.get(..P::LINKS),
-            self.omega.get(..P::LINKS),
-            self.alpha.get_mut(..P::LINKS),
-        ) else {
-            return false;
-        };
-        // Known, and asked here so that the compiler knows it too and reads the
-        // numbers below without a question for each.
-        for (theta, omega) in theta.iter().zip(omega) {
-            for i in 0..N {
-                let start = start + i * R::LANES;
-                let angles = load::<R>(theta.as_ref(), start);
-                if angles.is_none() || load::<R>(omega.as_ref(), start).is_none() {
-                    return false;
-                }
-            }
-        }
-        pendulum.evaluate(
-            Block::splat(self.time),
-            |link| load_block(theta, link, start),
-            |link| load_block(omega, link, start),
-            |link, value: Block<R, N>| {
-                let Some(slice) = alpha.get_mut(link) else {
-                    return;
-                };
-                for i in 0..N {
-                    let start = start + i * R::LANES;
-                    if let Some(states) = slice.as_mut().get_mut(start..start + R::LANES) {
-                        value.0[i].store(states);
-                    }
-                }
-            },
-        );
-        true
-    }
-}
-
-/// The register that starts with state `start`.
-#[inline(always)]
-fn load<R: Register>(states: &[R::Lane], start: usize) -> Option<R> {
-    states.get(start..start + R::LANES).and_then(R::load)
-}
-
-/// The block of one link that starts with state `start`.
-#[inline(always)]
-fn load_block<R: Register, const N: usize>(
-    slices: &[impl AsRef<[R::Lane]>],
-    link: usize,
-    start: usize,
-) -> Block<R, N> {
-    // Lengths have been checked.
-    let mut block = Block::from_f64(f64::NAN);
-    if let Some(slice) = slices.get(link) {
-        for i in 0..N {
-            if let Some(register) = load(slice.as_ref(), start + i * R::LANES) {
-                block.0[i] = register;
-            }
-        }
-    }
-    block
-}
-
-/// One register of one link, that ends before state `end`; `nothing` where the
-/// slice is too short, which has been excluded. Chosen between are places and not
-/// numbers, so that these are read where they are needed.
-#[inline(always)]
-fn load_late<R: Register>(
-    slices: &[impl AsRef<[R::Lane]>],
-    link: usize,
-    end: usize,
-    nothing: &R::Chunk,
-) -> R {
-    let block = slices.get(link).and_then(|slice| slice.as_ref().get(..end));
-    R::from_chunk(block.and_then(R::last_chunk).unwrap_or(nothing))
 }

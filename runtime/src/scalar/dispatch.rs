@@ -6,7 +6,7 @@
 //! instruction set computes the same IEEE 754 operations.
 //!
 //! [`run_in_registers`] hands a computation the registers to compute with. The
-//! wide ones fuse products with sums, and so does [`run_fused`] for one number at
+//! wide ones fuse products with sums, and so does [`run_state`] for one number at
 //! a time: these two have equal bits for AVX2 and AVX-512, and others without.
 
 use core::fmt;
@@ -72,14 +72,48 @@ pub(crate) fn run_widest<K: Kernel>(kernel: K) -> K::Output {
     machine::run(InstructionSet::widest(), kernel)
 }
 
-/// Runs `kernel` with AVX2 and FMA, for [`Fused`](super::register::Fused)
-/// numbers.
+/// Runs `kernel` with the widest instructions that fuse, for
+/// [`Fused`](super::register::Fused) numbers.
 ///
 /// # Errors
-/// Gives the kernel back if the machine has not got them.
-#[inline(always)]
+/// Gives the kernel back if the machine has none.
+#[cfg(test)]
 pub(crate) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
-    machine::run_fused(kernel)
+    match InstructionSet::widest() {
+        InstructionSet::Build => Err(kernel),
+        set => Ok(machine::run(set, kernel)),
+    }
+}
+
+/// A computation on one state in fused arithmetic. What it needs is told one by one:
+/// that goes in the processor's registers, where a structure would go through memory.
+pub(crate) trait StateKernel<T> {
+    /// Whose state it is.
+    type Model;
+
+    /// How long its slices are.
+    const LINKS: usize;
+
+    /// Whether its functions are so long that parts of them are functions of their
+    /// own, which are compiled for AVX2: then so is the rest.
+    const IN_PARTS: bool = Self::LINKS > 63;
+
+    /// Computes `out`. What it calls profits only as far as it is inlined.
+    fn run(model: &Self::Model, time: T, theta: &[T], omega: &[T], out: &mut [T]);
+}
+
+/// Runs `K` with the widest instructions that fuse: 512 bits have twice as many
+/// registers, which plain numbers gain by too. False, and nothing done, if the machine has
+/// none that do, or if a slice has another length.
+#[inline(always)]
+pub(crate) fn run_state<T, K: StateKernel<T>>(
+    model: &K::Model,
+    time: T,
+    theta: &[T],
+    omega: &[T],
+    out: &mut [T],
+) -> bool {
+    machine::run_state::<T, K>(model, time, theta, omega, out)
 }
 
 /// Runs `kernel` in a function of its own with AVX2 and FMA. For types that exist
@@ -131,9 +165,10 @@ impl<K: RegisterKernel<R::Lane>, R: Register> Kernel for Chosen<K, R> {
 #[allow(unsafe_code)]
 mod machine {
     use core::marker::PhantomData;
+    use core::slice;
     use core::sync::atomic::{AtomicU8, Ordering};
 
-    use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed};
+    use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel};
 
     /// 0 before the first question, then 1 + the answer.
     static WIDEST: AtomicU8 = AtomicU8::new(0);
@@ -191,18 +226,92 @@ mod machine {
     }
 
     #[inline(always)]
-    pub(super) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
-        match widest() {
-            InstructionSet::Build => Err(kernel),
-            // SAFETY: `widest` has asked for AVX2 and FMA.
-            InstructionSet::Avx2 | InstructionSet::Avx512 => Ok(unsafe { avx2(kernel) }),
+    pub(super) fn run_state<T, K: StateKernel<T>>(
+        model: &K::Model,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        out: &mut [T],
+    ) -> bool {
+        if theta.len() != K::LINKS || omega.len() != K::LINKS || out.len() != K::LINKS {
+            return false;
         }
+        let (theta, omega, out) = (theta.as_ptr(), omega.as_ptr(), out.as_mut_ptr());
+        let widest = if K::IN_PARTS {
+            widest().min(InstructionSet::Avx2)
+        } else {
+            widest()
+        };
+        match widest {
+            InstructionSet::Build => return false,
+            // SAFETY: `widest` has asked for AVX2 and FMA; the pointers are those of
+            // slices of `K::LINKS` numbers, the last one borrowed mutably.
+            InstructionSet::Avx2 => unsafe {
+                state_avx2::<T, K>(model, time, theta, omega, out);
+            },
+            // SAFETY: likewise, and AVX-512.
+            InstructionSet::Avx512 => unsafe {
+                state_avx512::<T, K>(model, time, theta, omega, out);
+            },
+        }
+        true
+    }
+
+    /// As `state`.
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn state_avx2<T, K: StateKernel<T>>(
+        model: &K::Model,
+        time: T,
+        theta: *const T,
+        omega: *const T,
+        out: *mut T,
+    ) {
+        // SAFETY: the caller's.
+        unsafe { state::<T, K>(model, time, theta, omega, out) }
+    }
+
+    /// As `state`.
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
+    unsafe fn state_avx512<T, K: StateKernel<T>>(
+        model: &K::Model,
+        time: T,
+        theta: *const T,
+        omega: *const T,
+        out: *mut T,
+    ) {
+        // SAFETY: the caller's.
+        unsafe { state::<T, K>(model, time, theta, omega, out) }
+    }
+
+    /// Without the lengths of the slices, which are known: for three links these, and
+    /// asking for them again, are a thirtieth of an evaluation.
+    ///
+    /// # Safety
+    /// The pointers must be those of slices of `K::LINKS` numbers, of which the last
+    /// one is borrowed mutably, and outlives the call like the others.
+    #[inline(always)]
+    unsafe fn state<T, K: StateKernel<T>>(
+        model: &K::Model,
+        time: T,
+        theta: *const T,
+        omega: *const T,
+        out: *mut T,
+    ) {
+        // SAFETY: the caller's.
+        let (theta, omega, out) = unsafe {
+            (
+                slice::from_raw_parts(theta, K::LINKS),
+                slice::from_raw_parts(omega, K::LINKS),
+                slice::from_raw_parts_mut(out, K::LINKS),
+            )
+        };
+        K::run(model, time, theta, omega, out);
     }
 
     #[inline(always)]
     pub(super) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
         // SAFETY: asked for by types that exist in computations alone which
-        // `run_fused` or `run_in_registers` has started, where the machine has
+        // `run_state` or `run_in_registers` has started, where the machine has
         // these instructions.
         unsafe { avx2(kernel) }
     }
@@ -250,7 +359,7 @@ mod machine {
 mod machine {
     use core::marker::PhantomData;
 
-    use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed};
+    use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel};
 
     #[inline(always)]
     pub(super) fn widest() -> InstructionSet {
@@ -263,8 +372,14 @@ mod machine {
     }
 
     #[inline(always)]
-    pub(super) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
-        Err(kernel)
+    pub(super) fn run_state<T, K: StateKernel<T>>(
+        _model: &K::Model,
+        _time: T,
+        _theta: &[T],
+        _omega: &[T],
+        _out: &mut [T],
+    ) -> bool {
+        false
     }
 
     #[inline(always)]

@@ -1,7 +1,9 @@
 //! One body of equations, on any scalar.
 
+use core::marker::PhantomData;
+
 use crate::scalar::Scalar;
-use crate::scalar::dispatch::{self, Kernel};
+use crate::scalar::dispatch::{self, StateKernel};
 use crate::scalar::register::{Fused, Register};
 
 use super::Pendulum;
@@ -200,49 +202,24 @@ pub(crate) fn fused<T: Scalar, P: Rescale<T>>(
     if !fit::<T, P>(theta, omega, alpha) {
         return;
     }
-    let state = OneState {
-        pendulum,
-        time,
-        theta,
-        omega,
-        alpha,
-    };
-    if let Err(state) = dispatch::run_fused(state) {
-        let OneState {
-            pendulum,
-            time,
-            theta,
-            omega,
-            alpha,
-        } = state;
+    if !dispatch::run_state::<T, OneState<P>>(pendulum, time, theta, omega, alpha) {
         straight(pendulum, time, theta, omega, alpha);
     }
 }
 
-/// One state, its slices as long as there are links.
-struct OneState<'a, P, T> {
-    pendulum: &'a P,
-    time: T,
-    theta: &'a [T],
-    omega: &'a [T],
-    alpha: &'a mut [T],
-}
+/// The accelerations of one state, its slices as long as there are links.
+struct OneState<P>(PhantomData<P>);
 
-impl<T: Scalar, P: Rescale<T>> Kernel for OneState<'_, P, T>
+impl<T: Scalar, P: Rescale<T>> StateKernel<T> for OneState<P>
 where
     Fused<T>: Scalar,
 {
-    type Output = ();
+    type Model = P;
+
+    const LINKS: usize = P::LINKS;
 
     #[inline(always)]
-    fn run(self) {
-        let Self {
-            pendulum,
-            time,
-            theta,
-            omega,
-            alpha,
-        } = self;
+    fn run(pendulum: &P, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
         // Known already, and known again to the compiler of this function.
         if !fit::<T, P>(theta, omega, alpha) {
             return;

@@ -11,11 +11,13 @@
 #![allow(unreachable_pub)]
 
 mod block;
+mod known;
 mod one;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub(crate) use block::Block;
+pub(crate) use known::Known;
 pub use one::Fused;
 #[cfg(target_arch = "x86_64")]
 pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
@@ -36,6 +38,10 @@ pub trait Register: Scalar {
 
     /// This register, and narrower ones for fewer numbers.
     type Vectors: Vectors<Self::Lane>;
+
+    /// Whether a batch of few links computes sines a register of states ahead, which
+    /// needs many registers and sines that take no branch.
+    const AHEAD: bool = false;
 
     /// Says of each lane whether it is meant.
     type Mask: Copy;

@@ -151,6 +151,17 @@ macro_rules! fused {
             }
 
             #[inline(always)]
+            fn or_differing(self, one: Self, other: Self) -> Self {
+                let differing = one.0.to_bits() ^ other.0.to_bits();
+                Self($float::from_bits(self.0.to_bits() | differing))
+            }
+
+            #[inline(always)]
+            fn only_low_bits(self) -> bool {
+                self.0.to_bits() & <$float as fused::Float>::ABOVE.to_bits() == 0
+            }
+
+            #[inline(always)]
             fn all_below(self, limit: $float) -> bool {
                 self.0 < limit
             }

@@ -14,6 +14,7 @@ use super::super::register::{Fused, Register};
 use super::super::turns::Turned;
 use super::super::{Lane, Scalar};
 use super::reduction;
+use super::tail::{self, Tail, for_each};
 
 /// What one order of operations computes with.
 pub trait Pack: Register<Lane: Float> {
@@ -25,6 +26,12 @@ pub trait Pack: Register<Lane: Float> {
     ///
     /// From s and c, odd numbers make c and −s; the second bit changes both signs.
     fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self);
+
+    /// The bits of `self`, and those in which two others differ.
+    fn or_differing(self, one: Self, other: Self) -> Self;
+
+    /// Whether none of the bits [`Float::ABOVE`] is set.
+    fn only_low_bits(self) -> bool;
 
     /// Whether all numbers are below `limit`.
     fn all_below(self, limit: Self::Lane) -> bool;
@@ -42,22 +49,29 @@ pub trait Float: Lane {
     type One: Pack<Lane = Self>;
     /// As many as a register of AVX2 holds.
     type Several: Pack<Lane = Self>;
-    /// The common range: as many quarter turns as have been examined for how
-    /// close an angle comes to them.
+    /// A little less than the common range, which has as many quarter turns as have
+    /// been examined for how close an angle comes to them.
     const LIMIT: Self;
     /// 2/π.
     const TURNS: Self;
-    /// 1.5 times a power of two: adding it rounds to an integer, which it leaves
-    /// in the lowest bits.
+    /// How many quarter turns the common range has: −QUARTERS to QUARTERS − 1.
+    const QUARTERS: Self;
+    /// 1.5 times a power of two: what is added to it is rounded to an integer,
+    /// which stands in the lowest bits then.
+    const INTEGERS: Self;
+    /// The two together. What is added to them has more bits than the lowest in
+    /// common with INTEGERS if it is in the common range, and only then.
     const ROUND: Self;
+    /// The bits that are not the lowest.
+    const ABOVE: Self;
     /// π/2 as a sum of positive parts. Products with the second are exact, and
     /// have so few digits that the difference from an angle is so too, where
     /// that is smaller than they are.
     const HALF_PI: [Self; 3];
-    /// sin x = x + x³ (S1 + S2 x² + …) for |x| ≤ π/4.
-    const SINE: &'static [Self];
-    /// cos x = 1 − x²/2 + x⁴ (C1 + C2 x² + …) for |x| ≤ π/4.
-    const COSINE: &'static [Self];
+    /// sin x = x + x³ S(x²) for |x| ≤ π/4.
+    const SINE: Tail<Self>;
+    /// cos x = 1 − x²/2 + x⁴ C(x²) for |x| ≤ π/4.
+    const COSINE: Tail<Self>;
 
     /// `a * b + c`, rounded once.
     fn fused(a: Self, b: Self, c: Self) -> Self;
@@ -74,16 +88,19 @@ impl Float for f64 {
     #[cfg(not(target_arch = "x86_64"))]
     type Several = Fused<f64>;
 
-    const LIMIT: f64 = super::double::LIMIT;
+    const LIMIT: f64 = 102_942.0;
     const TURNS: f64 = core::f64::consts::FRAC_2_PI;
-    const ROUND: f64 = 6_755_399_441_055_744.0;
+    const QUARTERS: f64 = 65_536.0;
+    const INTEGERS: f64 = 6_755_399_441_055_744.0;
+    const ROUND: f64 = Self::INTEGERS + Self::QUARTERS;
+    const ABOVE: f64 = f64::from_bits(!((1 << 17) - 1));
     const HALF_PI: [f64; 3] = [
         core::f64::consts::FRAC_PI_2,
         f64::from_bits(0x3c91a62633140000),
         f64::from_bits(0x3a3701b839a25205),
     ];
-    const SINE: &'static [f64] = &super::double::SINE;
-    const COSINE: &'static [f64] = &super::double::COSINE;
+    const SINE: Tail<f64> = Tail::Long(super::double::SINE);
+    const COSINE: Tail<f64> = tail::COSINE;
 
     #[inline(always)]
     fn fused(a: f64, b: f64, c: f64) -> f64 {
@@ -109,17 +126,20 @@ impl Float for f32 {
     #[cfg(not(target_arch = "x86_64"))]
     type Several = Fused<f32>;
 
-    const LIMIT: f32 = 804.0;
+    const LIMIT: f32 = 803.0;
     const TURNS: f32 = core::f32::consts::FRAC_2_PI;
-    const ROUND: f32 = 12_582_912.0;
+    const QUARTERS: f32 = 512.0;
+    const INTEGERS: f32 = 12_582_912.0;
+    const ROUND: f32 = Self::INTEGERS + Self::QUARTERS;
+    const ABOVE: f32 = f32::from_bits(!((1 << 10) - 1));
     const HALF_PI: [f32; 3] = [
         f32::from_bits(0x3fc9_0fda),
         f32::from_bits(0x33a22000),
         f32::from_bits(0x2c34611a),
     ];
     /// Minimax polynomials, up to 2⁻²⁸ of the sine and 2⁻³³.
-    const SINE: &'static [f32] = &[-0.166_666_55, 8.332_177e-3, -1.951_713_8e-4];
-    const COSINE: &'static [f32] = &[4.166_664_6e-2, -1.388_736_7e-3, 2.443_827_2e-5];
+    const SINE: Tail<f32> = Tail::Short([-0.166_666_55, 8.332_177e-3, -1.951_713_8e-4]);
+    const COSINE: Tail<f32> = Tail::Short([4.166_664_6e-2, -1.388_736_7e-3, 2.443_827_2e-5]);
 
     #[inline(always)]
     fn fused(a: f32, b: f32, c: f32) -> f32 {
@@ -145,32 +165,26 @@ impl Float for f32 {
 /// operation is awaited, the others keep the processor busy.
 const GROUP: usize = 4;
 
-/// An array of what the expression gives for each index: a plain loop, because
-/// closures are not sure to be compiled for the surrounding instructions.
-macro_rules! for_each {
-    ($zero:expr; $i:ident => $value:expr) => {{
-        let mut values = [$zero; G];
-        for $i in 0..G {
-            values[$i] = $value;
-        }
-        values
-    }};
-}
-
-/// Sines and cosines in the common range.
+/// Sines and cosines in the common range. Bits above the lowest are set in `seen`
+/// where an angle is outside.
 #[inline(always)]
-fn common<P: Pack, const G: usize>(angles: [P; G]) -> ([P; G], [P; G]) {
+fn common<P: Pack, const G: usize>(angles: [P; G], seen: &mut P) -> ([P; G], [P; G]) {
     let [part_1, part_2, part_3] = P::Lane::HALF_PI;
     let (part_1, part_2, part_3) = (P::splat(part_1), P::splat(part_2), P::splat(part_3));
     let round = P::splat(P::Lane::ROUND);
     let turns = P::splat(P::Lane::TURNS);
     let quarters = for_each!(round; i => angles[i].mul_add(turns, round));
+    for quarters in quarters {
+        *seen = seen.or_differing(quarters, P::splat(P::Lane::INTEGERS));
+    }
     let n = for_each!(round; i => quarters[i] - round);
     // Exact: a multiple of the last place of π/2 that is below one.
     let first = for_each!(round; i => (-n[i]).mul_add(part_1, angles[i]));
-    let high = for_each!(round; i => (-n[i]).mul_add(part_2, first[i]));
+    // Exact too, and so is what the difference loses.
+    let second = for_each!(round; i => n[i] * part_2);
+    let high = for_each!(round; i => first[i] - second[i]);
     let low = for_each!(round; i => high[i] - first[i]);
-    let low = for_each!(round; i => n[i].mul_add(part_2, low[i]));
+    let low = for_each!(round; i => low[i] + second[i]);
     let low = for_each!(round; i => n[i].mul_add(part_3, low[i]));
     turn(quarters, high, low)
 }
@@ -182,11 +196,11 @@ fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) ->
     let one = P::from_f64(1.0);
     let half = P::from_f64(-0.5);
     let square = for_each!(one; i => high[i] * high[i]);
-    let tail = polynomial(square, P::Lane::SINE);
+    let tail = tail::evaluate(square, P::Lane::SINE);
     let cube = for_each!(one; i => high[i] * square[i]);
     // sin(high − low) = sin(high) − low up to 0.15 ulp; a zero keeps its sign.
     let lost = for_each!(one; i => (-cube[i]).mul_add(tail[i], low[i]));
-    let tail = polynomial(square, P::Lane::COSINE);
+    let tail = tail::evaluate(square, P::Lane::COSINE);
     let tail = for_each!(one; i => square[i].mul_add(tail[i], half));
     // cos(high − low) = cos(high) + high low = 1 + high (high tail + low)
     let slope = for_each!(one; i => high[i].mul_add(tail[i], low[i]));
@@ -198,62 +212,18 @@ fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) ->
     (sines, cosines)
 }
 
-#[inline(always)]
-fn polynomial<P: Pack, const G: usize>(x: [P; G], coefficients: &[P::Lane]) -> [P; G] {
-    match *coefficients {
-        [a, b, c] => {
-            let (a, b, c) = (P::splat(a), P::splat(b), P::splat(c));
-            let high = for_each!(a; i => x[i].mul_add(c, b));
-            for_each!(a; i => x[i].mul_add(high[i], a))
-        }
-        [a, b, c, d, e, f] => {
-            // Pairs of terms: half the latency of Horner's scheme.
-            let (a, b, c) = (P::splat(a), P::splat(b), P::splat(c));
-            let (d, e, f) = (P::splat(d), P::splat(e), P::splat(f));
-            let second = for_each!(a; i => x[i] * x[i]);
-            let high = for_each!(a; i => x[i].mul_add(f, e));
-            let middle = for_each!(a; i => x[i].mul_add(d, c));
-            let low = for_each!(a; i => x[i].mul_add(b, a));
-            let high = for_each!(a; i => second[i].mul_add(high[i], middle[i]));
-            for_each!(a; i => second[i].mul_add(high[i], low[i]))
-        }
-        _ => unreachable!("polynomials have three or six coefficients"),
-    }
-}
-
 /// Sines and cosines of angles in registers.
 #[inline(always)]
 pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
-    let ([sines], [cosines]) = blocks(&[*angles]);
-    (sines, cosines)
-}
-
-/// The same of `M` blocks of `N` registers, with one look at whether all are in
-/// the common range.
-#[inline(always)]
-pub(in crate::scalar) fn blocks<P: Pack, const N: usize, const M: usize>(
-    angles: &[[P; N]; M],
-) -> ([[P; N]; M], [[P; N]; M]) {
-    let zero = [[P::from_f64(0.0); N]; M];
+    let zero = [P::from_f64(0.0); N];
     let (mut sines, mut cosines) = (zero, zero);
-    groups(
-        angles.as_flattened(),
-        sines.as_flattened_mut(),
-        cosines.as_flattened_mut(),
-    );
-    if !all_near(angles.as_flattened()) {
+    if !groups(angles, &mut sines, &mut cosines) {
         // Copies for this block alone: were angles and results themselves lent
         // out, they would live in memory on the common path too.
         let (mut far_sines, mut far_cosines) = (zero, zero);
         let angles = black_box(*angles);
-        for j in 0..M {
-            beyond(&angles[j], &mut far_sines[j], &mut far_cosines[j]);
-        }
-        for j in 0..M {
-            for i in 0..N {
-                (sines[j][i], cosines[j][i]) = (far_sines[j][i], far_cosines[j][i]);
-            }
-        }
+        beyond(&angles, &mut far_sines, &mut far_cosines);
+        (sines, cosines) = (far_sines, far_cosines);
     }
     (sines, cosines)
 }
@@ -275,7 +245,7 @@ pub(in crate::scalar) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Opti
     if all_near(angles) {
         return None;
     }
-    // Copies, as in `blocks`.
+    // Copies, as in `each`.
     let zero = P::from_f64(0.0);
     let (mut sines, mut cosines) = ([zero; N], [zero; N]);
     let angles = black_box(*angles);
@@ -286,30 +256,38 @@ pub(in crate::scalar) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Opti
 /// Those of angles in the common range, computed together.
 #[inline(always)]
 pub(in crate::scalar) fn near<P: Pack, const N: usize>(angles: &[P; N]) -> Turned<P, N> {
-    common(*angles)
+    common(*angles, &mut P::from_f64(0.0))
 }
 
-/// Sines and cosines of angles in the common range.
+/// Sines and cosines, if all angles are in the common range.
 #[inline(always)]
-fn groups<P: Pack>(angles: &[P], sines: &mut [P], cosines: &mut [P]) {
+fn groups<P: Pack>(angles: &[P], sines: &mut [P], cosines: &mut [P]) -> bool {
+    let mut seen = P::from_f64(0.0);
     let mut start = 0;
     while start + GROUP <= angles.len() {
-        group::<P, GROUP>(angles, sines, cosines, start);
+        group::<P, GROUP>(angles, sines, cosines, start, &mut seen);
         start += GROUP;
     }
     match angles.len() % GROUP {
         0 => {}
-        1 => group::<P, 1>(angles, sines, cosines, start),
-        2 => group::<P, 2>(angles, sines, cosines, start),
-        _ => group::<P, 3>(angles, sines, cosines, start),
+        1 => group::<P, 1>(angles, sines, cosines, start, &mut seen),
+        2 => group::<P, 2>(angles, sines, cosines, start, &mut seen),
+        _ => group::<P, 3>(angles, sines, cosines, start, &mut seen),
     }
+    seen.only_low_bits()
 }
 
 /// The `G` angles from `start` on.
 #[inline(always)]
-fn group<P: Pack, const G: usize>(angles: &[P], sines: &mut [P], cosines: &mut [P], start: usize) {
+fn group<P: Pack, const G: usize>(
+    angles: &[P],
+    sines: &mut [P],
+    cosines: &mut [P],
+    start: usize,
+    seen: &mut P,
+) {
     let group = for_each!(angles[start]; i => angles[start + i]);
-    let (some_sines, some_cosines) = common(group);
+    let (some_sines, some_cosines) = common(group, seen);
     for i in 0..G {
         (sines[start + i], cosines[start + i]) = (some_sines[i], some_cosines[i]);
     }
@@ -334,11 +312,10 @@ fn beyond<P: Pack, const N: usize>(angles: &[P; N], sines: &mut [P; N], cosines:
 /// One angle anywhere.
 #[inline(always)]
 fn one<T: Float>(angle: T) -> (T, T) {
-    let ([sine], [cosine]) = if T::One::from_f64(0.0)
-        .larger_size(T::One::splat(angle))
-        .all_below(T::LIMIT)
-    {
-        common([T::One::splat(angle)])
+    let mut seen = T::One::from_f64(0.0);
+    let near = common([T::One::splat(angle)], &mut seen);
+    let ([sine], [cosine]) = if seen.only_low_bits() {
+        near
     } else {
         let (quarter, [high, low]) = T::far(angle);
         turn(
@@ -369,17 +346,17 @@ where
         return each(angles);
     }
     let lanes = T::Several::LANES;
-    let mut largest = T::Several::from_f64(0.0);
+    let mut seen = T::Several::from_f64(0.0);
     let mut start = 0;
     while start < N {
         let first = start.min(N.saturating_sub(lanes));
-        let mut numbers = T::Several::from_f64(0.0).to_numbers();
+        // Lanes without an angle have the last one.
+        let mut numbers = T::Several::splat(angles[N - 1].0).to_numbers();
         for (number, angle) in numbers.as_mut().iter_mut().zip(&angles[first..]) {
             *number = angle.0;
         }
         let pack = T::Several::from_numbers(numbers);
-        largest = largest.larger_size(pack);
-        let ([sine], [cosine]) = common([pack]);
+        let ([sine], [cosine]) = common([pack], &mut seen);
         let (sine, cosine) = (sine.to_numbers(), cosine.to_numbers());
         let results = sines[first..].iter_mut().zip(&mut cosines[first..]);
         let found = sine.as_ref().iter().zip(cosine.as_ref());
@@ -388,7 +365,7 @@ where
         }
         start += lanes;
     }
-    if !largest.all_below(T::LIMIT) {
+    if !seen.only_low_bits() {
         let (mut far_sines, mut far_cosines) = ([zero; N], [zero; N]);
         let angles = black_box(*angles);
         beyond(&angles, &mut far_sines, &mut far_cosines);

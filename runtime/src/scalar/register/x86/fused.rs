@@ -106,7 +106,7 @@ macro_rules! avx2 {
     (
         $name:ident = $lanes:literal of $lane:ident, $splat:ident,
         $integers:ident, $numbers:ident, $shift:ident by $parity:literal and $sign:literal,
-        $and:ident, $xor:ident, $blend:ident, $compare:ident, $mask:ident
+        $and:ident, $or:ident, $xor:ident, $blend:ident, $compare:ident, $mask:ident
     ) => {
         impl fused::Pack for $name {
             type Array = [$lane; $lanes];
@@ -122,6 +122,23 @@ macro_rules! avx2 {
                     let sine = $blend((high - lost).0, cosine.0, odd);
                     let cosine = $blend(cosine.0, (lost - high).0, odd);
                     (Self($xor(sine, signs)), Self($xor(cosine, signs)))
+                }
+            }
+
+            #[inline(always)]
+            fn or_differing(self, one: Self, other: Self) -> Self {
+                // SAFETY: see the file above.
+                Self(unsafe { $or(self.0, $xor(one.0, other.0)) })
+            }
+
+            #[inline(always)]
+            fn only_low_bits(self) -> bool {
+                // SAFETY: see the file above.
+                unsafe {
+                    _mm256_testz_si256(
+                        $integers(self.0),
+                        $integers($splat(<$lane as fused::Float>::ABOVE)),
+                    ) == 1
                 }
             }
 
@@ -150,13 +167,13 @@ macro_rules! avx2 {
 avx2! {
     F64x4 = 4 of f64, _mm256_set1_pd,
     _mm256_castpd_si256, _mm256_castsi256_pd, _mm256_slli_epi64 by 63 and 62,
-    _mm256_and_pd, _mm256_xor_pd, _mm256_blendv_pd, _mm256_cmp_pd, _mm256_movemask_pd
+    _mm256_and_pd, _mm256_or_pd, _mm256_xor_pd, _mm256_blendv_pd, _mm256_cmp_pd, _mm256_movemask_pd
 }
 
 avx2! {
     F32x8 = 8 of f32, _mm256_set1_ps,
     _mm256_castps_si256, _mm256_castsi256_ps, _mm256_slli_epi32 by 31 and 30,
-    _mm256_and_ps, _mm256_xor_ps, _mm256_blendv_ps, _mm256_cmp_ps, _mm256_movemask_ps
+    _mm256_and_ps, _mm256_or_ps, _mm256_xor_ps, _mm256_blendv_ps, _mm256_cmp_ps, _mm256_movemask_ps
 }
 
 /// a ⊕ (b ∧ c), bit by bit, as the table of a ternary instruction.
@@ -167,7 +184,7 @@ macro_rules! avx512 {
     (
         $name:ident = $lanes:literal of $lane:ident, $splat:ident, $integer:ident,
         $integers:ident, $numbers:ident, $shift:ident by $sign:literal, $test:ident,
-        $ternary:ident, $choose:ident, $subtract:ident, $compare:ident
+        $ternary:ident, $or:ident, $xor:ident, $choose:ident, $compare:ident
     ) => {
         impl fused::Pack for $name {
             type Array = [$lane; $lanes];
@@ -178,15 +195,31 @@ macro_rules! avx512 {
                 unsafe {
                     let sign = $integers($splat(-0.0));
                     let quarter = $integers(quarter.0);
-                    // Writing a mask takes the time of a product: one serves both.
+                    // Writing a mask takes the time of a product: one serves both. A
+                    // sum under a mask takes half of one more than a copy under it.
                     let odd = $test(quarter, $integer(1));
                     let signs = $shift::<$sign>(quarter);
                     let sine = $integers($choose((high - lost).0, odd, cosine.0));
-                    let cosine = $integers($subtract(cosine.0, odd, lost.0, high.0));
+                    let cosine = $integers($choose(cosine.0, odd, (lost - high).0));
                     (
                         Self($numbers($ternary::<XOR_AND>(sine, signs, sign))),
                         Self($numbers($ternary::<XOR_AND>(cosine, signs, sign))),
                     )
+                }
+            }
+
+            #[inline(always)]
+            fn or_differing(self, one: Self, other: Self) -> Self {
+                // SAFETY: see the file above.
+                Self(unsafe { $or(self.0, $xor(one.0, other.0)) })
+            }
+
+            #[inline(always)]
+            fn only_low_bits(self) -> bool {
+                // SAFETY: see the file above.
+                unsafe {
+                    let above = $splat(<$lane as fused::Float>::ABOVE);
+                    $test($integers(self.0), $integers(above)) == 0
                 }
             }
 
@@ -212,11 +245,13 @@ macro_rules! avx512 {
 avx512! {
     F64x8 = 8 of f64, _mm512_set1_pd, _mm512_set1_epi64,
     _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_slli_epi64 by 62, _mm512_test_epi64_mask,
-    _mm512_ternarylogic_epi64, _mm512_mask_mov_pd, _mm512_mask_sub_pd, _mm512_cmp_pd_mask
+    _mm512_ternarylogic_epi64, _mm512_or_pd, _mm512_xor_pd, _mm512_mask_mov_pd,
+    _mm512_cmp_pd_mask
 }
 
 avx512! {
     F32x16 = 16 of f32, _mm512_set1_ps, _mm512_set1_epi32,
     _mm512_castps_si512, _mm512_castsi512_ps, _mm512_slli_epi32 by 30, _mm512_test_epi32_mask,
-    _mm512_ternarylogic_epi32, _mm512_mask_mov_ps, _mm512_mask_sub_ps, _mm512_cmp_ps_mask
+    _mm512_ternarylogic_epi32, _mm512_or_ps, _mm512_xor_ps, _mm512_mask_mov_ps,
+    _mm512_cmp_ps_mask
 }

@@ -12,7 +12,6 @@ mod words;
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::super::sincos;
 use super::Register;
 use crate::generations::With;
 use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, words_of_sse2};
@@ -24,16 +23,11 @@ use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, 
 // types hold so many numbers of that size, in order and without padding, which
 // makes the transmutations right.
 
-/// How registers compute the sines of blocks; without a word, as by default.
-macro_rules! blocks {
+/// Whether sines are computed ahead; without a word, as by default.
+macro_rules! ahead {
     () => {};
     (fused) => {
-        #[inline(always)]
-        fn sin_cos_blocks<const N: usize, const M: usize>(
-            angles: &[[Self; N]; M],
-        ) -> ([[Self; N]; M], [[Self; N]; M]) {
-            sincos::fused::blocks(angles)
-        }
+        const AHEAD: bool = true;
     };
 }
 
@@ -128,7 +122,7 @@ macro_rules! register {
 
             const LANES: usize = $lanes;
 
-            blocks!($($sines)?);
+            ahead!($($sines)?);
 
             #[inline(always)]
             fn mask(meant: impl Fn(usize) -> bool) -> Self {
