@@ -87,6 +87,8 @@ pub(crate) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
 
 /// A computation on one state in fused arithmetic. What it needs is told one by one:
 /// that goes in the processor's registers, where a structure would go through memory.
+// Where there is nothing to choose from, nothing calls it.
+#[cfg_attr(not(all(feature = "std", target_arch = "x86_64")), allow(dead_code))]
 pub(crate) trait StateKernel<T> {
     /// Whose state it is.
     type Model;
