@@ -4,10 +4,10 @@
 
 use super::super::evaluate::Kernels;
 use super::super::{Generations, RootDrive};
-use super::tests::{kernels_in, numbers};
+use super::tests::{agree, arguments, kernels_in, largest};
 use crate::generations::{Motion, Recursion};
 use crate::scalar::register::Fused;
-use crate::scalar::{InstructionSet, Lane, Real, Scalar};
+use crate::scalar::{Lane, Real, Scalar};
 use alloc::vec::Vec;
 
 const SHAPES: [&[usize]; 4] = [
@@ -122,12 +122,7 @@ fn evaluated<T: Scalar, const NUMBER: usize>(torque: f64, kernels: Option<Kernel
     let root = [0.0, -9.81].map(T::from_f64);
     let tree = Generations::<Turned<NUMBER>, T, 7, 5, 5, 3>::new(rows, root, &[]);
     let links = <Turned<NUMBER> as Recursion<7, 5, 5, 3>>::LINKS;
-    let scalars = |seed, size| -> Vec<T> {
-        let numbers = numbers(links, seed, size);
-        numbers.into_iter().map(T::from_f64).collect()
-    };
-    let (theta, omega) = (scalars(1, 3.0), scalars(500, 2.0));
-    let mut alpha = scalars(0, f64::NAN);
+    let [theta, omega, mut alpha] = arguments(links);
     let drive = RootDrive {
         pivot: [0.7, -0.4].map(T::from_f64),
         torque: T::from_f64(torque),
@@ -148,29 +143,18 @@ fn kernels<T: Lane, const SET: usize, const NUMBER: usize>() -> Kernels<T> {
 }
 
 fn compare<T: Lane + Real, const NUMBER: usize>(one_by_one: impl Fn(usize) -> T) {
-    let widest = evaluated::<T, NUMBER>(5.0, None);
-    if InstructionSet::widest() >= InstructionSet::Avx2 {
-        let avx2 = evaluated::<T, NUMBER>(5.0, Some(kernels::<T, 1, NUMBER>()));
-        for (link, (own, other)) in widest.iter().zip(&avx2).enumerate() {
-            assert!(own == other, "link {link}: {own} {other}");
-        }
-        for (link, &own) in widest.iter().enumerate() {
-            let one = one_by_one(link);
-            assert!(own == one, "link {link}: {own} {one}");
-        }
-    }
     let build = evaluated::<T, NUMBER>(5.0, Some(kernels::<T, 0, NUMBER>()));
-    let size = widest
-        .iter()
-        .fold(T::ZERO, |size, alpha| size.max(Real::abs(*alpha)));
-    let close = |a: T, b: T| Real::abs(a - b) <= T::from_f64(64.0) * T::EPSILON * size;
-    assert!(widest.iter().zip(&build).all(|(&a, &b)| close(a, b)));
+    let avx2 = evaluated::<T, NUMBER>(5.0, Some(kernels::<T, 1, NUMBER>()));
+    let widest = evaluated::<T, NUMBER>(5.0, None);
+    agree(&widest, [&build, &avx2], one_by_one);
+    let rounding = T::from_f64(64.0) * T::EPSILON * largest(&widest);
     // The torque is in the equations once: accelerations are linear in it.
     let still = evaluated::<T, NUMBER>(0.0, None);
     let twice = evaluated::<T, NUMBER>(10.0, None);
     assert!(widest[0] > still[0]);
     for ((&one, &none), &two) in widest.iter().zip(&still).zip(&twice) {
-        assert!(close(one - none, two - one), "{none} {one} {two}");
+        let bend = Real::abs((one - none) - (two - one));
+        assert!(bend <= rounding, "{none} {one} {two}");
     }
 }
 

@@ -149,15 +149,17 @@ pub(in crate::generations) fn numbers(links: usize, seed: usize, size: f64) -> V
     (0..links).map(|i| size * number(i)).collect()
 }
 
-fn evaluated<T: Scalar, const NUMBER: usize>(kernels: Option<Kernels<T>>) -> Vec<T> {
-    let tree = tree::<T, NUMBER>();
-    let links = <Shape<NUMBER> as Recursion<8, 6, 6, 3>>::LINKS;
-    let scalars = |seed, size| -> Vec<T> {
+/// Angles and velocities of so many links, and where accelerations are to be written.
+pub(super) fn arguments<T: Scalar>(links: usize) -> [Vec<T>; 3] {
+    [(1, 3.0), (500, 2.0), (0, f64::NAN)].map(|(seed, size)| {
         let numbers = numbers(links, seed, size);
         numbers.into_iter().map(T::from_f64).collect()
-    };
-    let (theta, omega) = (scalars(1, 3.0), scalars(500, 2.0));
-    let mut alpha = scalars(0, f64::NAN);
+    })
+}
+
+fn evaluated<T: Scalar, const NUMBER: usize>(kernels: Option<Kernels<T>>) -> Vec<T> {
+    let tree = tree::<T, NUMBER>();
+    let [theta, omega, mut alpha] = arguments(links(SHAPES[NUMBER]));
     match kernels {
         None => tree.accelerations_into(&theta, &omega, &mut alpha),
         Some(kernels) => {
@@ -194,15 +196,17 @@ fn kernels<T: Lane, const SET: usize, const NUMBER: usize>() -> Kernels<T> {
     kernels_in::<Shape<NUMBER>, T, SET, 8, 6, 6, 3>()
 }
 
-fn compare<T: Lane + Real, const NUMBER: usize>(one_by_one: impl Fn(usize) -> T) {
-    let links = <Shape<NUMBER> as Recursion<8, 6, 6, 3>>::LINKS;
-    let widest = evaluated::<T, NUMBER>(None);
-    assert_eq!(widest.len(), links);
-    let fused = InstructionSet::widest() >= InstructionSet::Avx2;
-    if fused {
-        // AVX2 where there is AVX-512 too.
-        let avx2 = evaluated::<T, NUMBER>(Some(kernels::<T, 1, NUMBER>()));
-        for (link, (own, other)) in widest.iter().zip(&avx2).enumerate() {
+/// Compares accelerations in the widest vectors with those in the build's own and in
+/// AVX2, where there is AVX-512 too, and with links one by one.
+pub(super) fn agree<T: Real>(
+    widest: &[T],
+    [build, avx2]: [&[T]; 2],
+    one_by_one: impl Fn(usize) -> T,
+) {
+    let links = widest.len();
+    assert_eq!([build.len(), avx2.len()], [links; 2]);
+    if InstructionSet::widest() >= InstructionSet::Avx2 {
+        for (link, (own, other)) in widest.iter().zip(avx2).enumerate() {
             assert!(own == other, "link {link} of {links}: {own} {other}");
         }
         for (link, &own) in widest.iter().enumerate() {
@@ -213,15 +217,22 @@ fn compare<T: Lane + Real, const NUMBER: usize>(one_by_one: impl Fn(usize) -> T)
         std::println!("skipped: no vectors that fuse on this machine");
     }
     // What does not fuse rounds otherwise.
-    let build = evaluated::<T, NUMBER>(Some(kernels::<T, 0, NUMBER>()));
-    let size = widest
-        .iter()
-        .fold(T::ZERO, |size, alpha| size.max(Real::abs(*alpha)));
-    for (own, other) in widest.iter().zip(&build) {
-        assert!(
-            own.is_finite() && Real::abs(*own - *other) <= T::from_f64(64.0) * T::EPSILON * size
-        );
+    let rounding = T::from_f64(64.0) * T::EPSILON * largest(widest);
+    for (&own, &other) in widest.iter().zip(build) {
+        assert!(own.is_finite() && Real::abs(own - other) <= rounding);
     }
+}
+
+pub(super) fn largest<T: Real>(alpha: &[T]) -> T {
+    let sizes = alpha.iter().map(|&alpha| Real::abs(alpha));
+    sizes.fold(T::ZERO, |largest, size| largest.max(size))
+}
+
+fn compare<T: Lane + Real, const NUMBER: usize>(one_by_one: impl Fn(usize) -> T) {
+    let build = evaluated::<T, NUMBER>(Some(kernels::<T, 0, NUMBER>()));
+    let avx2 = evaluated::<T, NUMBER>(Some(kernels::<T, 1, NUMBER>()));
+    let widest = evaluated::<T, NUMBER>(None);
+    agree(&widest, [&build, &avx2], one_by_one);
 }
 
 fn each_scalar<const NUMBER: usize>() {
