@@ -1,8 +1,8 @@
 //! Values as expressions, where they are used.
 
 use super::Emission;
-use super::function::{Binding, ident, number_tokens};
 use super::names::Locals;
+use super::tokens::{Binding, ident, number_tokens};
 use crate::program::{Fused, Op, ValueId};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;

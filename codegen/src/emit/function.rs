@@ -4,24 +4,10 @@ use super::Emission;
 use super::gather::Gathered;
 use super::names::Locals;
 use super::parts::{self, Line};
-use super::quantities::float;
-use crate::exact::Rational;
+use super::tokens::{Binding, ident};
 use crate::program::{Argument, Entry, Op, Pass, Purpose, Shape, ValueId};
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
-
-pub(super) fn ident(name: &str) -> Ident {
-    Ident::new(name, Span::call_site())
-}
-
-/// How tightly a written expression binds.
-#[derive(Clone, Copy, PartialEq, PartialOrd)]
-pub(super) enum Binding {
-    Sum,
-    Product,
-    Prefix,
-    Atom,
-}
 
 /// A function before it is put together.
 pub(super) struct Written {
@@ -345,27 +331,4 @@ impl Emission<'_> {
             }
         }
     }
-}
-
-/// `T::from_f64(2.0)`, or `T::from_parts(0.1, -5.551115123125783e-18)` for a
-/// number that no `f64` is.
-pub(super) fn number_tokens(number: &Rational) -> TokenStream {
-    let [high, low] = part_tokens(number);
-    match number.to_parts().1 == 0.0 {
-        true => quote!(T::from_f64(#high)),
-        false => quote!(T::from_parts(#high, #low)),
-    }
-}
-
-/// The `f64` nearest to a number, and the `f64` nearest to the rest.
-pub(super) fn part_tokens(number: &Rational) -> [TokenStream; 2] {
-    let signed = |value: f64, size: Literal| match value.is_sign_negative() {
-        true => quote!(-#size),
-        false => quote!(#size),
-    };
-    let (high, low) = number.to_parts();
-    if low == 0.0 {
-        return [signed(high, float(high.abs())), quote!(0.0)];
-    }
-    [high, low].map(|part| signed(part, float(part.abs())))
 }

@@ -3,8 +3,8 @@
 //! time.
 
 use super::Emission;
-use super::function::Binding;
 use super::names::Locals;
+use super::tokens::Binding;
 use crate::program::{Argument, Entry, Op, ValueId};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;

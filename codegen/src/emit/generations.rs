@@ -3,7 +3,8 @@
 
 use super::Emission;
 use super::columns::Constants as Table;
-use super::quantities::{Numbers, count};
+use super::quantities::Numbers;
+use super::tokens::count;
 use crate::scene::{Constants, Forces, Generations};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};

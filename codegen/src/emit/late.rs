@@ -6,9 +6,10 @@
 //! until it is used.
 
 use super::Emission;
-use super::function::{Binding, Written, ident};
+use super::function::Written;
 use super::names::Locals;
 use super::parts::{self, Line, Part, SHARED};
+use super::tokens::{Binding, ident};
 use crate::program::{Argument, Entry, Op, Pass, Purpose, ValueId};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

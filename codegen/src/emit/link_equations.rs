@@ -3,7 +3,7 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::one_link::{Torques, read, with_torques};
-use super::quantities::count;
+use super::tokens::count;
 use crate::scene::Forces;
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -4,9 +4,9 @@
 use super::Emission;
 use super::columns::Constants;
 use super::doc_text::doc_lines;
-use super::function::ident;
 use super::one_link::read;
 use super::quantities::Numbers;
+use super::tokens::ident;
 use crate::program::Purpose;
 use crate::scene::{Forces, Quantity, has_bodies};
 use proc_macro2::{Ident, Literal, TokenStream};

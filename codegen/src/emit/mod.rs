@@ -27,6 +27,7 @@ mod table;
 mod taylor;
 mod taylor_order;
 mod taylor_rules;
+mod tokens;
 mod traits;
 mod transfer_forms;
 

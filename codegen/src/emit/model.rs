@@ -2,8 +2,8 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use super::function::{Binding, number_tokens};
 use super::quantities::{Numbers, enclosed, product, sum};
+use super::tokens::{Binding, number_tokens};
 use crate::program::{ConstantId, ConstantOp};
 use crate::scene::{LinkId, Offset, ParameterId, Quantity, Sign};
 use proc_macro2::{Ident, Literal, Span, TokenStream};

@@ -2,7 +2,7 @@
 //! constants, torques, leaves.
 
 use super::Emission;
-use super::function::ident;
+use super::tokens::ident;
 use crate::scene::Forces;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

@@ -8,8 +8,9 @@
 mod cut;
 
 use super::Emission;
-use super::function::{Binding, Written, ident, number_tokens};
+use super::function::Written;
 use super::names::Locals;
+use super::tokens::{Binding, ident, number_tokens};
 use crate::program::{Argument, Entry, Op, Purpose, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};

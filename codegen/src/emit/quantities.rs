@@ -1,10 +1,10 @@
 //! Quantities of a scene as expressions in its parameters.
 
 use super::Emission;
-use super::function::{Binding, number_tokens};
+use super::tokens::{Binding, float, number_tokens};
 use crate::exact::Rational;
 use crate::scene::Quantity;
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 /// What the numbers of an expression are written in.
@@ -113,30 +113,5 @@ pub(super) fn enclosed((value, binding): (TokenStream, Binding), place: Binding)
     match binding < place {
         true => quote!((#value)),
         false => value,
-    }
-}
-
-/// A positive number, with an exponent where zeros would lead or follow it.
-pub(super) fn float(value: f64) -> Literal {
-    let plain = Literal::f64_unsuffixed(value);
-    if value == 0.0 || (1e-4..1e16).contains(&value) {
-        return plain;
-    }
-    format!("{value:e}").parse().unwrap_or(plain)
-}
-
-/// A number of links, its digits in groups of three: `1_048_575`.
-pub(super) fn count(number: usize) -> Literal {
-    let digits = number.to_string();
-    let grouped: Vec<&str> = digits
-        .as_bytes()
-        .rchunks(3)
-        .rev()
-        .filter_map(|group| std::str::from_utf8(group).ok())
-        .collect();
-    let plain = Literal::usize_unsuffixed(number);
-    match digits.len() > 4 {
-        true => grouped.join("_").parse().unwrap_or(plain),
-        false => plain,
     }
 }

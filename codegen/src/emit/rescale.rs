@@ -1,7 +1,7 @@
 //! Models in loops on other scalars, and for many states at once.
 
 use super::Emission;
-use super::function::ident;
+use super::tokens::ident;
 use proc_macro2::TokenStream;
 use quote::quote;
 

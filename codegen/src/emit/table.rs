@@ -3,8 +3,8 @@
 
 use super::Emission;
 use super::columns::Constants;
-use super::function::part_tokens;
 use super::quantities::Numbers;
+use super::tokens::part_tokens;
 use crate::scene::{Quantity, Table};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;

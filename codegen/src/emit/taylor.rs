@@ -4,8 +4,8 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use super::function::{Binding, ident};
 use super::taylor_order::Recurrences;
+use super::tokens::{Binding, ident};
 use crate::exact::Rational;
 use crate::program::{Argument, Entry, Expansion, Op, ValueId};
 use proc_macro2::{Literal, TokenStream};

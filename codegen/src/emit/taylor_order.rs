@@ -10,8 +10,8 @@
 mod closure;
 
 use super::Emission;
-use super::function::{Binding, ident};
 use super::names::Locals;
+use super::tokens::{Binding, ident};
 use crate::program::{Argument, Entry, Expansion, Op, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;

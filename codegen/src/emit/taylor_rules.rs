@@ -1,7 +1,7 @@
 //! The recurrences of the operations: what becomes of each in order k.
 
-use super::function::Binding;
 use super::taylor_order::Recurrences;
+use super::tokens::Binding;
 use crate::exact::Rational;
 use crate::program::{Op, ValueId};
 use proc_macro2::TokenStream;

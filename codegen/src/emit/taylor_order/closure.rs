@@ -1,6 +1,6 @@
 //! The closure that gives one order of the coefficients.
 
-use super::super::function::{Binding, ident};
+use super::super::tokens::{Binding, ident};
 use super::{Factor, Recurrences};
 use crate::program::{Argument, Op, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
