@@ -1,0 +1,45 @@
+//! Where there is nothing to choose from.
+
+use core::marker::PhantomData;
+
+use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel};
+
+#[inline(always)]
+pub(super) fn widest() -> InstructionSet {
+    InstructionSet::Build
+}
+
+#[inline(always)]
+pub(super) fn run<K: Kernel>(_set: InstructionSet, kernel: K) -> K::Output {
+    kernel.run()
+}
+
+#[inline(always)]
+pub(super) fn run_state<T, K: StateKernel<T>>(
+    _model: &K::Model,
+    _time: T,
+    _theta: &[T],
+    _omega: &[T],
+    _out: &mut [T],
+) -> bool {
+    false
+}
+
+#[inline(always)]
+pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
+    _set: InstructionSet,
+    kernel: K,
+) -> K::Output {
+    Chosen::<K, T::Build>(kernel, PhantomData).run()
+}
+
+#[inline(always)]
+pub(super) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(super) fn outlined_avx512<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}

@@ -1,0 +1,191 @@
+//! The instructions of x86-64 machines, asked for when first used.
+
+#![allow(unsafe_code)]
+
+use core::marker::PhantomData;
+use core::slice;
+use core::sync::atomic::{AtomicU8, Ordering};
+
+use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel};
+
+/// 0 before the first question, then 1 + the answer.
+static WIDEST: AtomicU8 = AtomicU8::new(0);
+
+#[inline(always)]
+pub(super) fn widest() -> InstructionSet {
+    // Each thread that comes first finds the same answer.
+    match WIDEST.load(Ordering::Relaxed) {
+        0 => detect(),
+        1 => InstructionSet::Build,
+        2 => InstructionSet::Avx2,
+        _ => InstructionSet::Avx512,
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn detect() -> InstructionSet {
+    let (code, set) = if has_avx512() {
+        (3, InstructionSet::Avx512)
+    } else if has_avx2() {
+        (2, InstructionSet::Avx2)
+    } else {
+        (1, InstructionSet::Build)
+    };
+    WIDEST.store(code, Ordering::Relaxed);
+    set
+}
+
+fn has_avx2() -> bool {
+    std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
+}
+
+fn has_avx512() -> bool {
+    has_avx2()
+        && std::is_x86_feature_detected!("avx512f")
+        && std::is_x86_feature_detected!("avx512vl")
+        && std::is_x86_feature_detected!("avx512dq")
+        && std::is_x86_feature_detected!("avx512bw")
+}
+
+/// `set` must have come from `widest`, or be narrower: this module is
+/// private, and the two functions above see to it.
+#[inline(always)]
+pub(super) fn run<K: Kernel>(set: InstructionSet, kernel: K) -> K::Output {
+    match set {
+        InstructionSet::Build => build(kernel),
+        // SAFETY: the call is sound on machines that have the features
+        // which the function enables. `widest` has asked for each of them,
+        // and `set` is not wider.
+        InstructionSet::Avx2 => unsafe { avx2(kernel) },
+        // SAFETY: likewise.
+        InstructionSet::Avx512 => unsafe { avx512(kernel) },
+    }
+}
+
+#[inline(always)]
+pub(super) fn run_state<T, K: StateKernel<T>>(
+    model: &K::Model,
+    time: T,
+    theta: &[T],
+    omega: &[T],
+    out: &mut [T],
+) -> bool {
+    if theta.len() != K::LINKS || omega.len() != K::LINKS || out.len() != K::LINKS {
+        return false;
+    }
+    let (theta, omega, out) = (theta.as_ptr(), omega.as_ptr(), out.as_mut_ptr());
+    let widest = if K::IN_PARTS {
+        widest().min(InstructionSet::Avx2)
+    } else {
+        widest()
+    };
+    match widest {
+        InstructionSet::Build => return false,
+        // SAFETY: `widest` has asked for AVX2 and FMA; the pointers are those of
+        // slices of `K::LINKS` numbers, the last one borrowed mutably.
+        InstructionSet::Avx2 => unsafe {
+            state_avx2::<T, K>(model, time, theta, omega, out);
+        },
+        // SAFETY: likewise, and AVX-512.
+        InstructionSet::Avx512 => unsafe {
+            state_avx512::<T, K>(model, time, theta, omega, out);
+        },
+    }
+    true
+}
+
+/// As `state`.
+#[target_feature(enable = "avx2,fma")]
+unsafe fn state_avx2<T, K: StateKernel<T>>(
+    model: &K::Model,
+    time: T,
+    theta: *const T,
+    omega: *const T,
+    out: *mut T,
+) {
+    // SAFETY: the caller's.
+    unsafe { state::<T, K>(model, time, theta, omega, out) }
+}
+
+/// As `state`.
+#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
+unsafe fn state_avx512<T, K: StateKernel<T>>(
+    model: &K::Model,
+    time: T,
+    theta: *const T,
+    omega: *const T,
+    out: *mut T,
+) {
+    // SAFETY: the caller's.
+    unsafe { state::<T, K>(model, time, theta, omega, out) }
+}
+
+/// Without the lengths of the slices, which are known: for three links these, and
+/// asking for them again, are a thirtieth of an evaluation.
+///
+/// # Safety
+/// The pointers must be those of slices of `K::LINKS` numbers, of which the last
+/// one is borrowed mutably, and outlives the call like the others.
+#[inline(always)]
+unsafe fn state<T, K: StateKernel<T>>(
+    model: &K::Model,
+    time: T,
+    theta: *const T,
+    omega: *const T,
+    out: *mut T,
+) {
+    // SAFETY: the caller's.
+    let (theta, omega, out) = unsafe {
+        (
+            slice::from_raw_parts(theta, K::LINKS),
+            slice::from_raw_parts(omega, K::LINKS),
+            slice::from_raw_parts_mut(out, K::LINKS),
+        )
+    };
+    K::run(model, time, theta, omega, out);
+}
+
+#[inline(always)]
+pub(super) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
+    // SAFETY: asked for by types that exist in computations alone which
+    // `run_state` or `run_in_registers` has started, where the machine has
+    // these instructions.
+    unsafe { avx2(kernel) }
+}
+
+#[inline(always)]
+pub(super) fn outlined_avx512<K: Kernel>(kernel: K) -> K::Output {
+    // SAFETY: likewise.
+    unsafe { avx512(kernel) }
+}
+
+/// As for `run`.
+#[inline(always)]
+pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
+    set: InstructionSet,
+    kernel: K,
+) -> K::Output {
+    match set {
+        InstructionSet::Build => build(Chosen::<K, T::Build>(kernel, PhantomData)),
+        // SAFETY: as in `run`.
+        InstructionSet::Avx2 => unsafe { avx2(Chosen::<K, T::Avx2>(kernel, PhantomData)) },
+        // SAFETY: likewise.
+        InstructionSet::Avx512 => unsafe { avx512(Chosen::<K, T::Avx512>(kernel, PhantomData)) },
+    }
+}
+
+#[inline(never)]
+fn build<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}
+
+#[target_feature(enable = "avx2,fma")]
+fn avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}
+
+#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
+fn avx512<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}
