@@ -4,7 +4,7 @@
 mod scenes;
 
 use branched_pendulum::batch::Batch;
-use branched_pendulum::Rescale;
+use branched_pendulum::Cast;
 use std::hint::black_box;
 use std::process::ExitCode;
 
@@ -14,7 +14,7 @@ const STATES: usize = 64;
 /// Evaluates the accelerations so many times.
 type Run = fn(&str, usize) -> bool;
 
-fn run<const N: usize, P: Rescale<f64>>(model: P, kind: &str, times: usize) -> bool {
+fn run<const N: usize, P: Cast<f64>>(model: P, kind: &str, times: usize) -> bool {
     let angle = |link: usize, state: usize| (link * 7 + state) as f64 % 6.0 - 3.0;
     let columns = |scale: f64| -> Vec<Vec<f64>> {
         let column = |link| (0..STATES).map(|state| scale * angle(link, state)).collect();

@@ -6,7 +6,7 @@
 //! lie.
 //!
 //! ```
-//! # use branched_pendulum::{Pendulum, Rescale, Scalar};
+//! # use branched_pendulum::{Pendulum, Cast, Scalar};
 //! use branched_pendulum::batch::Batch;
 //! # struct Rod<T>(T);
 //! # impl<T: Scalar> Pendulum<T> for Rod<T> {
@@ -16,9 +16,9 @@
 //! #         T::accelerate(self, time, theta, omega, alpha);
 //! #     }
 //! # }
-//! # impl<T: Scalar> Rescale<T> for Rod<T> {
+//! # impl<T: Scalar> Cast<T> for Rod<T> {
 //! #     type Of<S: Scalar> = Rod<S>;
-//! #     fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
+//! #     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
 //! #         Rod(convert(self.0))
 //! #     }
 //! #     fn evaluate(
@@ -51,8 +51,8 @@ use alloc::vec::Vec;
 
 use crate::scalar::dispatch;
 use crate::scalar::{InstructionSet, Lane};
-use crate::system::Rescale;
-use crate::system::rescale;
+use crate::system::Cast;
+use crate::system::cast;
 use blocks::Blocks;
 
 pub use error::BatchError;
@@ -75,7 +75,7 @@ pub struct Batch<'m, P, T> {
     room: Vec<T>,
 }
 
-impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
+impl<'m, P: Cast<T>, T: Lane> Batch<'m, P, T> {
     /// For a `pendulum` in `f64` or `f32`. Uses the widest registers that the
     /// machine has.
     ///
@@ -147,7 +147,7 @@ impl<'m, P: Rescale<T>, T: Lane> Batch<'m, P, T> {
     }
 }
 
-impl<P: Rescale<T>, T: Lane> Batch<'_, P, T> {
+impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
     /// Where there are too few states for a register.
     fn one_by_one(
         &mut self,
@@ -159,19 +159,19 @@ impl<P: Rescale<T>, T: Lane> Batch<'_, P, T> {
     ) {
         let [own_theta, own_omega, own_alpha] = &mut self.alone;
         for (own, slice) in own_theta.iter_mut().zip(theta) {
-            *own = rescale::at(slice.as_ref(), state);
+            *own = cast::at(slice.as_ref(), state);
         }
         for (own, slice) in own_omega.iter_mut().zip(omega) {
-            *own = rescale::at(slice.as_ref(), state);
+            *own = cast::at(slice.as_ref(), state);
         }
         if self.instructions == InstructionSet::Build {
-            rescale::straight(self.pendulum, time, own_theta, own_omega, own_alpha);
+            cast::straight(self.pendulum, time, own_theta, own_omega, own_alpha);
         } else {
             let pendulum = self.pendulum;
             pendulum.accelerations_into(time, own_theta, own_omega, own_alpha);
         }
         for (own, slice) in own_alpha.iter().zip(alpha) {
-            rescale::put(slice.as_mut(), state, *own);
+            cast::put(slice.as_mut(), state, *own);
         }
     }
 }

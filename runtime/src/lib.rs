@@ -106,7 +106,7 @@ pub mod transfer_forms;
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
-pub use system::{Canonical, Energy, Pendulum, Rescale, SymmetricPendulum, TaylorPendulum};
+pub use system::{Canonical, Cast, Energy, Pendulum, SymmetricPendulum, TaylorPendulum};
 pub use transfer_forms::{TransferForm, TransferForms};
 
 #[cfg(feature = "macros")]

@@ -11,8 +11,8 @@ pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
 pub use crate::sectors::{Budget, Sectors};
 pub use crate::system::{
-    AbsoluteAngles, Canonical, CanonicalEnergy, CanonicalVariables, Energy, FirstIntegral, Ode,
-    OdeFn, Pendulum, Rescale, State, SymmetricCoordinates, SymmetricPendulum, TaylorOde,
+    AbsoluteAngles, Canonical, CanonicalEnergy, CanonicalVariables, Cast, Energy, FirstIntegral,
+    Ode, OdeFn, Pendulum, State, SymmetricCoordinates, SymmetricPendulum, TaylorOde,
     TaylorPendulum,
 };
 pub use crate::transfer_forms::{TransferForm, TransferForms};

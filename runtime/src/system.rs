@@ -7,9 +7,10 @@
 //! [`SymmetricCoordinates`] turn one into the other.
 
 mod canonical;
+pub(crate) mod cast;
 mod first_integral;
-pub(crate) mod rescale;
 mod taylor;
+mod workspace;
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -18,11 +19,12 @@ use crate::generations::LinkName;
 use crate::scalar::Scalar;
 
 pub use canonical::{Canonical, CanonicalVariables};
-pub use first_integral::{CanonicalEnergy, FirstIntegral};
+pub use cast::Cast;
 #[doc(hidden)]
-pub use rescale::InRegisters;
-pub use rescale::Rescale;
+pub use cast::InRegisters;
+pub use first_integral::{CanonicalEnergy, FirstIntegral};
 pub use taylor::{TaylorOde, TaylorPendulum};
+pub use workspace::Workspace;
 
 /// Equations of motion in absolute angles.
 ///
@@ -55,6 +57,22 @@ pub trait Pendulum<T: Scalar> {
     /// must stay memory-safe for other lengths and must not make up values;
     /// filling `alpha` with NaN is the way to say that there is no answer.
     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]);
+
+    /// Writes the same accelerations as
+    /// [`accelerations_into`](Self::accelerations_into), in memory that the caller
+    /// keeps: for trees in loops, which would allocate it for every evaluation.
+    #[inline]
+    fn accelerations_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        alpha: &mut [T],
+    ) {
+        let _ = workspace;
+        self.accelerations_into(time, theta, omega, alpha);
+    }
 }
 
 /// Equations of motion in symmetric coordinates: means and differences of
@@ -101,6 +119,15 @@ pub trait Ode<T> {
     /// Where f is not defined, write NaN: integrators stop there at once, with
     /// the time and the state.
     fn rates(&self, time: T, state: &[T], rates: &mut [T]);
+
+    /// Writes the same rates as [`rates`](Self::rates), in memory that the caller
+    /// keeps. Integrators call this one. Systems that need no memory leave it as it
+    /// is.
+    #[inline]
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        let _ = workspace;
+        self.rates(time, state, rates);
+    }
 }
 
 impl<T, O: Ode<T> + ?Sized> Ode<T> for &O {
@@ -111,6 +138,11 @@ impl<T, O: Ode<T> + ?Sized> Ode<T> for &O {
     #[inline]
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         (**self).rates(time, state, rates);
+    }
+
+    #[inline]
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        (**self).rates_with(workspace, time, state, rates);
     }
 }
 
@@ -187,6 +219,14 @@ impl<T: Scalar, P: Pendulum<T>> Ode<T> for AbsoluteAngles<'_, P> {
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         second_order(P::LINKS, state, rates, |theta, omega, alpha| {
             self.0.accelerations_into(time, theta, omega, alpha);
+        });
+    }
+
+    #[inline]
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        second_order(P::LINKS, state, rates, |theta, omega, alpha| {
+            self.0
+                .accelerations_with(workspace, time, theta, omega, alpha);
         });
     }
 }

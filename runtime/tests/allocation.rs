@@ -192,10 +192,10 @@ impl<T: Scalar> Pendulum<T> for Oscillator<T> {
     }
 }
 
-impl<T: Scalar> Rescale<T> for Oscillator<T> {
+impl<T: Scalar> Cast<T> for Oscillator<T> {
     type Of<S: Scalar> = Oscillator<S>;
 
-    fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Oscillator<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Oscillator<S> {
         Oscillator(convert(self.0))
     }
 

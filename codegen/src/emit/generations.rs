@@ -177,7 +177,7 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let links = count(generations.links);
         let loops = self.generations_type();
-        let rescale = self.loop_rescale("generations");
+        let cast = self.loop_cast("generations");
         let (time, body) = (self.time_name(), self.loop_accelerations("generations"));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
@@ -201,7 +201,7 @@ impl Emission<'_> {
                 }
             }
 
-            #rescale
+            #cast
         }
     }
 

@@ -93,7 +93,7 @@ impl Emission<'_> {
         };
         quote! {
             let mut alpha = [T::from_f64(0.0); #links];
-            #runtime::Rescale::evaluate(
+            #runtime::Cast::evaluate(
                 self,
                 #time,
                 |link| theta[link],

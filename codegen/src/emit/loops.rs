@@ -105,7 +105,7 @@ impl Emission<'_> {
     }
 
     /// These fields on another scalar, of a model whose first one is `loops`.
-    pub(super) fn rescaled_fields(&self, loops: &Ident) -> Vec<TokenStream> {
+    pub(super) fn cast_fields(&self, loops: &Ident) -> Vec<TokenStream> {
         let stored = self.stored_constants().into_iter();
         let stored: Vec<Ident> = stored.map(|id| self.field(id)).collect();
         let bodies = self.has_bodies().then(|| ident("bodies"));
@@ -119,7 +119,7 @@ impl Emission<'_> {
                 true => quote!(convert),
                 false => quote!(&convert),
             };
-            quote!(#field: self.#field.rescale(#convert))
+            quote!(#field: self.#field.cast(#convert))
         });
         let numbers = numbers
             .iter()

@@ -2,6 +2,7 @@
 //! entry point, the runtime's traits, and the docs that carry the formulas.
 
 mod budget;
+mod cast;
 mod columns;
 mod doc_text;
 mod docs;
@@ -21,7 +22,6 @@ mod one_link;
 mod parts;
 mod places;
 mod quantities;
-mod rescale;
 mod stub;
 mod table;
 mod taylor;

@@ -158,9 +158,9 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             fn canonical_rates(&self, _: T, _: &[T], _: &[T], _: &mut [T], _: &mut [T]) {}
         }
 
-        impl<T: #runtime::Scalar> #runtime::Rescale<T> for #name<T> {
+        impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
             type Of<S: #runtime::Scalar> = #name<S>;
-            fn rescale<S: #runtime::Scalar>(
+            fn cast<S: #runtime::Scalar>(
                 &self, _: impl ::core::ops::Fn(T) -> S,
             ) -> #name<S> { ::core::unimplemented!() }
             fn evaluate(

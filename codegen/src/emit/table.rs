@@ -187,7 +187,7 @@ impl Emission<'_> {
     fn table_pendulum(&self) -> TokenStream {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let names = self.scene.links.iter().map(|link| &link.name);
-        let rescale = self.loop_rescale("links");
+        let cast = self.loop_cast("links");
         let (time, body) = (self.time_name(), self.loop_accelerations("links"));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
@@ -205,7 +205,7 @@ impl Emission<'_> {
                 }
             }
 
-            #rescale
+            #cast
         }
     }
 }

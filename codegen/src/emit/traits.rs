@@ -130,11 +130,11 @@ impl Emission<'_> {
                 }
             }
 
-            impl<T: #runtime::Scalar> #runtime::Rescale<T> for #name<T> {
+            impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
                 type Of<S: #runtime::Scalar> = #name<S>;
 
                 #[inline(always)]
-                fn rescale<S: #runtime::Scalar>(
+                fn cast<S: #runtime::Scalar>(
                     &self,
                     #convert: impl ::core::ops::Fn(T) -> S,
                 ) -> #name<S> {

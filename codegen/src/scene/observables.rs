@@ -138,7 +138,7 @@ const METHODS: &[&str] = &[
     "accelerations", "accelerations_into", "canonical_rates", "clone", "default", "eq",
     "evaluate", "fmt", "freedoms", "from", "from_parameters", "from_symmetric", "hamiltonian",
     "into", "kinetic_energy", "kinetic_energy_of", "mass_matrix", "momenta", "new", "part",
-    "potential_energy", "potential_energy_of", "rescale", "stiffness_matrix",
+    "potential_energy", "potential_energy_of", "cast", "stiffness_matrix",
     "symmetric_accelerations", "symmetric_accelerations_into", "symmetric_momenta",
     "symmetric_velocities", "taylor_coefficients", "taylor_coefficients_into", "to_symmetric",
     "transfers_into", "velocities",

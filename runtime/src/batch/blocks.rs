@@ -3,7 +3,7 @@
 use crate::scalar::dispatch::RegisterKernel;
 use crate::scalar::register::{Block, Known, Register};
 use crate::scalar::{Lane, Scalar};
-use crate::system::{InRegisters, Rescale};
+use crate::system::{Cast, InRegisters};
 
 /// Links up to which two registers are computed in step: so few alone have not
 /// enough operations that need not wait for each other. With more links the values
@@ -23,7 +23,7 @@ pub(super) struct Blocks<'a, P, T, In, On, Out> {
 
 impl<P, T, In, On, Out> RegisterKernel<T> for Blocks<'_, P, T, In, On, Out>
 where
-    P: Rescale<T>,
+    P: Cast<T>,
     T: Lane,
     In: AsRef<[T]>,
     On: AsRef<[T]>,
@@ -53,7 +53,7 @@ where
 
 impl<P, T, In, On, Out> Blocks<'_, P, T, In, On, Out>
 where
-    P: Rescale<T>,
+    P: Cast<T>,
     T: Lane,
     In: AsRef<[T]>,
     On: AsRef<[T]>,
@@ -92,7 +92,7 @@ where
     fn in_step<R: Register<Lane = T>>(&mut self) -> usize {
         let mut next = 0;
         if P::LINKS <= FEW {
-            let pendulum = self.pendulum.rescale(Block::<R, 2>::splat);
+            let pendulum = self.pendulum.cast(Block::<R, 2>::splat);
             while next + 2 * R::LANES <= self.count {
                 if !self.block(&pendulum, next) {
                     return next;
@@ -161,7 +161,7 @@ where
         ) else {
             return 0;
         };
-        let pendulum = self.pendulum.rescale(|x| Known::number(R::splat(x)));
+        let pendulum = self.pendulum.cast(|x| Known::number(R::splat(x)));
         let time = Known::number(R::splat(self.time));
         let nothing = R::splat(T::from_f64(f64::NAN));
         let mut end = R::LANES;

@@ -6,7 +6,7 @@ use super::Ensemble;
 use crate::integrate::lanes::{self, Cases, Outcome, Task};
 use crate::integrate::{IntegrationError, LaneMethod, Solution};
 use crate::scalar::{InstructionSet, Lane};
-use crate::system::{Rescale, State};
+use crate::system::{Cast, State};
 
 impl Ensemble<'_> {
     /// Integrates a pendulum from every start to the time `end`, as many starts
@@ -62,7 +62,7 @@ impl Ensemble<'_> {
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        P: Rescale<T> + Sync,
+        P: Cast<T> + Sync,
         M: LaneMethod<P, T>,
     {
         self.ends(method, Cases::Starts(pendulum, starts), end)
@@ -79,7 +79,7 @@ impl Ensemble<'_> {
     /// but for putting the constants of the next one into a lane.
     ///
     /// The pendulums are of one type, and differ in nothing but the constants that
-    /// [`Rescale::rescale`] converts.
+    /// [`Cast::cast`] converts.
     ///
     /// # Examples
     ///
@@ -118,7 +118,7 @@ impl Ensemble<'_> {
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        P: Rescale<T> + Sync,
+        P: Cast<T> + Sync,
         M: LaneMethod<P, T>,
     {
         self.ends(method, Cases::Pairs(releases), end)
@@ -164,7 +164,7 @@ impl Ensemble<'_> {
     ) -> Vec<Samples<T>>
     where
         T: Lane,
-        P: Rescale<T> + Sync,
+        P: Cast<T> + Sync,
         M: LaneMethod<P, T>,
     {
         self.samples(method, Cases::Starts(pendulum, starts), times)
@@ -181,7 +181,7 @@ impl Ensemble<'_> {
     ) -> Vec<Samples<T>>
     where
         T: Lane,
-        P: Rescale<T> + Sync,
+        P: Cast<T> + Sync,
         M: LaneMethod<P, T>,
     {
         self.samples(method, Cases::Pairs(releases), times)
@@ -195,7 +195,7 @@ impl Ensemble<'_> {
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        P: Rescale<T> + Sync,
+        P: Cast<T> + Sync,
         M: LaneMethod<P, T>,
     {
         let outcomes = self.in_lanes(method, cases, &[], Some(end));
@@ -205,7 +205,7 @@ impl Ensemble<'_> {
     fn samples<T, P, M>(&self, method: &M, cases: Cases<'_, P, T>, times: &[T]) -> Vec<Samples<T>>
     where
         T: Lane,
-        P: Rescale<T> + Sync,
+        P: Cast<T> + Sync,
         M: LaneMethod<P, T>,
     {
         let outcomes = self.in_lanes(method, cases, times, times.last().copied());
@@ -228,7 +228,7 @@ impl Ensemble<'_> {
     ) -> impl Iterator<Item = Outcome<T>> + use<T, P, M>
     where
         T: Lane,
-        P: Rescale<T> + Sync,
+        P: Cast<T> + Sync,
         M: LaneMethod<P, T>,
     {
         let task = Task {

@@ -95,7 +95,7 @@ impl<T: Scalar> Bodies<T> {
 
     /// The same bodies on other scalars.
     #[must_use]
-    pub fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<S> {
+    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<S> {
         Bodies {
             hanging: self.hanging,
             rows: self.rows.iter().map(|row| row.map(&convert)).collect(),

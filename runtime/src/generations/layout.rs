@@ -32,7 +32,7 @@ impl Layout {
     }
 
     /// That of the same tree in numbers of another size.
-    pub(super) fn rescale<T>(&self, plan: &Plan) -> Self {
+    pub(super) fn cast<T>(&self, plan: &Plan) -> Self {
         Self::new::<T>(plan, self.sizes)
     }
 

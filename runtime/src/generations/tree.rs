@@ -62,8 +62,8 @@ impl<T> Tree<T> {
 
 impl<T: Scalar> Tree<T> {
     /// The same tree on other scalars.
-    pub(super) fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Tree<S> {
-        let layout = self.layout.rescale::<S>(&self.plan);
+    pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Tree<S> {
+        let layout = self.layout.cast::<S>(&self.plan);
         Tree {
             threads: self.threads,
             room: layout.room::<S>(&self.plan, self.threads),

@@ -7,7 +7,7 @@ use super::lanes::{Lane, Sealed};
 use super::register;
 use super::{Real, Scalar, sincos};
 use crate::generations::{Loops, SliceKernel, vectors};
-use crate::system::rescale::{self, Rescale};
+use crate::system::cast::{self, Cast};
 use crate::taylor::{Kernel, run_f64};
 
 macro_rules! implement_scalar {
@@ -51,14 +51,14 @@ macro_rules! implement_scalar {
             }
 
             #[inline(always)]
-            fn accelerate<P: Rescale<Self>>(
+            fn accelerate<P: Cast<Self>>(
                 pendulum: &P,
                 time: Self,
                 theta: &[Self],
                 omega: &[Self],
                 alpha: &mut [Self],
             ) {
-                rescale::fused(pendulum, time, theta, omega, alpha);
+                cast::fused(pendulum, time, theta, omega, alpha);
             }
 
             $(

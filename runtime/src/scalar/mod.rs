@@ -62,7 +62,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use crate::generations::{Loops, Single, SliceKernel};
 use crate::model::Part;
-use crate::system::rescale::{self, Rescale};
+use crate::system::cast::{self, Cast};
 use crate::taylor::{Kernel, Quad};
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
@@ -201,14 +201,14 @@ pub trait Scalar:
     /// the machine that are sooner done.
     #[doc(hidden)]
     #[inline(always)]
-    fn accelerate<P: Rescale<Self>>(
+    fn accelerate<P: Cast<Self>>(
         pendulum: &P,
         time: Self,
         theta: &[Self],
         omega: &[Self],
         alpha: &mut [Self],
     ) {
-        rescale::straight(pendulum, time, theta, omega, alpha);
+        cast::straight(pendulum, time, theta, omega, alpha);
     }
 
     /// Runs a computation of Taylor coefficients in the vector instructions

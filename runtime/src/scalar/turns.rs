@@ -7,7 +7,7 @@
 //! a slower function.
 
 use super::Scalar;
-use crate::system::rescale::at;
+use crate::system::cast::at;
 
 /// Sines and cosines, in the order of their angles.
 pub type Turned<T, const N: usize> = ([T; N], [T; N]);

@@ -1,12 +1,12 @@
 //! Systems that know the Taylor coefficients of their motion.
 
-use super::{AbsoluteAngles, Ode, Rescale};
+use super::{AbsoluteAngles, Cast, Ode};
 use crate::scalar::Scalar;
 use crate::taylor::Quad;
 
 /// A pendulum whose motion is expanded in powers of the time: what emitted code
 /// implements where `emit(taylor)` asks for it.
-pub trait TaylorPendulum<T: Scalar>: Rescale<T> {
+pub trait TaylorPendulum<T: Scalar>: Cast<T> {
     /// Groups of four numbers that an expansion to order `order` works in.
     fn taylor_workspace(order: usize) -> usize;
 

@@ -132,7 +132,7 @@ fn large_trees() {
 )]
 struct Small;
 
-fn batch_of<T: Lane, P: Rescale<T>>(model: &P) {
+fn batch_of<T: Lane, P: Cast<T>>(model: &P) {
     let mut batch = Batch::new(model);
     let states = vec![vec![T::from_f64(0.1); 67]; P::LINKS];
     let mut alpha = vec![vec![T::from_f64(0.0); 67]; P::LINKS];

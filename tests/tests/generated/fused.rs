@@ -3,7 +3,7 @@
 //! arithmetic keeps.
 
 use branched_pendulum::scalar::InstructionSet;
-use branched_pendulum::{Pendulum, Rescale, Scalar};
+use branched_pendulum::{Cast, Pendulum, Scalar};
 use branched_pendulum_codegen::program::Argument;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
@@ -24,10 +24,10 @@ impl<T: Scalar> Pendulum<T> for Sines {
     }
 }
 
-impl<T: Scalar> Rescale<T> for Sines {
+impl<T: Scalar> Cast<T> for Sines {
     type Of<S: Scalar> = Sines;
 
-    fn rescale<S: Scalar>(&self, _convert: impl Fn(T) -> S) -> Sines {
+    fn cast<S: Scalar>(&self, _convert: impl Fn(T) -> S) -> Sines {
         Sines
     }
 

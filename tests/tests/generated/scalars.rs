@@ -38,7 +38,7 @@ fn states(links: usize, count: usize) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
 /// pairs of registers and a half, for every instruction set, against one state
 /// after the other: through `accelerations_into` where the registers fuse, by the
 /// plain function where they do not.
-fn batch_agrees<T: Lane, P: Rescale<T>, const N: usize>(
+fn batch_agrees<T: Lane, P: Cast<T>, const N: usize>(
     model: &P,
     plain: impl Fn(&[T; N], &[T; N]) -> [T; N],
     convert: fn(f64) -> T,
@@ -128,7 +128,7 @@ fn lanes_have_the_bits_of_plain_numbers() {
     }
 }
 
-fn one_state_without_answer<P: Rescale<f64>>(model: &P, link: usize) {
+fn one_state_without_answer<P: Cast<f64>>(model: &P, link: usize) {
     let (mut theta, omega) = states(P::LINKS, 11);
     theta[link][4] = f64::NAN;
     let mut alpha = vec![vec![0.0; 11]; P::LINKS];

@@ -182,7 +182,7 @@ fn driven_loops() {
             "root_drive",
             "drive_power",
             "accelerations_into",
-            "rescale",
+            "cast",
             "evaluate",
         ],
     );

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use branched_pendulum::batch::Batch;
 use branched_pendulum::scalar::Lane;
-use branched_pendulum::{Pendulum, Rescale, branched_pendulum};
+use branched_pendulum::{Cast, Pendulum, branched_pendulum};
 
 use super::large::{Bush127, Bush500, Loops127, Loops1023};
 use super::measure::states_of;
@@ -66,7 +66,7 @@ pub fn all() -> Vec<Row> {
     ]
 }
 
-fn row<P: Rescale<f64>, Q: Rescale<f32>>(scene: &'static str, model: &P, narrow: &Q) -> Row {
+fn row<P: Cast<f64>, Q: Cast<f32>>(scene: &'static str, model: &P, narrow: &Q) -> Row {
     let links = <P as Pendulum<f64>>::LINKS;
     let states = states_of(links);
     let theta = random(1, links, states, std::f64::consts::PI);
@@ -105,7 +105,7 @@ fn row<P: Rescale<f64>, Q: Rescale<f32>>(scene: &'static str, model: &P, narrow:
 }
 
 /// A pass over all states.
-fn pass<P: Rescale<T>, T: Lane>(
+fn pass<P: Cast<T>, T: Lane>(
     model: &P,
     theta: &[Vec<f64>],
     omega: &[Vec<f64>],

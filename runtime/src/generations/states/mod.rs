@@ -31,7 +31,7 @@ use super::root::RootDrive;
 use super::table::Table;
 use crate::scalar::Scalar;
 use crate::scalar::register::Register;
-use crate::system::rescale::InRegisters;
+use crate::system::cast::InRegisters;
 
 /// A tree in loops that is computed in values of any packing.
 trait States<T: Scalar> {
@@ -101,9 +101,9 @@ where
 {
     /// The same tree on other scalars; computed on as many threads.
     #[must_use]
-    pub fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Generations<P, S, C, L, R, K> {
+    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Generations<P, S, C, L, R, K> {
         Generations {
-            tree: self.tree.rescale(convert),
+            tree: self.tree.cast(convert),
             recursion: PhantomData,
         }
     }
@@ -116,7 +116,7 @@ where
 {
     /// The same tree on other scalars.
     #[must_use]
-    pub fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Table<P, S, C, R, K> {
+    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Table<P, S, C, R, K> {
         Table {
             shape: self.shape.clone(),
             constants: self.constants.iter().map(|row| row.map(&convert)).collect(),
@@ -137,7 +137,7 @@ where
 {
     /// The same tree on other scalars.
     #[must_use]
-    pub fn rescale<V: Scalar>(&self, convert: impl Fn(T) -> V) -> PlacedTable<P, V, C, R, S, K> {
+    pub fn cast<V: Scalar>(&self, convert: impl Fn(T) -> V) -> PlacedTable<P, V, C, R, S, K> {
         PlacedTable {
             shape: self.shape.clone(),
             constants: self.constants.iter().map(|row| row.map(&convert)).collect(),
@@ -158,7 +158,7 @@ macro_rules! evaluations {
             T: Scalar,
         {
             /// The accelerations in the arithmetic of `T`, as
-            /// [`Rescale::evaluate`](crate::Rescale::evaluate).
+            /// [`Cast::evaluate`](crate::Cast::evaluate).
             #[inline(always)]
             pub fn evaluate(
                 &self,

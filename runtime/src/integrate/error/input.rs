@@ -90,7 +90,7 @@ pub enum InputError<T> {
         found: usize,
     },
     /// A pendulum of an ensemble in lanes has not as many constants as the first
-    /// one: [`Rescale`](crate::system::Rescale) says what it takes.
+    /// one: [`Cast`](crate::system::Cast) says what it takes.
     Constants {
         /// Constants of the first one.
         expected: usize,

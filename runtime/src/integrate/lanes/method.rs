@@ -12,7 +12,7 @@ use crate::integrate::explicit::Span;
 use crate::integrate::options::Options;
 use crate::scalar::Lane;
 use crate::scalar::register::Register;
-use crate::system::Rescale;
+use crate::system::Cast;
 
 /// A method that integrates pendulums of the type `P` in the lanes of vector
 /// registers, for [`Ensemble`](crate::ensemble::Ensemble): the explicit
@@ -25,7 +25,7 @@ use crate::system::Rescale;
 /// [`Dopri5`]: crate::integrate::Dopri5
 /// [`Taylor`]: crate::integrate::Taylor
 /// [`Verner98`]: crate::integrate::Verner98
-pub trait LaneMethod<P: Rescale<T>, T: Lane>: Sync {
+pub trait LaneMethod<P: Cast<T>, T: Lane>: Sync {
     /// The method at work.
     #[doc(hidden)]
     type Stepper<'a, R: Register<Lane = T>>: Stepper<R, Pendulum = P>
@@ -50,7 +50,7 @@ pub trait LaneMethod<P: Rescale<T>, T: Lane>: Sync {
 /// A method at work, with a state in each lane.
 pub trait Stepper<R: Register> {
     /// Whose motion it steps along.
-    type Pendulum: Rescale<R::Lane>;
+    type Pendulum: Cast<R::Lane>;
 
     /// The pendulums in the lanes.
     fn models(&mut self) -> &mut Models<Self::Pendulum, R>;

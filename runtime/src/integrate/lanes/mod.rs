@@ -32,7 +32,7 @@ use super::request::{check_start, check_times};
 use crate::scalar::dispatch::{self, RegisterKernel};
 use crate::scalar::register::Register;
 use crate::scalar::{InstructionSet, Lane};
-use crate::system::{AbsoluteAngles, Rescale, State};
+use crate::system::{AbsoluteAngles, Cast, State};
 
 /// What is asked of all trajectories.
 pub(crate) struct Task<'a, M, P, T> {
@@ -56,7 +56,7 @@ pub(crate) fn integrate<M, P, T>(
     done: impl FnMut(usize, Outcome<T>),
 ) where
     M: LaneMethod<P, T>,
-    P: Rescale<T>,
+    P: Cast<T>,
     T: Lane,
 {
     let kernel = Lanes { task, next, done };
@@ -72,7 +72,7 @@ struct Lanes<'a, M, P, T, N, D> {
 impl<M, P, T, N, D> RegisterKernel<T> for Lanes<'_, M, P, T, N, D>
 where
     M: LaneMethod<P, T>,
-    P: Rescale<T>,
+    P: Cast<T>,
     T: Lane,
     N: FnMut() -> Option<usize>,
     D: FnMut(usize, Outcome<T>),
@@ -122,7 +122,7 @@ where
 impl<M, P, T, N, D> Lanes<'_, M, P, T, N, D>
 where
     M: LaneMethod<P, T>,
-    P: Rescale<T>,
+    P: Cast<T>,
     T: Lane,
     N: FnMut() -> Option<usize>,
     D: FnMut(usize, Outcome<T>),

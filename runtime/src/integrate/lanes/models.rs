@@ -11,21 +11,21 @@ use super::registers::set_lane;
 use crate::integrate::error::InputError;
 use crate::scalar::Scalar;
 use crate::scalar::register::Register;
-use crate::system::Rescale;
+use crate::system::Cast;
 
 /// The pendulums of all lanes, as one pendulum whose constants are registers.
 ///
 /// Constants are known by their place in the order in which
-/// [`Rescale::rescale`] converts them: that of one model goes into its lane of
+/// [`Cast::cast`] converts them: that of one model goes into its lane of
 /// the register at the same place.
-pub struct Models<P: Rescale<R::Lane>, R: Register> {
+pub struct Models<P: Cast<R::Lane>, R: Register> {
     /// All of them at once.
     pub(crate) registers: P::Of<R>,
     /// Its constants in their order.
     constants: Vec<R>,
 }
 
-impl<P: Rescale<R::Lane>, R: Register> Models<P, R> {
+impl<P: Cast<R::Lane>, R: Register> Models<P, R> {
     /// The same pendulum in every lane.
     pub(crate) fn splat(pendulum: &P) -> Self {
         let mut constants = vec![R::from_f64(0.0); count(pendulum)];
@@ -54,9 +54,9 @@ impl<P: Rescale<R::Lane>, R: Register> Models<P, R> {
 }
 
 /// How many constants a pendulum has.
-fn count<T: Scalar, P: Rescale<T>>(pendulum: &P) -> usize {
+fn count<T: Scalar, P: Cast<T>>(pendulum: &P) -> usize {
     let count = Cell::new(0);
-    pendulum.rescale(|constant| {
+    pendulum.cast(|constant| {
         count.set(count.get() + 1);
         constant
     });
@@ -65,14 +65,14 @@ fn count<T: Scalar, P: Rescale<T>>(pendulum: &P) -> usize {
 
 /// Changes every register by the constant that belongs there, and makes a
 /// pendulum of them.
-fn convert<P: Rescale<R::Lane>, R: Register>(
+fn convert<P: Cast<R::Lane>, R: Register>(
     pendulum: &P,
     constants: &mut [R],
     change: impl Fn(R, R::Lane) -> R,
 ) -> P::Of<R> {
     let constants = Cell::from_mut(constants).as_slice_of_cells();
     let next = Cell::new(0);
-    pendulum.rescale(
+    pendulum.cast(
         |constant| match constants.get(next.replace(next.get() + 1)) {
             Some(place) => {
                 place.set(change(place.get(), constant));

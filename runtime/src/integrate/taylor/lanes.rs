@@ -19,7 +19,7 @@ use crate::integrate::sum::two_sum;
 use crate::model::Part;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
-use crate::system::{Rescale, State, TaylorPendulum};
+use crate::system::{Cast, State, TaylorPendulum};
 use crate::taylor::Quad;
 
 impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
@@ -73,7 +73,7 @@ impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>> for 
 }
 
 /// The method at work: its polynomials, and what it works on.
-pub struct Lanes<'a, P: Rescale<R::Lane>, R: Register> {
+pub struct Lanes<'a, P: Cast<R::Lane>, R: Register> {
     models: Models<P, R>,
     options: &'a Options<R::Lane>,
     order: usize,
@@ -95,7 +95,7 @@ pub struct Lanes<'a, P: Rescale<R::Lane>, R: Register> {
     finite: Numbers<R::Lane>,
 }
 
-impl<P: Rescale<R::Lane>, R: Register> Lanes<'_, P, R> {
+impl<P: Cast<R::Lane>, R: Register> Lanes<'_, P, R> {
     /// Zero where all these numbers are finite, NaN elsewhere.
     #[inline(always)]
     fn check(values: &[R]) -> R {

@@ -158,7 +158,7 @@ fn driven_trees_that_differ_in_lanes() {
 }
 
 #[test]
-fn dual_numbers_of_rescaled_forced_models() {
+fn dual_numbers_of_cast_forced_models() {
     derivatives_agree(&Shaken::<f64>::new(), 5);
     derivatives_agree(&Turned::<f64>::new(), 0);
     derivatives_agree(&Crooked::<f64>::new(), 2);
@@ -168,7 +168,7 @@ fn dual_numbers_of_rescaled_forced_models() {
 }
 
 /// ∂ω̇/∂t by dual numbers, against differences.
-fn drives_vary<P: Rescale<f64>>(model: &P) {
+fn drives_vary<P: Cast<f64>>(model: &P) {
     let mut random = Random::new(5);
     let (theta, omega) = (
         random.around_zero(P::LINKS, 3.0),
@@ -180,7 +180,7 @@ fn drives_vary<P: Rescale<f64>>(model: &P) {
         alpha
     };
     let mut rates = vec![f64::NAN; P::LINKS];
-    model.rescale(Dual::<f64, 1>::constant).evaluate(
+    model.cast(Dual::<f64, 1>::constant).evaluate(
         Dual::variable(TIME, 0),
         |i| Dual::constant(theta[i]),
         |i| Dual::constant(omega[i]),
@@ -204,18 +204,16 @@ fn dual_numbers_of_drives() {
     drives_vary(&Mobile::<f64>::new());
 }
 
-/// The energies of a rescaled model: the same bits in lanes, and in dual numbers
+/// The energies of a cast model: the same bits in lanes, and in dual numbers
 /// dE/dt along the motion, which is the power of the forces.
-fn energies_go_along<P: Rescale<f64> + Energy<f64>>(
-    model: &P,
-    power: impl Fn(&[f64], &[f64]) -> f64,
-) where
+fn energies_go_along<P: Cast<f64> + Energy<f64>>(model: &P, power: impl Fn(&[f64], &[f64]) -> f64)
+where
     P::Of<Lanes<f64, 2>>: Energy<Lanes<f64, 2>>,
     P::Of<Dual<f64, 1>>: Energy<Dual<f64, 1>>,
 {
     let (n, mut random) = (P::LINKS, Random::new(5));
     let (theta, omega) = (random.around_zero(n, 3.0), random.around_zero(n, 9.0));
-    let lanes = model.rescale(|number| Lanes([number; 2]));
+    let lanes = model.cast(|number| Lanes([number; 2]));
     let splat = |numbers: &[f64]| -> Vec<_> { numbers.iter().map(|&x| Lanes([x; 2])).collect() };
     let (kinetic, potential) = (
         lanes.kinetic_energy_of(&splat(&theta), &splat(&omega)),
@@ -235,7 +233,7 @@ fn energies_go_along<P: Rescale<f64> + Energy<f64>>(
             })
             .collect()
     };
-    let duals = model.rescale(Dual::<f64, 1>::constant);
+    let duals = model.cast(Dual::<f64, 1>::constant);
     let (theta_duals, omega_duals) = (along(&theta, &omega), along(&omega, &alpha));
     let rates = [
         duals.kinetic_energy_of(&theta_duals, &omega_duals),
@@ -249,7 +247,7 @@ fn energies_go_along<P: Rescale<f64> + Energy<f64>>(
 }
 
 #[test]
-fn energies_of_rescaled_models() {
+fn energies_of_cast_models() {
     let shaken = Shaken::<f64>::new();
     energies_go_along(&shaken, |theta, omega| {
         shaken.drive_power(TIME, theta, omega) + shaken.friction_power(omega)

@@ -96,7 +96,7 @@ fn state<T: Copy>(columns: &[Vec<T>], state: usize) -> Vec<T> {
 
 /// One state alone: by the model's own loops, which fuse where the machine can; by
 /// those of the model in numbers that never do for the build's own instructions.
-fn alone<T: Lane, P: Rescale<T>>(
+fn alone<T: Lane, P: Cast<T>>(
     model: &P,
     plain: &P::Of<Lanes<T, 1>>,
     set: InstructionSet,
@@ -117,9 +117,9 @@ fn alone<T: Lane, P: Rescale<T>>(
     alpha.into_iter().map(|Lanes([number])| number).collect()
 }
 
-fn batch_agrees<T: Lane, P: Rescale<T>>(model: &P, bits: fn(&T) -> u64) {
+fn batch_agrees<T: Lane, P: Cast<T>>(model: &P, bits: fn(&T) -> u64) {
     let (links, zero) = (P::LINKS, T::from_f64(0.0));
-    let plain = model.rescale(|number| Lanes([number]));
+    let plain = model.cast(|number| Lanes([number]));
     let mut random = Random::new(11);
     for set in InstructionSet::ALL {
         if set > InstructionSet::widest() {
@@ -174,7 +174,7 @@ fn batches_of_tables_have_the_bits_of_single_states() {
 
 /// Trajectories in lanes end where the plain method does, but for rounding, and where
 /// they end does not depend on the company.
-fn lanes_meet_the_plain_method<P: Rescale<f64> + Sync>(model: &P) {
+fn lanes_meet_the_plain_method<P: Cast<f64> + Sync>(model: &P) {
     let mut random = Random::new(3);
     let starts: Vec<State<f64>> = (0..19)
         .map(|_| State {
@@ -205,15 +205,15 @@ fn trajectories_of_large_trees_in_lanes() {
     lanes_meet_the_plain_method(&Bush::<f64>::new());
 }
 
-/// ∂ω̇/∂θ of one link by dual numbers of a rescaled model, against differences.
-fn derivatives_agree<P: Rescale<f64>>(model: &P, link: usize) {
+/// ∂ω̇/∂θ of one link by dual numbers of a cast model, against differences.
+fn derivatives_agree<P: Cast<f64>>(model: &P, link: usize) {
     let links = P::LINKS;
     let mut random = Random::new(5);
     let (theta, omega) = (
         random.around_zero(links, 3.0),
         random.around_zero(links, 9.0),
     );
-    let duals = model.rescale(Dual::<f64, 1>::constant);
+    let duals = model.cast(Dual::<f64, 1>::constant);
     let constant = |numbers: &[f64]| -> Vec<Dual<f64, 1>> {
         numbers
             .iter()
@@ -257,7 +257,7 @@ fn derivatives_agree<P: Rescale<f64>>(model: &P, link: usize) {
 }
 
 #[test]
-fn dual_numbers_of_rescaled_models() {
+fn dual_numbers_of_cast_models() {
     derivatives_agree(&Binary::<f64>::new(), 5);
     derivatives_agree(&Ternary::<f64>::new(), 5);
     derivatives_agree(&Sprung::<f64>::new(), 2);

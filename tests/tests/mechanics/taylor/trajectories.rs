@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum::system::{Rescale, TaylorPendulum};
+use branched_pendulum::system::{Cast, TaylorPendulum};
 use branched_pendulum_tests::scenes::damped_series::DampedSeries;
 use branched_pendulum_tests::scenes::driven_series::DrivenSeries;
 use branched_pendulum_tests::scenes::series::Series;
@@ -121,7 +121,7 @@ fn a_hundred_seconds() {
 #[test]
 fn rounded_constants() {
     let (_, expected) = reference_state("regular");
-    let rounded: Series<Double> = Series::new().rescale(Double::from_f64);
+    let rounded: Series<Double> = Series::new().cast(Double::from_f64);
     let states = in_32_digits(&rounded, &TIMES);
     let of_constants = largest_difference(&states[6], &expected(TIMES[6]));
     println!("rounded constants: {of_constants:e}");

@@ -8,7 +8,7 @@ use crate::integrate::explicit::Span;
 use crate::integrate::explicit::lanes::{LanePair, Memory, make_stages, sum};
 use crate::integrate::lanes::Models;
 use crate::scalar::register::Register;
-use crate::system::Rescale;
+use crate::system::Cast;
 
 impl LanePair for DormandPrince8 {
     const NODES: &'static [f64] = &C;
@@ -17,7 +17,7 @@ impl LanePair for DormandPrince8 {
     ];
 
     #[inline(always)]
-    fn stages_in_lanes<P: Rescale<R::Lane>, R: Register>(
+    fn stages_in_lanes<P: Cast<R::Lane>, R: Register>(
         memory: &mut Memory<R>,
         models: &Models<P, R>,
         span: Span<R>,
@@ -44,7 +44,7 @@ impl LanePair for DormandPrince8 {
     }
 
     #[inline(always)]
-    fn prepare_dense_in_lanes<P: Rescale<R::Lane>, R: Register>(
+    fn prepare_dense_in_lanes<P: Cast<R::Lane>, R: Register>(
         memory: &mut Memory<R>,
         models: &Models<P, R>,
         span: Span<R>,

@@ -6,14 +6,14 @@ use crate::integrate::explicit::Span;
 use crate::integrate::explicit::lanes::{LanePair, Memory, make_stages};
 use crate::integrate::lanes::Models;
 use crate::scalar::register::Register;
-use crate::system::Rescale;
+use crate::system::Cast;
 
 impl LanePair for DormandPrince5 {
     const NODES: &'static [f64] = &C;
     const ROWS: &'static [&'static [(usize, f64)]] = &[&A2, &A3, &A4, &A5, &A6, &B];
 
     #[inline(always)]
-    fn stages_in_lanes<P: Rescale<R::Lane>, R: Register>(
+    fn stages_in_lanes<P: Cast<R::Lane>, R: Register>(
         memory: &mut Memory<R>,
         models: &Models<P, R>,
         span: Span<R>,
@@ -27,7 +27,7 @@ impl LanePair for DormandPrince5 {
     }
 
     #[inline(always)]
-    fn prepare_dense_in_lanes<P: Rescale<R::Lane>, R: Register>(
+    fn prepare_dense_in_lanes<P: Cast<R::Lane>, R: Register>(
         memory: &mut Memory<R>,
         _models: &Models<P, R>,
         span: Span<R>,

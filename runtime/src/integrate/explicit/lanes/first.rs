@@ -8,9 +8,9 @@ use crate::integrate::lanes::registers::{WIDEST, numbers, numbers_in, register};
 use crate::integrate::lanes::{Flags, Runs};
 use crate::scalar::register::Register;
 use crate::scalar::{Real, Scalar};
-use crate::system::Rescale;
+use crate::system::Cast;
 
-impl<M: LanePair, P: Rescale<R::Lane>, R: Register> Lanes<'_, M, P, R> {
+impl<M: LanePair, P: Cast<R::Lane>, R: Register> Lanes<'_, M, P, R> {
     /// The first stage and the first step of fresh trajectories. The other lanes
     /// go through it too, and keep what they have.
     pub(super) fn first_steps(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags) {

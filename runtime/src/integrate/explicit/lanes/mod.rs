@@ -25,9 +25,9 @@ use crate::integrate::lanes::{Flags, LaneMethod, Models, Runs, Stepper};
 use crate::integrate::options::Options;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
-use crate::system::{Rescale, State};
+use crate::system::{Cast, State};
 
-impl<M: LanePair, P: Rescale<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKutta<M, T> {
+impl<M: LanePair, P: Cast<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKutta<M, T> {
     type Stepper<'a, R: Register<Lane = T>> = Lanes<'a, M, P, R>;
 
     fn options(&self) -> &Options<T> {
@@ -52,7 +52,7 @@ impl<M: LanePair, P: Rescale<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKutt
 }
 
 /// The method at work.
-pub struct Lanes<'a, M, P: Rescale<R::Lane>, R: Register> {
+pub struct Lanes<'a, M, P: Cast<R::Lane>, R: Register> {
     models: Models<P, R>,
     options: &'a Options<R::Lane>,
     memory: Memory<R>,
@@ -69,7 +69,7 @@ pub struct Lanes<'a, M, P: Rescale<R::Lane>, R: Register> {
     pair: PhantomData<M>,
 }
 
-impl<M: LanePair, P: Rescale<R::Lane>, R: Register> Stepper<R> for Lanes<'_, M, P, R> {
+impl<M: LanePair, P: Cast<R::Lane>, R: Register> Stepper<R> for Lanes<'_, M, P, R> {
     type Pendulum = P;
 
     fn models(&mut self) -> &mut Models<P, R> {
@@ -148,7 +148,7 @@ impl<M: LanePair, P: Rescale<R::Lane>, R: Register> Stepper<R> for Lanes<'_, M, 
     }
 }
 
-impl<M: LanePair, P: Rescale<R::Lane>, R: Register> Lanes<'_, M, P, R> {
+impl<M: LanePair, P: Cast<R::Lane>, R: Register> Lanes<'_, M, P, R> {
     /// Judges the step of a lane: whether it is accepted. Chooses the next one.
     #[inline(always)]
     fn judge_lane(&mut self, runs: &mut Runs<R::Lane>, lane: usize) -> bool {

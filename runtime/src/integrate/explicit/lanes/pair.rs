@@ -5,7 +5,7 @@ use crate::integrate::explicit::Span;
 use crate::integrate::explicit::pair::Pair;
 use crate::integrate::lanes::Models;
 use crate::scalar::register::Register;
-use crate::system::Rescale;
+use crate::system::Cast;
 
 /// A pair whose steps are made in lanes. Numbers of stages as in [`Pair`].
 pub trait LanePair: Pair {
@@ -16,7 +16,7 @@ pub trait LanePair: Pair {
     const ROWS: &'static [&'static [(usize, f64)]];
 
     /// Stages 2 to [`STAGES`](Pair::STAGES), from stage 1 in place.
-    fn stages_in_lanes<P: Rescale<R::Lane>, R: Register>(
+    fn stages_in_lanes<P: Cast<R::Lane>, R: Register>(
         memory: &mut Memory<R>,
         models: &Models<P, R>,
         span: Span<R>,
@@ -27,7 +27,7 @@ pub trait LanePair: Pair {
     fn errors<R: Register>(memory: &Memory<R>, n: usize, size: R) -> R;
 
     /// The stages and coefficients of the dense output.
-    fn prepare_dense_in_lanes<P: Rescale<R::Lane>, R: Register>(
+    fn prepare_dense_in_lanes<P: Cast<R::Lane>, R: Register>(
         memory: &mut Memory<R>,
         models: &Models<P, R>,
         span: Span<R>,

@@ -7,14 +7,14 @@ use crate::integrate::lanes::Models;
 use crate::integrate::sum::two_sum;
 use crate::model::Part;
 use crate::scalar::register::Register;
-use crate::system::Rescale;
-use crate::system::rescale::{at, put};
+use crate::system::Cast;
+use crate::system::cast::{at, put};
 
 /// The right-hand sides of the pendulums: angles, then velocities.
 ///
 /// In a function of its own, which all stages call: equations of large trees
 /// are long.
-impl<'a, P: Rescale<R::Lane>, R: Register> Part<0, (R, &'a [R], &'a mut [R])> for Models<P, R> {
+impl<'a, P: Cast<R::Lane>, R: Register> Part<0, (R, &'a [R], &'a mut [R])> for Models<P, R> {
     type Output = ();
 
     #[inline(always)]
@@ -48,7 +48,7 @@ impl<R: Register> Memory<R> {
     /// Evaluates the rates at [`stage`](Self::stage): those of stage `stage`,
     /// counted from 1.
     #[inline(always)]
-    pub(super) fn evaluate<P: Rescale<R::Lane>>(
+    pub(super) fn evaluate<P: Cast<R::Lane>>(
         &mut self,
         models: &Models<P, R>,
         time: R,
@@ -78,7 +78,7 @@ impl<R: Register> Memory<R> {
         span: Span<R>,
     ) where
         M: LanePair,
-        P: Rescale<R::Lane>,
+        P: Cast<R::Lane>,
     {
         let (row, fraction) = const { (M::ROWS[STAGE - 2], M::NODES[STAGE - 1]) };
         let n = 2 * P::LINKS;
@@ -93,7 +93,7 @@ impl<R: Register> Memory<R> {
     /// All stages, the end of the step and the rates there. Returns a number
     /// that is zero in the lanes whose end is finite, and NaN in others.
     #[inline(always)]
-    pub(super) fn step<M: LanePair, P: Rescale<R::Lane>>(
+    pub(super) fn step<M: LanePair, P: Cast<R::Lane>>(
         &mut self,
         models: &Models<P, R>,
         span: Span<R>,

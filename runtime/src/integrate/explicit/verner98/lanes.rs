@@ -9,7 +9,7 @@ use crate::integrate::explicit::Span;
 use crate::integrate::explicit::lanes::{LanePair, Memory, make_stages, sum};
 use crate::integrate::lanes::Models;
 use crate::scalar::register::Register;
-use crate::system::Rescale;
+use crate::system::Cast;
 
 impl LanePair for Verner9 {
     const NODES: &'static [f64] = &C;
@@ -19,7 +19,7 @@ impl LanePair for Verner9 {
     ];
 
     #[inline(always)]
-    fn stages_in_lanes<P: Rescale<R::Lane>, R: Register>(
+    fn stages_in_lanes<P: Cast<R::Lane>, R: Register>(
         memory: &mut Memory<R>,
         models: &Models<P, R>,
         span: Span<R>,
@@ -33,7 +33,7 @@ impl LanePair for Verner9 {
     }
 
     #[inline(always)]
-    fn prepare_dense_in_lanes<P: Rescale<R::Lane>, R: Register>(
+    fn prepare_dense_in_lanes<P: Cast<R::Lane>, R: Register>(
         memory: &mut Memory<R>,
         models: &Models<P, R>,
         span: Span<R>,

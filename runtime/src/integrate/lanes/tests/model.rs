@@ -1,7 +1,7 @@
 //! A pendulum with all that a description may ask for, and places without answer.
 
 use crate::scalar::Scalar;
-use crate::system::{Pendulum, Rescale, TaylorPendulum};
+use crate::system::{Cast, Pendulum, TaylorPendulum};
 use crate::taylor::{self, Coupling, Known, Quad, Start, Tree};
 
 /// Two lopsided links with friction, the first driven.
@@ -34,7 +34,7 @@ pub(super) fn lopsided<T: Scalar>() -> Lopsided<T> {
         friction: 0.02,
         lateral: 1.0,
     }
-    .rescale(T::from_f64)
+    .cast(T::from_f64)
 }
 
 impl<T: Scalar> Lopsided<T> {
@@ -54,10 +54,10 @@ impl<T: Scalar> Pendulum<T> for Lopsided<T> {
     }
 }
 
-impl<T: Scalar> Rescale<T> for Lopsided<T> {
+impl<T: Scalar> Cast<T> for Lopsided<T> {
     type Of<S: Scalar> = Lopsided<S>;
 
-    fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Lopsided<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Lopsided<S> {
         Lopsided {
             wall: convert(self.wall),
             inertia: convert(self.inertia),

@@ -9,7 +9,7 @@ use super::{outcomes, plain, starts, times, with_each};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, InputError, IntegrationError, Options, StopReason};
 use crate::scalar::{InstructionSet, Lane, Scalar};
-use crate::system::{Pendulum, Rescale, State};
+use crate::system::{Cast, Pendulum, State};
 
 /// Models no two of which are the same, from the starts of the other tests.
 fn releases<T: Lane>() -> Vec<(Lopsided<T>, State<T>)> {
@@ -22,7 +22,7 @@ fn releases<T: Lane>() -> Vec<(Lopsided<T>, State<T>)> {
             friction: 0.1 - 0.1 * part,
             lateral: 2.0 * part - 1.0,
         };
-        model.rescale(T::from_f64)
+        model.cast(T::from_f64)
     };
     let starts = starts().into_iter().enumerate();
     starts.map(|(i, start)| (model(i), start)).collect()
@@ -152,10 +152,10 @@ impl<T: Scalar> Pendulum<T> for Uneven<T> {
     }
 }
 
-impl<T: Scalar> Rescale<T> for Uneven<T> {
+impl<T: Scalar> Cast<T> for Uneven<T> {
     type Of<S: Scalar> = Uneven<S>;
 
-    fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Uneven<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Uneven<S> {
         Uneven(self.0.iter().copied().map(convert).collect())
     }
 

@@ -33,11 +33,11 @@ use super::Pendulum;
 ///     }
 /// }
 ///
-/// impl<T: Scalar> Rescale<T> for Rod<T> {
+/// impl<T: Scalar> Cast<T> for Rod<T> {
 ///     type Of<S: Scalar> = Rod<S>;
 ///
 ///     #[inline(always)]
-///     fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
+///     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
 ///         Rod(convert(self.0))
 ///     }
 ///
@@ -63,9 +63,9 @@ use super::Pendulum;
 /// assert_eq!(alpha[0][1000], alone[0]);
 /// # Ok::<(), branched_pendulum::batch::BatchError>(())
 /// ```
-pub trait Rescale<T: Scalar>: Pendulum<T> {
+pub trait Cast<T: Scalar>: Pendulum<T> {
     /// The same pendulum on other scalars.
-    type Of<S: Scalar>: Rescale<S>;
+    type Of<S: Scalar>: Cast<S>;
 
     /// Takes every constant through `convert`, which should change their type
     /// and not their value.
@@ -74,7 +74,7 @@ pub trait Rescale<T: Scalar>: Pendulum<T> {
     /// differ in nothing else: this is how
     /// [`Ensemble::integrate_models_in_lanes`](crate::ensemble::Ensemble::integrate_models_in_lanes)
     /// puts several models into the lanes of one.
-    fn rescale<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 
     /// The angular accelerations (rad/s²) at `time` (s), in the arithmetic of
     /// `T`: reads the angle (rad) and the angular velocity (rad/s) of link `i`
@@ -103,8 +103,8 @@ pub trait Rescale<T: Scalar>: Pendulum<T> {
     #[inline(always)]
     fn in_registers<R: Register<Lane = T>>(&self, time: T, room: &mut [T]) -> impl InRegisters<R> {
         let _ = room;
-        Rescaled {
-            pendulum: self.rescale(R::splat),
+        CastPendulum {
+            pendulum: self.cast(R::splat),
             time: R::splat(time),
         }
     }
@@ -113,7 +113,7 @@ pub trait Rescale<T: Scalar>: Pendulum<T> {
 /// A pendulum in registers, at one time.
 #[doc(hidden)]
 pub trait InRegisters<R> {
-    /// As [`Rescale::evaluate`].
+    /// As [`Cast::evaluate`].
     fn evaluate(
         &mut self,
         theta: impl Fn(usize) -> R,
@@ -123,12 +123,12 @@ pub trait InRegisters<R> {
 }
 
 /// Its constants are registers.
-struct Rescaled<P, R> {
+struct CastPendulum<P, R> {
     pendulum: P,
     time: R,
 }
 
-impl<R: Scalar, P: Rescale<R>> InRegisters<R> for Rescaled<P, R> {
+impl<R: Scalar, P: Cast<R>> InRegisters<R> for CastPendulum<P, R> {
     #[inline(always)]
     fn evaluate(
         &mut self,
@@ -171,7 +171,7 @@ fn fit<T: Scalar, P: Pendulum<T>>(theta: &[T], omega: &[T], alpha: &mut [T]) -> 
 /// Accelerations in the arithmetic of `T`. Long ones are compiled once, not in
 /// every place that falls back to them.
 #[inline]
-pub(crate) fn straight<T: Scalar, P: Rescale<T>>(
+pub(crate) fn straight<T: Scalar, P: Cast<T>>(
     pendulum: &P,
     time: T,
     theta: &[T],
@@ -190,7 +190,7 @@ pub(crate) fn straight<T: Scalar, P: Rescale<T>>(
 
 /// Accelerations in fused arithmetic, where the machine has it.
 #[inline(always)]
-pub(crate) fn fused<T: Scalar, P: Rescale<T>>(
+pub(crate) fn fused<T: Scalar, P: Cast<T>>(
     pendulum: &P,
     time: T,
     theta: &[T],
@@ -210,7 +210,7 @@ pub(crate) fn fused<T: Scalar, P: Rescale<T>>(
 /// The accelerations of one state, its slices as long as there are links.
 struct OneState<P>(PhantomData<P>);
 
-impl<T: Scalar, P: Rescale<T>> StateKernel<T> for OneState<P>
+impl<T: Scalar, P: Cast<T>> StateKernel<T> for OneState<P>
 where
     Fused<T>: Scalar,
 {
@@ -224,7 +224,7 @@ where
         if !fit::<T, P>(theta, omega, alpha) {
             return;
         }
-        pendulum.rescale(Fused).evaluate(
+        pendulum.cast(Fused).evaluate(
             Fused(time),
             |i| Fused(at(theta, i)),
             |i| Fused(at(omega, i)),

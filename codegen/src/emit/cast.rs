@@ -6,11 +6,11 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Emission<'_> {
-    /// `impl Rescale`, by what the model's field `loops` holds: generic functions, which
+    /// `impl Cast`, by what the model's field `loops` holds: generic functions, which
     /// cost a scene nothing that does not call them.
-    pub(super) fn loop_rescale(&self, loops: &str) -> TokenStream {
+    pub(super) fn loop_cast(&self, loops: &str) -> TokenStream {
         let (name, runtime, loops) = (&self.item.ident, self.runtime(), ident(loops));
-        let fields = self.rescaled_fields(&loops);
+        let fields = self.cast_fields(&loops);
         let (time, evaluate, drive) = match self.mechanics.drive {
             Some(_) => (
                 quote!(time),
@@ -24,10 +24,10 @@ impl Emission<'_> {
             ),
         };
         quote! {
-            impl<T: #runtime::Scalar> #runtime::Rescale<T> for #name<T> {
+            impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
                 type Of<S: #runtime::Scalar> = #name<S>;
 
-                fn rescale<S: #runtime::Scalar>(
+                fn cast<S: #runtime::Scalar>(
                     &self,
                     convert: impl ::core::ops::Fn(T) -> S,
                 ) -> #name<S> {
