@@ -7,26 +7,20 @@
 //! the door outwards is our own [`Expr`].
 
 use super::expression::{Expr, SymbolId, Symbols};
+use super::lock::{DerivationLock, LockError};
 use crate::exact::Rational;
 use std::collections::BTreeMap;
 use std::fmt;
-use std::fs::{File, OpenOptions};
-use std::path::PathBuf;
 use symbolica::atom::{Atom, AtomCore, AtomView, Symbol as AlgebraSymbol};
 use symbolica::coefficient::Coefficient;
 use symbolica::id::Replacement;
 use symbolica::symbol;
 
-/// Why a derivation could not be run.
+/// Reason for which a derivation could not be run.
 #[derive(Debug)]
 pub enum AlgebraError {
-    /// The lock file cannot be opened or locked.
-    Lock {
-        /// Where the lock file is.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
+    /// It could not be kept apart from other derivations of the same user.
+    Lock(LockError),
     /// An observable divides by a constant of the model that is zero in this
     /// scene, which only the derivation knows.
     DivisionByZero {
@@ -43,11 +37,7 @@ pub enum AlgebraError {
 impl fmt::Display for AlgebraError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Lock { path, source } => write!(
-                f,
-                "cannot lock `{}`, which keeps derivations of one user apart: {source}",
-                path.display()
-            ),
+            Self::Lock(error) => error.fmt(f),
             Self::DivisionByZero { observable } => write!(
                 f,
                 "the observable `{observable}` divides by a constant that is zero in this scene"
@@ -65,14 +55,14 @@ impl std::error::Error for AlgebraError {}
 /// Runs `work` where it may use the algebra: alone among all processes of
 /// this user, on a thread of its own.
 ///
-/// Waits for as long as other derivations need. Formulas cannot leave `work`
-/// other than as [`Expr`].
+/// Waits while others derive, up to two minutes for one of them, and says for whom
+/// after two seconds. Formulas cannot leave `work` other than as [`Expr`].
 ///
 /// # Errors
-/// [`AlgebraError::Lock`] if the lock file cannot be used,
-/// [`AlgebraError::Broken`] if `work` panics.
+/// [`AlgebraError::Lock`] if the lock cannot be had, [`AlgebraError::Broken`] if
+/// `work` panics.
 pub fn run<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, AlgebraError> {
-    let lock = lock()?;
+    let lock = DerivationLock::acquire().map_err(AlgebraError::Lock)?;
     hide_banner();
     let outcome = std::thread::scope(|scope| {
         std::thread::Builder::new()
@@ -96,26 +86,6 @@ pub fn run<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, AlgebraError> 
             message: format!("no thread for the derivation: {source}"),
         }),
     }
-}
-
-/// Closing the file unlocks it, also when the process dies.
-fn lock() -> Result<File, AlgebraError> {
-    let path = std::env::temp_dir().join("branched-pendulum.lock");
-    let open = || {
-        OpenOptions::new()
-            .create(true)
-            .truncate(false)
-            .write(true)
-            .open(&path)
-            // Another user's lock file can be read and locked, not written.
-            .or_else(|_| File::open(&path))
-    };
-    open()
-        .and_then(|file| file.lock().map(|()| file))
-        .map_err(|source| AlgebraError::Lock {
-            path: path.clone(),
-            source,
-        })
 }
 
 /// The banner would go to the compiler's standard output, which cargo parses;

@@ -16,6 +16,7 @@ mod frame;
 mod hamiltonian;
 mod inverse_mass;
 mod lagrangian;
+mod lock;
 mod observable;
 mod observable_rate;
 mod observables;
@@ -33,6 +34,7 @@ pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{Drive, PivotMotion, Temporal};
 pub use inverse_mass::Counting;
+pub use lock::LockError;
 pub use observables::{
     Canonical, EnergySymbols, FormedSymbols, FunctionOf, Observable, ObservableFrame, Observables,
     System,
