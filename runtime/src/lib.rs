@@ -17,8 +17,7 @@
 //! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
 //!   errors of truncated transfers,
 //! - [`data`]: CSV files,
-//! - [`model`]: what emitted models return, and what they refuse,
-//! - `chart`: line charts (feature `chart`).
+//! - [`model`]: what emitted models return, and what they refuse.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
 //! vertical.
@@ -76,7 +75,6 @@
 //!   [`taylor`], [`sectors`], [`transfer_forms`] and [`integrate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
-//! - `chart`: line charts as SVG and PNG.
 //! - `macros` (default): the attribute `branched_pendulum`.
 
 #![cfg_attr(not(feature = "std"), no_std)]
@@ -86,8 +84,6 @@ extern crate alloc;
 #[cfg(feature = "std")]
 pub mod analysis;
 pub mod batch;
-#[cfg(feature = "chart")]
-pub mod chart;
 #[cfg(feature = "std")]
 pub mod data;
 #[cfg(feature = "std")]

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 use branched_pendulum::analysis::{Spectrum, SpectrumOptions};
-use branched_pendulum::chart::{Axis, Chart, Color, Dash, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
 
 use super::apparatus::{DIFFERENCE, EXACT, MEAN, PUBLISHED, Sample, decimal, folded};
 use super::arguments::Arguments;

@@ -8,8 +8,8 @@ use std::path::PathBuf;
 use branched_pendulum::ParameterError;
 use branched_pendulum::analysis::truncation::TruncationError;
 use branched_pendulum::analysis::{ModesError, SpectrumError};
-use branched_pendulum::chart::ChartError;
 use branched_pendulum::data::CsvError;
+use branched_pendulum_charts::ChartError;
 
 /// Why the program could not finish.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use branched_pendulum::chart::{Axis, Chart, Panel};
+use branched_pendulum_charts::{Axis, Chart, Panel};
 
 use super::failure::Failure;
 use super::report::level_matrix;

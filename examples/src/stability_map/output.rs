@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use branched_pendulum::chart::{Axis, Chart, Color, Panel, Series, Symbol};
 use branched_pendulum::data::{Column, CsvWriter};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
+use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
 
 use super::verdict::{DAMPED_ANGLE, Verdict, damped, damped_model, damped_reference, ideal};
 use crate::branched_double::Failure;

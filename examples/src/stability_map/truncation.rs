@@ -4,10 +4,10 @@
 use std::path::{Path, PathBuf};
 
 use branched_pendulum::analysis::truncation::{Background, PhaseAverage, logarithmic};
-use branched_pendulum::chart::{Axis, Chart, Color, Panel, Series, Symbol};
 use branched_pendulum::data::{Column, CsvWriter};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::{TransferForm, TransferForms};
+use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
 
 use crate::branched_double::Failure;
 use crate::transfer_orders::Apparatus;

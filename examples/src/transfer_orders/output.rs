@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use branched_pendulum::analysis::truncation::ErrorCurve;
-use branched_pendulum::chart::{Axis, Chart, Panel, Series};
 use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 
 use super::study::{AMPLITUDES, Study};
 use crate::branched_double::Failure;

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use branched_pendulum::chart::{Axis, Chart, Panel, Series};
 use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 
 use super::measure::{EnergyDrift, METHODS, Measurement, time_to_error};
 use crate::branched_double::Failure;

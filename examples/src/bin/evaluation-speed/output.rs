@@ -3,8 +3,8 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use branched_pendulum::chart::{Axis, Chart, ChartError, Panel, Series};
 use branched_pendulum::scalar::InstructionSet;
+use branched_pendulum_charts::{Axis, Chart, ChartError, Panel, Series};
 
 use super::accuracy::Errors;
 use super::large;

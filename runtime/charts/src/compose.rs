@@ -1,17 +1,17 @@
-use super::arrange::{
+use crate::arrange::{
     EDGE, LABEL_GAP, LABEL_LINE, LABEL_SIZE, LEGEND_GAP, PanelPlan, Plan, TICK, TICK_GAP,
     TICK_LINE, TICK_SIZE, TITLE_LINE, TITLE_SIZE,
 };
-use super::clip::{self, Rect};
-use super::decimate;
-use super::description::{Chart, Panel, Series};
-use super::drawing::{Anchor, Drawing, Mark, Point, Text};
-use super::font::Font;
-use super::guides;
-use super::label::Label;
-use super::legend::{self, Entry};
-use super::style::{Color, Dash, Style, Symbol};
-use super::ticks::Ticks;
+use crate::clip::{self, Rect};
+use crate::decimate;
+use crate::description::{Chart, Panel, Series};
+use crate::drawing::{Anchor, Drawing, Mark, Point, Text};
+use crate::font::Font;
+use crate::guides;
+use crate::label::Label;
+use crate::legend::{self, Entry};
+use crate::style::{Color, Dash, Style, Symbol};
+use crate::ticks::Ticks;
 
 const GRID: Color = Color::rgb(228, 228, 228);
 const GUIDE: Color = Color::rgb(90, 90, 90);
@@ -20,7 +20,7 @@ const LINE_WIDTH: f64 = 1.8;
 const RADIUS: f64 = 4.0;
 
 /// The chart as marks, from back to front.
-pub(super) fn draw(chart: &Chart, plan: &Plan) -> Drawing {
+pub(crate) fn draw(chart: &Chart, plan: &Plan) -> Drawing {
     let mut marks = Vec::new();
     for (panel, place) in chart.panels.iter().zip(&plan.panels) {
         draw_grid(plan, place, &mut marks);

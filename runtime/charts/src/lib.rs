@@ -4,7 +4,7 @@
 //! above each other; a panel holds [`Series`], marker lines and a y axis.
 //!
 //! ```no_run
-//! use branched_pendulum::chart::{Axis, Chart, ChartError, Panel};
+//! use branched_pendulum_charts::{Axis, Chart, ChartError, Panel};
 //!
 //! # fn main() -> Result<(), ChartError> {
 //! let time = [0.0, 0.1, 0.2, 0.3];

@@ -1,33 +1,33 @@
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-use super::error::ChartError;
+use crate::error::ChartError;
 
-const DATA: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
+const DATA: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
 
 /// The embedded font: metrics for the layout, outlines for the PNG.
-pub(super) struct Font {
+pub(crate) struct Font {
     face: Face<'static>,
     units_per_em: f64,
 }
 
 impl Font {
     /// Height of capitals above the baseline, in em.
-    pub(super) const CAP: f64 = 0.73;
+    pub(crate) const CAP: f64 = 0.73;
 
-    pub(super) fn embedded() -> Result<Self, ChartError> {
+    pub(crate) fn embedded() -> Result<Self, ChartError> {
         let face = Face::parse(DATA, 0).map_err(|_| ChartError::Font)?;
         let units_per_em = f64::from(face.units_per_em());
         Ok(Self { face, units_per_em })
     }
 
     /// Width in em by which a character moves the pen.
-    pub(super) fn advance(&self, character: char) -> f64 {
+    pub(crate) fn advance(&self, character: char) -> f64 {
         let units = self.face.glyph_hor_advance(self.glyph(character));
         f64::from(units.unwrap_or(0)) / self.units_per_em
     }
 
     /// Outlines of `text`, the pen at `(x, y)` (px, y down).
-    pub(super) fn outline(
+    pub(crate) fn outline(
         &self,
         text: &str,
         (mut x, y): (f64, f64),
@@ -86,7 +86,7 @@ fn is_combining(character: char) -> bool {
 }
 
 /// What takes outlines, in px with y down.
-pub(super) trait Outline {
+pub(crate) trait Outline {
     fn move_to(&mut self, x: f32, y: f32);
     fn line_to(&mut self, x: f32, y: f32);
     fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32);

@@ -1,12 +1,12 @@
 use std::collections::BTreeSet;
 
-use super::drawing::Point;
+use crate::drawing::Point;
 
 /// Reduces a line to what can be seen of it: of consecutive points in one
 /// column of pixels the first, the lowest, the highest and the last stay, in
 /// their order. `None` separates lines. Linear in the number of points; works
 /// for any order of x, but thins out only what stays in its column.
-pub(super) fn lines(points: impl Iterator<Item = Option<Point>>) -> Vec<Vec<Point>> {
+pub(crate) fn lines(points: impl Iterator<Item = Option<Point>>) -> Vec<Vec<Point>> {
     let mut lines = Vec::new();
     let mut line = Vec::new();
     let mut column: Option<Column> = None;
@@ -80,7 +80,7 @@ fn flush(column: &mut Option<Column>, line: &mut Vec<Point>) {
 }
 
 /// Reduces symbols to one for each pixel, the first.
-pub(super) fn symbols(points: impl Iterator<Item = Point>) -> Vec<Point> {
+pub(crate) fn symbols(points: impl Iterator<Item = Point>) -> Vec<Point> {
     let mut taken = BTreeSet::new();
     points
         .filter(|(x, y)| taken.insert((x.floor() as i64, y.floor() as i64)))

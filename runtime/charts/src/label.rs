@@ -1,8 +1,8 @@
-use super::font::Font;
+use crate::font::Font;
 
 /// Where a run of text stands relative to the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Level {
+pub(crate) enum Level {
     Line,
     Sub,
     Super,
@@ -10,7 +10,7 @@ pub(super) enum Level {
 
 impl Level {
     /// Size of the glyphs relative to those on the line.
-    pub(super) const fn size(self) -> f64 {
+    pub(crate) const fn size(self) -> f64 {
         match self {
             Self::Line => 1.0,
             Self::Sub | Self::Super => 0.72,
@@ -18,7 +18,7 @@ impl Level {
     }
 
     /// Downward shift of the baseline, in em of the line.
-    pub(super) const fn drop(self) -> f64 {
+    pub(crate) const fn drop(self) -> f64 {
         match self {
             Self::Line => 0.0,
             Self::Sub => 0.2,
@@ -29,21 +29,21 @@ impl Level {
 
 /// Text at one level.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Run {
-    pub(super) level: Level,
-    pub(super) text: String,
+pub(crate) struct Run {
+    pub(crate) level: Level,
+    pub(crate) text: String,
 }
 
 /// One line of text with raised and lowered parts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Label {
-    pub(super) runs: Vec<Run>,
+pub(crate) struct Label {
+    pub(crate) runs: Vec<Run>,
 }
 
 impl Label {
     /// Reads the markup described in the module documentation; any text is
     /// valid.
-    pub(super) fn parse(markup: &str) -> Self {
+    pub(crate) fn parse(markup: &str) -> Self {
         let mut label = Self::default();
         let mut rest = markup;
         while let Some(character) = rest.chars().next() {
@@ -92,16 +92,16 @@ impl Label {
     }
 
     /// The text without its levels.
-    pub(super) fn plain(&self) -> String {
+    pub(crate) fn plain(&self) -> String {
         self.runs.iter().map(|run| run.text.as_str()).collect()
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
 
     /// Width in px at a font size in px.
-    pub(super) fn width(&self, font: &Font, size: f64) -> f64 {
+    pub(crate) fn width(&self, font: &Font, size: f64) -> f64 {
         let em: f64 = self.characters().map(|(l, c)| em_width(font, l, c)).sum();
         em * size
     }
@@ -114,7 +114,7 @@ impl Label {
 
     /// Breaks the text at spaces, and a word that is too long anywhere, so that
     /// no line is wider than `width` px. An empty label has no line.
-    pub(super) fn wrap(&self, font: &Font, size: f64, width: f64) -> Vec<Self> {
+    pub(crate) fn wrap(&self, font: &Font, size: f64, width: f64) -> Vec<Self> {
         let mut lines: Vec<Self> = Vec::new();
         let mut line = Self::default();
         let mut line_width = 0.0;
@@ -175,7 +175,7 @@ fn em_width(font: &Font, level: Level, character: char) -> f64 {
 }
 
 /// Width in px of the widest of some lines.
-pub(super) fn widest(lines: &[Label], font: &Font, size: f64) -> f64 {
+pub(crate) fn widest(lines: &[Label], font: &Font, size: f64) -> f64 {
     lines
         .iter()
         .map(|line| line.width(font, size))

@@ -1,12 +1,12 @@
 /// Whether `digits` times ten to the power `exponent`, with its leading digit
 /// in the decade `leading`, reads better written out than with a power of ten.
-pub(super) const fn reads_plain(leading: i32) -> bool {
+pub(crate) const fn reads_plain(leading: i32) -> bool {
     -3 <= leading && leading <= 4
 }
 
 /// The decade of the leading digit of `digits` x 10^`exponent`; that of the
 /// unit for zero.
-pub(super) fn leading_decade(digits: i64, exponent: i32) -> i32 {
+pub(crate) fn leading_decade(digits: i64, exponent: i32) -> i32 {
     match digits.unsigned_abs().checked_ilog10() {
         Some(log) => exponent + log as i32,
         None => 0,
@@ -15,7 +15,7 @@ pub(super) fn leading_decade(digits: i64, exponent: i32) -> i32 {
 
 /// `digits` x 10^`exponent` written out, exactly, with a proper minus sign.
 /// Zero is `0`, whatever its exponent.
-pub(super) fn plain(digits: i64, exponent: i32) -> String {
+pub(crate) fn plain(digits: i64, exponent: i32) -> String {
     if digits == 0 {
         return "0".into();
     }
@@ -32,13 +32,13 @@ pub(super) fn plain(digits: i64, exponent: i32) -> String {
 }
 
 /// The power of ten as label markup.
-pub(super) fn power(exponent: i32) -> String {
+pub(crate) fn power(exponent: i32) -> String {
     format!("10^{{{}}}", plain(i64::from(exponent), 0))
 }
 
 /// `digits` x 10^`exponent` as label markup: written out where it reads well,
 /// with a power of ten otherwise.
-pub(super) fn number(mut digits: i64, mut exponent: i32) -> String {
+pub(crate) fn number(mut digits: i64, mut exponent: i32) -> String {
     while digits != 0 && digits % 10 == 0 {
         digits /= 10;
         exponent += 1;

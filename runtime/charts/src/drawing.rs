@@ -1,24 +1,24 @@
-use super::label::Label;
-use super::style::{Color, Dash, Symbol};
+use crate::label::Label;
+use crate::style::{Color, Dash, Symbol};
 
 /// Longest side of a canvas in px, and of a PNG in pixels.
-pub(super) const LARGEST_SIDE: f64 = 16384.0;
+pub(crate) const LARGEST_SIDE: f64 = 16384.0;
 
 /// A point of the canvas in px, y down.
-pub(super) type Point = (f64, f64);
+pub(crate) type Point = (f64, f64);
 
 /// What both file formats draw, in this order, on white.
 #[derive(Debug)]
-pub(super) struct Drawing {
-    pub(super) width: f64,
-    pub(super) height: f64,
+pub(crate) struct Drawing {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
     /// Title without markup, for screen readers.
-    pub(super) title: String,
-    pub(super) marks: Vec<Mark>,
+    pub(crate) title: String,
+    pub(crate) marks: Vec<Mark>,
 }
 
 #[derive(Debug)]
-pub(super) enum Mark {
+pub(crate) enum Mark {
     Lines {
         lines: Vec<Vec<Point>>,
         color: Color,
@@ -35,7 +35,7 @@ pub(super) enum Mark {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     Start,
     Middle,
     End,
@@ -43,7 +43,7 @@ pub(super) enum Anchor {
 
 impl Anchor {
     /// Part of the width that lies before the anchor.
-    pub(super) const fn before(self) -> f64 {
+    pub(crate) const fn before(self) -> f64 {
         match self {
             Self::Start => 0.0,
             Self::Middle => 0.5,
@@ -54,12 +54,12 @@ impl Anchor {
 
 /// One line of text.
 #[derive(Clone, Debug)]
-pub(super) struct Text {
-    pub(super) label: Label,
+pub(crate) struct Text {
+    pub(crate) label: Label,
     /// The anchor, on the baseline.
-    pub(super) at: Point,
-    pub(super) anchor: Anchor,
-    pub(super) size: f64,
+    pub(crate) at: Point,
+    pub(crate) anchor: Anchor,
+    pub(crate) size: f64,
     /// Reads upwards instead of to the right.
-    pub(super) upwards: bool,
+    pub(crate) upwards: bool,
 }

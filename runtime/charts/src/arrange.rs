@@ -1,67 +1,67 @@
-use super::axis::{Scale, scales};
-use super::clip::Rect;
-use super::description::{Chart, Panel};
-use super::drawing::LARGEST_SIDE;
-use super::error::ChartError;
-use super::font::Font;
-use super::guides::{self, Guide};
-use super::label::{Label, widest};
-use super::legend::{self, Legend};
-use super::style::Style;
-use super::ticks::{Ticks, ticks};
+use crate::axis::{Scale, scales};
+use crate::clip::Rect;
+use crate::description::{Chart, Panel};
+use crate::drawing::LARGEST_SIDE;
+use crate::error::ChartError;
+use crate::font::Font;
+use crate::guides::{self, Guide};
+use crate::label::{Label, widest};
+use crate::legend::{self, Legend};
+use crate::style::Style;
+use crate::ticks::{Ticks, ticks};
 
 /// Font sizes and line heights, px.
-pub(super) const TITLE_SIZE: f64 = 16.0;
-pub(super) const TITLE_LINE: f64 = 21.0;
-pub(super) const LABEL_SIZE: f64 = 13.5;
-pub(super) const LABEL_LINE: f64 = 18.0;
-pub(super) const TICK_SIZE: f64 = 12.0;
-pub(super) const TICK_LINE: f64 = 16.0;
+pub(crate) const TITLE_SIZE: f64 = 16.0;
+pub(crate) const TITLE_LINE: f64 = 21.0;
+pub(crate) const LABEL_SIZE: f64 = 13.5;
+pub(crate) const LABEL_LINE: f64 = 18.0;
+pub(crate) const TICK_SIZE: f64 = 12.0;
+pub(crate) const TICK_LINE: f64 = 16.0;
 /// Length of a tick, and space between it and its label.
-pub(super) const TICK: f64 = 5.0;
-pub(super) const TICK_GAP: f64 = 3.0;
+pub(crate) const TICK: f64 = 5.0;
+pub(crate) const TICK_GAP: f64 = 3.0;
 /// Space between the edge of the canvas and what it holds.
-pub(super) const EDGE: f64 = 12.0;
+pub(crate) const EDGE: f64 = 12.0;
 /// Space between the label of an axis and its tick labels.
-pub(super) const LABEL_GAP: f64 = 7.0;
+pub(crate) const LABEL_GAP: f64 = 7.0;
 /// Space between panels, and between panels and the legend below.
 const PANEL_GAP: f64 = 18.0;
-pub(super) const LEGEND_GAP: f64 = 10.0;
+pub(crate) const LEGEND_GAP: f64 = 10.0;
 
 const LEAST_SIZE: (f64, f64) = (320.0, 200.0);
 /// Least width and height of a panel that can be read.
 const LEAST_PANEL: (f64, f64) = (120.0, 100.0);
 
 /// Where everything stands.
-pub(super) struct Plan {
-    pub(super) width: f64,
-    pub(super) height: f64,
-    pub(super) title: Vec<Label>,
-    pub(super) x: XAxis,
-    pub(super) panels: Vec<PanelPlan>,
-    pub(super) legend: Legend,
+pub(crate) struct Plan {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) title: Vec<Label>,
+    pub(crate) x: XAxis,
+    pub(crate) panels: Vec<PanelPlan>,
+    pub(crate) legend: Legend,
 }
 
-pub(super) struct XAxis {
-    pub(super) scale: Scale,
-    pub(super) ticks: Ticks,
-    pub(super) label: Vec<Label>,
+pub(crate) struct XAxis {
+    pub(crate) scale: Scale,
+    pub(crate) ticks: Ticks,
+    pub(crate) label: Vec<Label>,
     /// What is common to the tick labels has a line of its own, since the
     /// label of the axis leaves no room beside it.
-    pub(super) common_below: bool,
+    pub(crate) common_below: bool,
 }
 
-pub(super) struct PanelPlan {
-    pub(super) frame: Rect,
-    pub(super) scale: Scale,
-    pub(super) ticks: Ticks,
-    pub(super) label: Vec<Label>,
-    pub(super) guides: Vec<Guide>,
-    pub(super) styles: Vec<Style>,
+pub(crate) struct PanelPlan {
+    pub(crate) frame: Rect,
+    pub(crate) scale: Scale,
+    pub(crate) ticks: Ticks,
+    pub(crate) label: Vec<Label>,
+    pub(crate) guides: Vec<Guide>,
+    pub(crate) styles: Vec<Style>,
 }
 
 /// Finds the place of everything.
-pub(super) fn arrange(chart: &Chart, font: &Font) -> Result<Plan, ChartError> {
+pub(crate) fn arrange(chart: &Chart, font: &Font) -> Result<Plan, ChartError> {
     let sides = [(chart.width, LEAST_SIZE.0), (chart.height, LEAST_SIZE.1)];
     let usable = |(side, least)| side >= least && side <= LARGEST_SIDE;
     if !sides.into_iter().all(usable) {
@@ -238,7 +238,7 @@ impl Sketch<'_> {
 
 impl XAxis {
     /// Height of ticks, tick labels and label below the last panel.
-    pub(super) fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         let common = if self.common_below { TICK_LINE } else { 0.0 };
         // What is common to the tick labels stands in the label's first line.
         let lines = self
@@ -250,7 +250,7 @@ impl XAxis {
     }
 }
 
-pub(super) fn tick_labels(ticks: &Ticks) -> Vec<Label> {
+pub(crate) fn tick_labels(ticks: &Ticks) -> Vec<Label> {
     let labels = ticks.major.iter();
     labels.map(|tick| Label::parse(&tick.label)).collect()
 }

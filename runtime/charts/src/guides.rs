@@ -1,28 +1,28 @@
-use super::axis::Scale;
-use super::clip::Rect;
-use super::description::Panel;
-use super::font::Font;
-use super::label::{Label, widest};
+use crate::axis::Scale;
+use crate::clip::Rect;
+use crate::description::Panel;
+use crate::font::Font;
+use crate::label::{Label, widest};
 
 /// Font size and line height of the labels of marker lines, px.
-pub(super) const SIZE: f64 = 12.5;
-pub(super) const LINE: f64 = 16.0;
+pub(crate) const SIZE: f64 = 12.5;
+pub(crate) const LINE: f64 = 16.0;
 
 /// A vertical marker line with its label above the panel.
-pub(super) struct Guide {
+pub(crate) struct Guide {
     /// Where the line stands.
-    pub(super) x: f64,
+    pub(crate) x: f64,
     /// Middle of the label.
-    pub(super) text_x: f64,
+    pub(crate) text_x: f64,
     /// Row of the label's last line; 0 is next to the panel.
-    pub(super) row: usize,
-    pub(super) lines: Vec<Label>,
+    pub(crate) row: usize,
+    pub(crate) lines: Vec<Label>,
 }
 
 /// Lays the labels of a panel's marker lines into rows so that none overlaps.
 /// `reserved` px at the left of row 0 are taken by another text. Returns the
 /// guides in view and the number of rows.
-pub(super) fn place(
+pub(crate) fn place(
     panel: &Panel,
     scale: &Scale,
     frame: &Rect,

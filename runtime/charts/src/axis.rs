@@ -1,14 +1,14 @@
-use super::description::{Axis, Chart, Panel, Series};
-use super::error::ChartError;
-use super::ticks::rounded_outwards;
+use crate::description::{Axis, Chart, Panel, Series};
+use crate::error::ChartError;
+use crate::ticks::rounded_outwards;
 
 /// The part of an axis that is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Scale {
-    pub(super) log: bool,
+pub(crate) struct Scale {
+    pub(crate) log: bool,
     /// Ends as coordinates: values, or their logarithms to base 10.
-    pub(super) low: f64,
-    pub(super) high: f64,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
 }
 
 /// Spans of linear axes for which ticks can be computed without overflow.
@@ -20,7 +20,7 @@ const MARGIN: f64 = 0.05;
 
 impl Scale {
     /// A linear scale, if its span can be divided.
-    pub(super) fn linear(low: f64, high: f64) -> Option<Self> {
+    pub(crate) fn linear(low: f64, high: f64) -> Option<Self> {
         let log = false;
         let resolved = high - low > RESOLVED * low.abs().max(high.abs());
         (resolved && SPANS.contains(&(high - low))).then_some(Self { log, low, high })
@@ -28,7 +28,7 @@ impl Scale {
 
     /// Place of a value between the ends, 0 to 1 inside; `None` where the axis
     /// has no such value.
-    pub(super) fn fraction(&self, value: f64) -> Option<f64> {
+    pub(crate) fn fraction(&self, value: f64) -> Option<f64> {
         if !drawable(self.log, value) {
             return None;
         }
@@ -36,7 +36,7 @@ impl Scale {
     }
 
     /// Place of a coordinate between the ends.
-    pub(super) fn place(&self, coordinate: f64) -> f64 {
+    pub(crate) fn place(&self, coordinate: f64) -> f64 {
         (coordinate - self.low) / (self.high - self.low)
     }
 
@@ -96,12 +96,12 @@ fn padding(log: bool, from: f64, to: f64, margin: f64) -> f64 {
 }
 
 /// Whether an axis has such a value.
-pub(super) fn drawable(log: bool, value: f64) -> bool {
+pub(crate) fn drawable(log: bool, value: f64) -> bool {
     value.is_finite() && (!log || value > 0.0)
 }
 
 /// The scale of the x axis and those of the panels' y axes.
-pub(super) fn scales(chart: &Chart) -> Result<(Scale, Vec<Scale>), ChartError> {
+pub(crate) fn scales(chart: &Chart) -> Result<(Scale, Vec<Scale>), ChartError> {
     if chart.panels.is_empty() {
         return Err(ChartError::Empty { panel: None });
     }

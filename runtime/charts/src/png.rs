@@ -2,15 +2,15 @@ use tiny_skia::{
     FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash, Transform,
 };
 
-use super::drawing::{Drawing, LARGEST_SIDE, Mark, Point, Text};
-use super::error::ChartError;
-use super::font::{Font, Outline};
-use super::style::{Color, Dash, Symbol};
+use crate::drawing::{Drawing, LARGEST_SIDE, Mark, Point, Text};
+use crate::error::ChartError;
+use crate::font::{Font, Outline};
+use crate::style::{Color, Dash, Symbol};
 
 const BLACK: Color = Color::rgb(0, 0, 0);
 
 /// The drawing as a PNG of `scale` pixels per px.
-pub(super) fn encode(drawing: &Drawing, font: &Font, scale: f64) -> Result<Vec<u8>, ChartError> {
+pub(crate) fn encode(drawing: &Drawing, font: &Font, scale: f64) -> Result<Vec<u8>, ChartError> {
     let error = || ChartError::Size {
         width: drawing.width,
         height: drawing.height,

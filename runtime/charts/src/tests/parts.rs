@@ -1,10 +1,10 @@
-use crate::chart::axis::Scale;
-use crate::chart::clip::{self, Rect};
-use crate::chart::decimal::number;
-use crate::chart::decimate;
-use crate::chart::font::{Font, Outline};
-use crate::chart::label::{Label, Level};
-use crate::chart::ticks::{Ticks, ticks};
+use crate::axis::Scale;
+use crate::clip::{self, Rect};
+use crate::decimal::number;
+use crate::decimate;
+use crate::font::{Font, Outline};
+use crate::label::{Label, Level};
+use crate::ticks::{Ticks, ticks};
 
 type Failure = Result<(), Box<dyn std::error::Error>>;
 

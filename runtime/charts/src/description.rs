@@ -1,52 +1,52 @@
 use std::fs;
 use std::path::Path;
 
-use super::arrange;
-use super::compose;
-use super::error::ChartError;
-use super::font::Font;
-use super::style::{Color, Dash, Symbol};
-use super::{png, svg};
+use crate::arrange;
+use crate::compose;
+use crate::error::ChartError;
+use crate::font::Font;
+use crate::style::{Color, Dash, Symbol};
+use crate::{png, svg};
 
 /// Description of a chart: plain data until it is rendered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    pub(super) title: String,
-    pub(super) x: Axis,
-    pub(super) panels: Vec<Panel>,
-    pub(super) width: f64,
-    pub(super) height: f64,
-    pub(super) scale: f64,
+    pub(crate) title: String,
+    pub(crate) x: Axis,
+    pub(crate) panels: Vec<Panel>,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) scale: f64,
 }
 
 /// An axis: its label, its kind and, where given, its range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    pub(super) label: String,
-    pub(super) log: bool,
-    pub(super) range: Option<(f64, f64)>,
+    pub(crate) label: String,
+    pub(crate) log: bool,
+    pub(crate) range: Option<(f64, f64)>,
 }
 
 /// One set of axes of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    pub(super) y: Axis,
-    pub(super) series: Vec<Series>,
-    pub(super) verticals: Vec<(f64, String)>,
-    pub(super) zero_line: bool,
+    pub(crate) y: Axis,
+    pub(crate) series: Vec<Series>,
+    pub(crate) verticals: Vec<(f64, String)>,
+    pub(crate) zero_line: bool,
 }
 
 /// Samples drawn as a line, as symbols, or as both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    pub(super) label: String,
-    pub(super) x: Vec<f64>,
-    pub(super) y: Vec<f64>,
-    pub(super) joined: bool,
-    pub(super) symbols: bool,
-    pub(super) color: Option<Color>,
-    pub(super) dash: Option<Dash>,
-    pub(super) symbol: Option<Symbol>,
+    pub(crate) label: String,
+    pub(crate) x: Vec<f64>,
+    pub(crate) y: Vec<f64>,
+    pub(crate) joined: bool,
+    pub(crate) symbols: bool,
+    pub(crate) color: Option<Color>,
+    pub(crate) dash: Option<Dash>,
+    pub(crate) symbol: Option<Symbol>,
 }
 
 impl Axis {

@@ -31,7 +31,7 @@ pub enum Dash {
 
 impl Dash {
     /// Lengths in px of strokes and gaps by turns; empty for a solid line.
-    pub(super) const fn pattern(self) -> &'static [f32] {
+    pub(crate) const fn pattern(self) -> &'static [f32] {
         match self {
             Self::Solid => &[],
             Self::Dashed => &[7.0, 3.0],
@@ -63,7 +63,7 @@ pub enum Symbol {
 impl Symbol {
     /// Corners for a symbol of radius 1, y down; empty for the disc. The sizes
     /// differ so that the areas look equal.
-    pub(super) const fn corners(self) -> &'static [(f64, f64)] {
+    pub(crate) const fn corners(self) -> &'static [(f64, f64)] {
         // Half the thickness of a bar of the crosses, and that bar turned by
         // 45 degrees.
         const B: f64 = 0.36;
@@ -110,11 +110,11 @@ impl Symbol {
 
 /// What distinguishes one series from the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Style {
-    pub(super) color: Color,
+pub(crate) struct Style {
+    pub(crate) color: Color,
     /// `None` where the samples are not joined.
-    pub(super) dash: Option<Dash>,
-    pub(super) symbol: Option<Symbol>,
+    pub(crate) dash: Option<Dash>,
+    pub(crate) symbol: Option<Symbol>,
 }
 
 /// The colours of Okabe and Ito, which people with any of the common forms of
@@ -144,7 +144,7 @@ const SYMBOLS: [Symbol; 7] = [
 
 /// Colour, dash and symbol of the `index`-th series. Four dashes against seven
 /// colours: the first 28 series differ pairwise.
-pub(super) fn automatic(index: usize) -> (Color, Dash, Symbol) {
+pub(crate) fn automatic(index: usize) -> (Color, Dash, Symbol) {
     (
         PALETTE[index % PALETTE.len()],
         DASHES[index % DASHES.len()],

@@ -1,38 +1,38 @@
-use super::description::{Chart, Series};
-use super::font::Font;
-use super::label::{Label, widest};
-use super::style::{Dash, Style, automatic};
+use crate::description::{Chart, Series};
+use crate::font::Font;
+use crate::label::{Label, widest};
+use crate::style::{Dash, Style, automatic};
 
 /// Font size, line height, and sizes of the sample in front of the text, px.
-pub(super) const SIZE: f64 = 12.5;
-pub(super) const LINE: f64 = 16.0;
-pub(super) const SAMPLE: f64 = 30.0;
-pub(super) const GAP: f64 = 7.0;
+pub(crate) const SIZE: f64 = 12.5;
+pub(crate) const LINE: f64 = 16.0;
+pub(crate) const SAMPLE: f64 = 30.0;
+pub(crate) const GAP: f64 = 7.0;
 /// Space between entries, vertically and horizontally.
-pub(super) const ROW_GAP: f64 = 4.0;
-pub(super) const COLUMN_GAP: f64 = 22.0;
+pub(crate) const ROW_GAP: f64 = 4.0;
+pub(crate) const COLUMN_GAP: f64 = 22.0;
 /// Space between a panel and the legend at its right.
-pub(super) const SIDE_GAP: f64 = 14.0;
+pub(crate) const SIDE_GAP: f64 = 14.0;
 
 /// Part of the chart's width that a legend at the right may take.
 const WIDEST_SIDE: f64 = 0.3;
 
 /// The explanation of the series, with its place.
-pub(super) struct Legend {
+pub(crate) struct Legend {
     /// Entries for each panel at whose right they stand. Below, the only list.
-    pub(super) lists: Vec<Vec<Entry>>,
-    pub(super) below: bool,
+    pub(crate) lists: Vec<Vec<Entry>>,
+    pub(crate) below: bool,
     /// Width of the widest entry.
-    pub(super) cell: f64,
+    pub(crate) cell: f64,
 }
 
-pub(super) struct Entry {
-    pub(super) style: Style,
-    pub(super) lines: Vec<Label>,
+pub(crate) struct Entry {
+    pub(crate) style: Style,
+    pub(crate) lines: Vec<Label>,
 }
 
 impl Entry {
-    pub(super) fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         self.lines.len() as f64 * LINE + ROW_GAP
     }
 }
@@ -40,7 +40,7 @@ impl Entry {
 impl Legend {
     /// The legend of panels as high as `heights`: at the right if it is narrow
     /// enough and no panel's entries are higher than the panel, else below.
-    pub(super) fn plan(
+    pub(crate) fn plan(
         chart: &Chart,
         styles: &[Vec<Style>],
         font: &Font,
@@ -93,7 +93,7 @@ impl Legend {
     }
 
     /// Width that the legend takes from the panels.
-    pub(super) fn side_width(&self) -> f64 {
+    pub(crate) fn side_width(&self) -> f64 {
         if self.below || self.cell == 0.0 {
             0.0
         } else {
@@ -102,7 +102,7 @@ impl Legend {
     }
 
     /// The rows of a legend below that is `width` wide.
-    pub(super) fn rows(&self, width: f64) -> Vec<&[Entry]> {
+    pub(crate) fn rows(&self, width: f64) -> Vec<&[Entry]> {
         let columns = (width + COLUMN_GAP) / (self.cell + COLUMN_GAP);
         let columns = (columns.floor() as usize).max(1);
         let list = self.lists.first().filter(|_| self.below);
@@ -112,14 +112,14 @@ impl Legend {
     }
 }
 
-pub(super) fn row_height(row: &[Entry]) -> f64 {
+pub(crate) fn row_height(row: &[Entry]) -> f64 {
     row.iter().map(Entry::height).fold(0.0, f64::max)
 }
 
 /// The style of each series of each panel. Distinct labels count on through
 /// all panels, so that a legend for the whole chart is unambiguous; each series
 /// without a label counts as one more.
-pub(super) fn styles(chart: &Chart) -> Vec<Vec<Style>> {
+pub(crate) fn styles(chart: &Chart) -> Vec<Vec<Style>> {
     let mut known: Vec<&str> = Vec::new();
     let mut style = |series| automatic_for(series, &mut known);
     let panels = chart.panels.iter();

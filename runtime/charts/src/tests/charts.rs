@@ -1,7 +1,7 @@
-use crate::chart::arrange::arrange;
-use crate::chart::drawing::{Drawing, Mark, Text};
-use crate::chart::font::Font;
-use crate::chart::{Axis, Chart, ChartError, Panel, compose, style};
+use crate::arrange::arrange;
+use crate::drawing::{Drawing, Mark, Text};
+use crate::font::Font;
+use crate::{Axis, Chart, ChartError, Panel, compose, style};
 
 type Failure = Result<(), Box<dyn std::error::Error>>;
 

@@ -1,15 +1,15 @@
 use std::fmt::Write;
 
-use super::drawing::{Anchor, Drawing, Mark, Point, Text};
-use super::label::{Label, Level};
-use super::style::{Color, Dash, Symbol};
+use crate::drawing::{Anchor, Drawing, Mark, Point, Text};
+use crate::label::{Label, Level};
+use crate::style::{Color, Dash, Symbol};
 
 /// DejaVu Sans first, of which the layout knows the widths; those after it are
 /// as wide or narrower. Kerning, which the layout leaves out, stays off.
 const FAMILIES: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
 
 /// The drawing as an SVG 1.1 document.
-pub(super) fn document(drawing: &Drawing) -> String {
+pub(crate) fn document(drawing: &Drawing) -> String {
     let (width, height) = (Px(drawing.width), Px(drawing.height));
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" \

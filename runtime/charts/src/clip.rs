@@ -1,24 +1,24 @@
-use super::drawing::Point;
+use crate::drawing::Point;
 
 /// An area of the canvas in px.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Rect {
-    pub(super) left: f64,
-    pub(super) top: f64,
-    pub(super) right: f64,
-    pub(super) bottom: f64,
+pub(crate) struct Rect {
+    pub(crate) left: f64,
+    pub(crate) top: f64,
+    pub(crate) right: f64,
+    pub(crate) bottom: f64,
 }
 
 impl Rect {
-    pub(super) fn width(&self) -> f64 {
+    pub(crate) fn width(&self) -> f64 {
         self.right - self.left
     }
 
-    pub(super) fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         self.bottom - self.top
     }
 
-    pub(super) fn contains(&self, (x, y): Point) -> bool {
+    pub(crate) fn contains(&self, (x, y): Point) -> bool {
         // A hair of slack: an extreme sample lies on the edge up to rounding.
         let slack = 1e-6;
         (self.left - slack..=self.right + slack).contains(&x)
@@ -27,7 +27,7 @@ impl Rect {
 }
 
 /// The parts of a line inside `area`, as lines of their own.
-pub(super) fn line(points: &[Point], area: &Rect) -> Vec<Vec<Point>> {
+pub(crate) fn line(points: &[Point], area: &Rect) -> Vec<Vec<Point>> {
     if let [only] = points {
         return match area.contains(*only) {
             true => vec![vec![*only]],

@@ -1,24 +1,24 @@
-use super::axis::Scale;
-use super::decimal::{leading_decade, number, plain, power, reads_plain};
+use crate::axis::Scale;
+use crate::decimal::{leading_decade, number, plain, power, reads_plain};
 
 /// A labelled tick.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Tick {
+pub(crate) struct Tick {
     /// Coordinate along the axis: the value, or its logarithm to base 10.
-    pub(super) at: f64,
+    pub(crate) at: f64,
     /// Text as label markup.
-    pub(super) label: String,
+    pub(crate) label: String,
 }
 
 /// The ticks of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Ticks {
-    pub(super) major: Vec<Tick>,
+pub(crate) struct Ticks {
+    pub(crate) major: Vec<Tick>,
     /// Coordinates of ticks without label.
-    pub(super) minor: Vec<f64>,
+    pub(crate) minor: Vec<f64>,
     /// What is common to all labels, as label markup: a power of ten that
     /// multiplies them, and a number to be added after that.
-    pub(super) common: Option<String>,
+    pub(crate) common: Option<String>,
 }
 
 /// Labels of more digits than this have their common part taken out.
@@ -26,7 +26,7 @@ const MOST_DIGITS: u32 = 6;
 
 /// Ticks for a scale, `most` with labels at most where `most` >= 2. With 5 or
 /// more allowed, a linear scale has 2 at least.
-pub(super) fn ticks(scale: &Scale, most: usize) -> Ticks {
+pub(crate) fn ticks(scale: &Scale, most: usize) -> Ticks {
     if scale.log {
         logarithmic(scale.low, scale.high, most)
     } else {
@@ -98,7 +98,7 @@ fn multiples(low: f64, high: f64, step: i64, exponent: i32) -> (i64, i64) {
 
 /// The range, its ends moved outwards to a multiple of a coarse step where
 /// one lies closer than a hundredth of the span: 0 to 19.99 becomes 0 to 20.
-pub(super) fn rounded_outwards(low: f64, high: f64) -> (f64, f64) {
+pub(crate) fn rounded_outwards(low: f64, high: f64) -> (f64, f64) {
     let span = high - low;
     let (step, exponent) = step_at_least(span / 10.0);
     let (first, last) = multiples(low, high, step, exponent);
