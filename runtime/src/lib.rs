@@ -101,6 +101,7 @@ pub mod sectors;
 pub mod system;
 pub mod taylor;
 pub mod transfer_forms;
+pub mod tree;
 
 // What emitted code names, at the shortest path.
 pub use model::{ParameterError, Transfer};
