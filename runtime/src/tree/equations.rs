@@ -17,12 +17,19 @@ pub struct LinkMotion<V> {
     pub joint_rate: V,
 }
 
-/// A fixed number of values: an array.
-pub trait Row<V>: Copy + AsRef<[V]> + AsMut<[V]> {
+mod sealed {
+    pub trait Sealed {}
+
+    impl<V, const N: usize> Sealed for [V; N] {}
+}
+
+/// A fixed number of values: an array, and nothing else.
+pub trait Row<V>: Copy + AsRef<[V]> + AsMut<[V]> + sealed::Sealed {
     /// Number of values.
     const LENGTH: usize;
 
-    /// The row that has `value` everywhere.
+    /// Returns the row that has `value` everywhere.
+    #[doc(hidden)]
     fn filled(value: V) -> Self;
 }
 
@@ -70,9 +77,8 @@ pub trait LinkEquations: Copy + Send + Sync + 'static {
     /// link by link, with a row a link.
     const COPIES: &'static [usize];
 
-    /// All children of a link hang from one pivot: [`attach`](Self::attach) and
-    /// [`pivot`](Self::pivot) are not called. Holds for every tree by generations.
-    const ONE_PIVOT: bool;
+    /// Names of the generations; empty where [`COPIES`](Self::COPIES) is.
+    const NAMES: &'static [&'static str];
 
     /// The functions read [`joint_angle`](LinkMotion::joint_angle) or
     /// [`joint_rate`](LinkMotion::joint_rate).
@@ -86,7 +92,7 @@ pub trait LinkEquations: Copy + Send + Sync + 'static {
     fn leaf<V: Scalar>(constants: &Self::Constants<V>, link: LinkMotion<V>) -> Self::Response<V>;
 
     /// Returns the response of a child about the pivot of its parent, whose motion
-    /// is given.
+    /// is given: the response as it is where all children share one pivot.
     fn attach<V: Scalar>(
         child: &Self::Constants<V>,
         parent: LinkMotion<V>,
@@ -101,8 +107,9 @@ pub trait LinkEquations: Copy + Send + Sync + 'static {
         below: Self::Sums<V>,
     ) -> (Self::Response<V>, Self::Elimination<V>);
 
-    /// Returns the acceleration of a child's pivot. (Of a parent's motion, joint
-    /// angle and rate are not there for this and for [`attach`](Self::attach).)
+    /// Returns the acceleration of a child's pivot: what the parent hands down as it
+    /// is where all children share one. (Joint angle and rate of a parent are left
+    /// open here and for [`attach`](Self::attach).)
     fn pivot<V: Scalar>(
         child: &Self::Constants<V>,
         parent: LinkMotion<V>,
