@@ -98,6 +98,7 @@ pub mod model;
 pub mod prelude;
 pub mod scalar;
 pub mod sectors;
+mod simd;
 pub mod system;
 pub mod taylor;
 pub mod transfer_forms;
