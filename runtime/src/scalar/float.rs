@@ -4,11 +4,12 @@
 use super::Lanes;
 use super::lanes::{Lane, Sealed};
 #[cfg(target_arch = "x86_64")]
-use super::register;
-use super::{Real, Scalar, sincos};
+use crate::simd as register;
+use super::{InstructionSet, Real, Scalar, sincos};
 use crate::generations::{Loops, SliceKernel, vectors};
 use crate::system::cast::{self, Cast};
-use crate::taylor::{Kernel, run_f64};
+use crate::simd::{Kernel, dispatch};
+use crate::taylor::{Kernel as TaylorKernel, run_f64};
 
 macro_rules! implement_scalar {
     ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
@@ -44,6 +45,11 @@ macro_rules! implement_scalar {
                 vectors::run(kernel);
             }
 
+            #[inline]
+            fn dispatch<K: Kernel<Self>>(kernel: K) -> K::Output {
+                dispatch::run_wide(InstructionSet::widest(), kernel)
+            }
+
             // Compiled here, not where it is called.
             #[inline(never)]
             fn loops() -> Loops<Self> {
@@ -63,7 +69,7 @@ macro_rules! implement_scalar {
 
             $(
                 #[inline(always)]
-                fn run_packs<K: Kernel<Self>>(kernel: K) {
+                fn run_packs<K: TaylorKernel<Self>>(kernel: K) {
                     $packs(kernel);
                 }
             )?
