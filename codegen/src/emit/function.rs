@@ -14,7 +14,7 @@ pub(super) struct Written {
     pub(super) lines: Vec<Line>,
     pub(super) locals: Locals,
     pub(super) gathered: Gathered,
-    /// Whether it is to be written in parts.
+    /// True if the body is to be written in parts.
     pub(super) long: bool,
 }
 

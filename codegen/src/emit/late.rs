@@ -43,9 +43,9 @@ struct Late<'e, 'p> {
 }
 
 impl Emission<'_> {
-    /// Whether this function's body stands in `evaluate`, in the order in which
-    /// the values are needed: accelerations whose values do not fit into
-    /// registers, if the compiler sees them as a whole.
+    /// Returns true if this function's body stands in `evaluate`, in the order
+    /// in which the values are needed. That holds for accelerations whose
+    /// values do not fit into registers, if the compiler sees them as a whole.
     pub(super) fn is_late(&self, entry: &Entry, written: &Written) -> bool {
         self.program.without != Some(Pass::Order)
             && entry.purpose == Purpose::Accelerations
@@ -104,7 +104,7 @@ impl Emission<'_> {
         }
     }
 
-    /// What a long `evaluate` calls.
+    /// Parts of a long `evaluate`, as functions of their own.
     pub(super) fn late_parts(
         &self,
         entry: &Entry,
@@ -223,7 +223,8 @@ impl Late<'_, '_> {
         }
     }
 
-    /// Whether a line reads inputs alone, at once or through others that do.
+    /// Returns true if a line reads inputs alone, at once or through others
+    /// that do.
     fn is_early(&self, line: &Line) -> bool {
         let input = |id: &ValueId| matches!(self.emission.op(*id), Op::Input(..));
         let known = |id: &ValueId| input(id) || self.early.contains_key(id);

@@ -51,7 +51,7 @@ pub(crate) struct Emission<'a> {
 
 /// The tokens that stand where the attributed struct stood.
 ///
-/// The same input gives the same tokens. Linear in the program's length.
+/// Equal input gives equal tokens. Linear in the program's length.
 pub fn emit(
     item: &StructItem,
     scene: &Scene,

@@ -11,10 +11,10 @@ const LONGEST_NAME: usize = 48;
 /// the compiler recurses.
 const DEEPEST: usize = 16;
 
-/// What the accelerations of long trees call other things than values.
+/// Names that the accelerations of long trees give to other things than values.
 const RESERVED: [&str; 2] = ["turns", "alpha"];
 
-/// Which values of a function get a `let`, and what they are called.
+/// Names of the values of a function that get a `let`.
 pub(super) struct Locals {
     pub(super) names: BTreeMap<ValueId, String>,
     /// Sums that are written with a product in them.

@@ -52,12 +52,13 @@ impl Line {
     }
 }
 
-/// Whether these lines are too many for one function.
+/// Returns true if these lines are too many for one function.
 pub(super) fn long(lines: &[Line]) -> bool {
     height(lines) > MOST_LINES
 }
 
-/// Whether a function of these lines is compiled as a whole, in parts or not.
+/// Returns true if a function of these lines is compiled as a whole, in parts
+/// or not.
 pub(super) fn is_whole(lines: &[Line]) -> bool {
     height(lines) <= MOST_INLINED
 }

@@ -22,9 +22,9 @@ use symbolica::symbol;
 pub enum AlgebraError {
     /// The lock file cannot be opened or locked.
     Lock {
-        /// Where the lock file is.
+        /// Path of the lock file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: std::io::Error,
     },
     /// An observable divides by a constant of the model that is zero in this
@@ -185,12 +185,12 @@ impl Formula {
         Self(self.0.pow(Atom::num(i64::from(exponent))))
     }
 
-    /// Whether the formula is literally zero; expand first.
+    /// Returns true if the formula is literally zero; expand first.
     pub fn is_zero(&self) -> bool {
         self.0.is_zero()
     }
 
-    /// Whether the formula is no sum.
+    /// Returns true if the formula is no sum.
     pub fn is_term(&self) -> bool {
         !matches!(self.0.as_view(), AtomView::Add(_))
     }

@@ -52,7 +52,7 @@ pub struct Constant {
     pub symbol: SymbolId,
     /// Its value in terms of the scene's parameters.
     pub value: Expr,
-    /// What it means, in words.
+    /// Its meaning in words.
     pub meaning: String,
     /// Its unit.
     pub unit: &'static str,
@@ -151,7 +151,7 @@ pub struct Transfer {
 /// W cut off at an order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truncated {
-    /// What counts as small.
+    /// Quantities that count as small.
     pub counting: Counting,
     /// The highest order kept.
     pub order: u32,
@@ -181,7 +181,7 @@ pub struct Expansion {
     pub leading: Vec<Entry>,
     /// Velocities of higher orders, each in terms of earlier ones.
     pub corrections: Vec<Correction>,
-    /// The same solved and written out, for small blocks.
+    /// w and the inverse mass matrix solved and written out, for small blocks.
     pub written_out: Option<WrittenOut>,
 }
 
@@ -214,7 +214,7 @@ pub struct Mechanics {
     pub combinations: Vec<Combination>,
     /// Constants of the model, in the order of their symbols.
     pub constants: Vec<Constant>,
-    /// What moves the tree from outside, if anything does.
+    /// The drive, if the scene has one.
     pub drive: Option<Drive>,
     /// The mechanics in absolute angles.
     pub absolute: Frame,

@@ -182,7 +182,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// What the observables of a frame refer to.
+    /// Symbols and definitions that the observables of a frame refer to.
     fn observable_frame(
         &self,
         frame: &Frame,

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ConstantId(pub u32);
 
-/// How a constant is formed.
+/// Operation that forms a constant.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ConstantOp {
     /// A number.
@@ -48,7 +48,7 @@ impl ConstantOp {
 /// A constant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConstantDefinition {
-    /// How it is formed.
+    /// The operation that forms it.
     pub op: ConstantOp,
     /// Its value, where no parameter is involved.
     pub exact: Option<Rational>,
@@ -164,8 +164,8 @@ impl Setup {
         }
     }
 
-    /// Whether the signs that the scene demands of its parameters make a
-    /// constant positive.
+    /// Returns true if the signs that the scene demands of its parameters make
+    /// a constant positive.
     pub(super) fn is_positive(&self, id: ConstantId, scene: &Scene) -> bool {
         let positive = |id: &ConstantId| self.is_positive(*id, scene);
         match &self.get(id).op {

@@ -1,6 +1,6 @@
-//! What observables of nested trees refer to, formed on means and differences:
-//! momenta, forces, energies, and the solves with the mass matrix. What the
-//! symmetry makes zero is exactly zero here too.
+//! Quantities that observables of nested trees refer to, formed on means and
+//! differences: momenta, forces, energies, and the solves with the mass matrix.
+//! Components that the symmetry makes zero are exactly zero here too.
 
 use super::ValueId;
 use super::copies::{Copies, Factors, Fields, Orbit, Values, orbits};

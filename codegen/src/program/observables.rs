@@ -51,7 +51,7 @@ struct Ways<'a> {
     phase: Door<'a>,
     velocities: [Argument; 2],
     momenta: [Argument; 2],
-    /// What the accelerations are computed from.
+    /// Arguments from which the accelerations are computed.
     rates: Vec<Argument>,
     /// On nested trees, what solves with the mass matrix.
     formed: Option<Formed<'a>>,

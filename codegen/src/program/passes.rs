@@ -33,7 +33,7 @@ pub enum Pass {
     AngleAddition,
     /// A common factor of several terms is multiplied once.
     CommonFactors,
-    /// Of two solves the cheaper one.
+    /// The cheaper of two solves is taken.
     Choice,
     /// Products are part of the sums that they feed.
     Fusing,
@@ -84,7 +84,8 @@ impl Pass {
         Self::ALL.into_iter().find(|pass| pass.name() == name)
     }
 
-    /// Whether it changes what a function computes; if not, only how it is written.
+    /// Returns true if the pass changes the operations of a function; if not,
+    /// it changes only how they are written.
     fn is_counted(self) -> bool {
         !matches!(self, Self::Order | Self::Splitting)
     }

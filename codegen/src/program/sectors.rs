@@ -9,7 +9,8 @@ use crate::mechanics::{Counting, Mechanics, Sectors};
 use crate::scene::{BudgetRequest, Scene};
 
 impl EntryList<'_, '_> {
-    /// What [`EntryList::symmetric`] gives for flat trees.
+    /// Motion and momenta in symmetric coordinates, as [`EntryList::symmetric`]
+    /// gives them for flat trees.
     pub(super) fn symmetric_by_copies(&mut self, scene: &Scene, sectors: &Sectors) {
         use Argument::{Coordinates, Momenta, Rates};
         let mechanics = self.lowering.mechanics;

@@ -1,5 +1,5 @@
-//! What every stage says about the fixture scenes, pinned as snapshots, and
-//! that it says the same each time.
+//! The text of every stage for the fixture scenes, pinned as snapshots, and
+//! equal each time.
 
 mod determinism;
 mod ladder;

@@ -100,7 +100,8 @@ impl Copies<'_> {
         }
     }
 
-    /// The same transfer (definition A1) by what does it.
+    /// The transfer of [`canonical_share`](Self::canonical_share) by definition
+    /// A1, in the parts of kinetic and potential energy.
     pub(in crate::program) fn transfer_parts(
         &mut self,
         values: &Values,

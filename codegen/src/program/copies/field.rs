@@ -1,17 +1,17 @@
 //! Arithmetic on quantities that every link of an orbit has, held as their
 //! mean and Helmert differences (physics §3) instead of copy by copy.
 //!
-//! What makes this worth its operations: a difference that is exactly zero
-//! stays so, and a small one keeps its own relative accuracy, which
-//! subtracting copies would destroy. On a nested tree the basis is Haar's,
-//! with products that couple each branching to those below it.
+//! This is worth its operations: a difference that is exactly zero stays so,
+//! and a small one keeps its own relative accuracy, which subtracting copies
+//! would destroy. On a nested tree the basis is Haar's, with products that
+//! couple each branching to those below it.
 
 use super::series::{Graded, Series};
 use super::tree::{Branch, Orbit, structure, weight};
 use crate::exact::Rational;
 use std::collections::BTreeMap;
 
-/// Which difference: index of the group, number of the difference from 1.
+/// A difference: index of the group, number of the difference from 1.
 pub(in crate::program) type Place = (usize, usize);
 
 /// One quantity of every link of an orbit: link = mean + Σ weight · difference.
@@ -28,7 +28,7 @@ impl Field {
         Self::uniform(orbit, Series::default())
     }
 
-    /// The same in every link.
+    /// A field of one value in every link.
     pub(super) fn uniform(orbit: usize, mean: Series) -> Self {
         Self {
             orbit,
@@ -53,7 +53,7 @@ impl Field {
         }
     }
 
-    /// Whether links within one copy of this branching differ.
+    /// Returns true if links within one copy of this branching differ.
     pub(super) fn varies_below(&self, branch: Option<&Branch>) -> bool {
         branch.is_some_and(|branch| {
             (1..=branch.differences())
@@ -193,7 +193,7 @@ impl<'b> Copies<'b> {
             .collect()
     }
 
-    /// What a copy has beyond the mean of all copies.
+    /// Deviation of a copy from the mean of all copies.
     pub(super) fn offset(&mut self, branch: &Branch, f: &Field, copy: usize) -> Series {
         let mut sum = Series::default();
         for index in 1..=branch.differences() {

@@ -302,8 +302,9 @@ impl Copies<'_> {
         self.accumulate(gradient, &above);
     }
 
-    /// What stands against M θ̈ of the motion itself: for each coupling m(Δ),
-    /// m′ ω² of the other link, centrifugal and no Coriolis terms.
+    /// Terms that stand against M θ̈ and come of the motion itself: for each
+    /// coupling m(Δ), m′ ω² of the other link, centrifugal and no Coriolis
+    /// terms.
     pub(super) fn centrifugal(&mut self, pose: &Pose, rates: &Fields) -> Fields {
         let squares: Fields = rates.iter().map(|rate| self.mul(rate, rate)).collect();
         self.all_hinted(&squares, "omega_squared");

@@ -1,5 +1,5 @@
-//! What the means and differences of fields are called in code, and fields from
-//! the values of single links.
+//! Names of the means and differences of fields in code, and fields from the
+//! values of single links.
 
 use super::field::{Copies, Field};
 use super::motion::Fields;

@@ -16,8 +16,8 @@ pub(in crate::program) struct Kinematics {
     velocities: Vec<Plane>,
 }
 
-/// What a sector's energy changes with: for each link, its angle at fixed
-/// momenta, and its momentum.
+/// Slopes of a sector's energy: for each link, by its angle at fixed momenta,
+/// and by its momentum.
 pub(in crate::program) struct Slopes {
     angles: Fields,
     momenta: Fields,

@@ -16,7 +16,7 @@ impl Copies<'_> {
         let start = self.reciprocal_of_leading(&leading);
         let rest = self.sub(f, &leading);
         let mut result = start.clone();
-        // What is left is small: each round gains one order.
+        // The residual is small: each round gains one order.
         for _ in 0..self.graded.truncation.unwrap_or(0) {
             let product = self.mul(&rest, &result);
             let correction = self.mul(&start, &product);

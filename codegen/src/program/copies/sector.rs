@@ -7,7 +7,7 @@ use super::series::Series;
 use super::tree::{Branch, weight};
 use std::collections::BTreeMap;
 
-/// Which sector: a difference, or the means.
+/// A sector: one difference, or the means.
 pub(in crate::program) type Which = Option<Place>;
 
 /// Lower triangle of a symmetric matrix of the orbits in a sector.
@@ -30,7 +30,7 @@ impl Field {
         }
     }
 
-    /// What of the field lies in a sector.
+    /// The part of the field that lies in a sector.
     pub(super) fn restricted(&self, which: Which) -> Self {
         let mut part = Self::zero(self.orbit);
         part.set(which, self.component(which));
@@ -176,7 +176,7 @@ impl<'b> Copies<'b> {
         self.with_diagonal(values, which, block)
     }
 
-    /// The same with all angles zero.
+    /// The sector's block of the mass matrix with all angles zero.
     pub(super) fn block_at_rest(&mut self, values: &Values, pose: &Pose, which: Which) -> Block {
         let block = self.block_of(pose, which, |_, entry| {
             let coupling = values

@@ -39,7 +39,7 @@ impl Series {
 /// Arithmetic on series.
 pub(in crate::program) struct Graded<'b> {
     pub(in crate::program) builder: &'b mut Builder,
-    /// Whether differences count as small, and the highest order kept.
+    /// Highest order kept, if differences count as small.
     pub(in crate::program) truncation: Option<usize>,
 }
 

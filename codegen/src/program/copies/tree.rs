@@ -1,4 +1,4 @@
-//! How the links of an orbit branch into copies.
+//! The branching of an orbit's links into copies.
 
 use crate::exact::Rational;
 use crate::mechanics::Coordinate;

@@ -18,7 +18,7 @@ use super::{TIME, batch_agrees, derivatives_agree, lanes_meet_the_plain_method};
 )]
 struct Shaken;
 
-/// It is the first link of one.
+/// A tree whose first link alone is driven by a torque.
 #[branched_pendulum(
     gravity = 9.80665,
     tree: generations(count = 5, branching = 2, shape = rod, mass = 0.12, length = 0.3,
