@@ -34,7 +34,7 @@ pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{Drive, PivotMotion, Temporal};
 pub use inverse_mass::Counting;
 pub use observables::{
-    Canonical, EnergySymbols, FormedSymbols, FunctionOf, Observable, ObservableFrame, Observables,
+    Canonical, EnergySymbols, FunctionOf, NestedSymbols, Observable, ObservableFrame, Observables,
     System,
 };
 pub use print::{latex, text};

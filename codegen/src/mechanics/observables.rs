@@ -65,7 +65,7 @@ pub struct System {
 /// defines: written out, they would fill pages. One for each coordinate; none
 /// where none is used.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct FormedSymbols {
+pub struct NestedSymbols {
     /// ∂L/∂q_i at fixed velocities, with the drive.
     pub forces: Vec<SymbolId>,
     /// Forces of friction and drag Q_i.
@@ -102,7 +102,7 @@ pub struct ObservableFrame {
     pub friction: Option<System>,
     /// Symbols that the program forms on means and differences, on nested
     /// trees.
-    pub formed: FormedSymbols,
+    pub nested: NestedSymbols,
     /// Forces, slopes of H and changes of M in coordinates and velocities.
     pub definitions: BTreeMap<SymbolId, Expr>,
     /// The momenta in coordinates and velocities; none where no observable
