@@ -94,8 +94,8 @@ impl Emission<'_> {
     /// The body of a function, and the parts behind it if it is long.
     fn body(&self, entry: &Entry, needed: &[ValueId]) -> (TokenStream, TokenStream) {
         let written = self.written(entry, needed);
-        if self.is_late(entry, &written) {
-            let parts = self.late_parts(entry, needed, &written);
+        if self.is_sunk(entry, &written) {
+            let parts = self.sunk_parts(entry, needed, &written);
             return (self.through_evaluate(entry), parts);
         }
         if written.long {

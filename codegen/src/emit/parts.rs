@@ -217,7 +217,7 @@ impl Emission<'_> {
         };
         let needed = self.program.needed(&entry.outputs);
         let written = self.written(entry, &needed);
-        if !written.long || self.is_late(entry, &written) {
+        if !written.long || self.is_sunk(entry, &written) {
             return TokenStream::new();
         }
         let Written { lines, locals, .. } = written;

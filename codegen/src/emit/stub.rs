@@ -154,7 +154,7 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
         }
 
         impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
-            fn freedoms(&self) -> usize { 0 }
+            fn degrees_of_freedom(&self) -> usize { 0 }
             fn canonical_rates(&self, _: T, _: &[T], _: &[T], _: &mut [T], _: &mut [T]) {}
         }
 

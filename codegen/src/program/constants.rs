@@ -2,7 +2,7 @@
 //! description's numbers and parameters; everything else is formed from them
 //! once, exactly where no parameter is involved.
 
-use super::spelling;
+use super::constant_names;
 use crate::exact::Rational;
 use crate::scene::{Scene, Sign};
 use std::collections::BTreeMap;
@@ -205,7 +205,7 @@ impl Setup {
         }
         let id = ConstantId(self.definitions.len() as u32);
         let exact = self.value(&op);
-        let wanted = name.map_or_else(|| spelling::constant(self, &op), str::to_owned);
+        let wanted = name.map_or_else(|| constant_names::constant(self, &op), str::to_owned);
         // A parameter keeps its name in texts, so it claims none; should it become
         // a field, `emit` tells the two apart.
         let name = match op {

@@ -8,6 +8,7 @@
 mod angles;
 mod builder;
 mod choice;
+pub(crate) mod constant_names;
 mod constants;
 mod count;
 mod dead;
@@ -30,7 +31,6 @@ mod rules;
 mod scale;
 mod sectors;
 mod solve;
-pub(crate) mod spelling;
 mod symmetric;
 mod taylor;
 mod terms;

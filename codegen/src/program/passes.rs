@@ -8,7 +8,7 @@
 //! | common factors | `factors.rs` | on whole programs |
 //! | fusing | `fuse.rs` | on an entry point, for emission and interpreter alike |
 //! | dead code | `dead.rs` | on an entry point, which is the program pruned to its outputs |
-//! | order | `emit/late.rs` | on accelerations with more values than registers |
+//! | order | `emit/sink.rs` | on accelerations with more values than registers |
 //! | splitting | `emit/parts.rs` | on functions that are too long for the compiler |
 //!
 //! Every one keeps what [`Program::verify`] checks, and the meaning: exactly, or within

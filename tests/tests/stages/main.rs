@@ -3,9 +3,9 @@
 
 mod determinism;
 mod ladder;
-mod late;
 mod lengths;
 mod pages;
 mod passes;
 mod prose;
+mod sink;
 mod snapshots;
