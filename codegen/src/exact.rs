@@ -88,27 +88,27 @@ impl Rational {
         )))
     }
 
-    /// Whether the number is 0.
+    /// Returns true if the number is 0.
     pub fn is_zero(&self) -> bool {
         self.0.is_zero()
     }
 
-    /// Whether the number is 1.
+    /// Returns true if the number is 1.
     pub fn is_one(&self) -> bool {
         self.0.is_one()
     }
 
-    /// Whether the number is below 0.
+    /// Returns true if the number is below 0.
     pub fn is_negative(&self) -> bool {
         self.0.is_negative()
     }
 
-    /// Whether the number is a whole one.
+    /// Returns true if the number is an integer.
     pub fn is_integer(&self) -> bool {
         self.0.is_integer()
     }
 
-    /// Whether numerator and denominator have at most
+    /// Returns true if numerator and denominator have at most
     /// [`MAX_BITS`](Self::MAX_BITS) bits each, so that a chain of operations
     /// can be kept from growing without limit.
     pub fn is_short(&self) -> bool {

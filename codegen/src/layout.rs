@@ -9,7 +9,8 @@ const WIDTH: usize = 89;
 /// `impl`, stand a blank line apart.
 ///
 /// # Errors
-/// Where the tokens are no Rust file, which those of [`crate::expand`] always are.
+/// An error if the tokens are no Rust file; those of [`crate::expand`] always
+/// are one.
 pub fn layout(tokens: TokenStream) -> syn::Result<String> {
     let file = syn::parse2(tokens)?;
     Ok(spaced(&prettyplease::unparse(&file)))
@@ -43,7 +44,7 @@ fn spaced(text: &str) -> String {
     spaced
 }
 
-/// Whether `line` begins an item behind one that ends with `before`.
+/// Returns true if `line` begins an item behind one that ends with `before`.
 fn is_apart(before: &str, line: &str) -> bool {
     let (outer, item) = unindented(line);
     let (inner, end) = unindented(before);
@@ -67,8 +68,9 @@ fn is_apart(before: &str, line: &str) -> bool {
         )
 }
 
-/// Whether a slice is taken apart from here on, over several lines. (Arrays that
-/// take several lines have none of their elements on the first one.)
+/// Returns true if a slice is taken apart from here on, over several lines.
+/// (Arrays that take several lines have none of their elements on the first
+/// one.)
 fn is_open_pattern(line: &str) -> bool {
     let pattern = line.trim_start();
     let pattern = pattern.strip_prefix("let ").unwrap_or(pattern);

@@ -34,11 +34,11 @@ use scene::Scene;
 /// Everything that the stages produce for one attribute.
 #[derive(Debug)]
 pub struct Stages {
-    /// What the user wrote.
+    /// The attribute as written.
     pub description: Description,
     /// The validated tree.
     pub scene: Scene,
-    /// What was derived for it.
+    /// The mechanics that were derived for it.
     pub mechanics: Mechanics,
     /// The code to write, as a flat program.
     pub program: Program,
@@ -55,10 +55,11 @@ pub fn stages(attribute: TokenStream, item: TokenStream) -> Result<Stages, (Repo
     stages_without(None, attribute, item)
 }
 
-/// The same without one of the passes over programs, to see what that one is worth.
+/// As [`stages`], but without one of the passes over programs, to see the worth
+/// of that one.
 ///
 /// # Errors
-/// Those of [`stages`].
+/// The errors of [`stages`].
 pub fn stages_without(
     off: Option<Pass>,
     attribute: TokenStream,

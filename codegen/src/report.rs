@@ -22,7 +22,7 @@ pub use wording::Problem;
 pub struct Diagnostic {
     /// The tokens that are wrong.
     pub span: Span,
-    /// What is wrong with them.
+    /// Message about them.
     pub message: Message,
 }
 
@@ -55,7 +55,7 @@ impl Report {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Whether nothing was wrong.
+    /// Returns true if nothing was wrong.
     pub fn is_empty(&self) -> bool {
         self.diagnostics.is_empty()
     }

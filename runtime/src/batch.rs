@@ -71,7 +71,8 @@ pub struct Batch<'m, P, T> {
     instructions: InstructionSet,
     /// One state: angles, velocities, accelerations.
     alone: [Vec<T>; 3],
-    /// What a register of states is computed in, where that is not registers.
+    /// Workspace for a register of states, where the model does not compute in
+    /// registers.
     room: Vec<T>,
 }
 
@@ -148,7 +149,7 @@ impl<'m, P: Cast<T>, T: Lane> Batch<'m, P, T> {
 }
 
 impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
-    /// Where there are too few states for a register.
+    /// Evaluates states one by one, where there are too few for a register.
     fn one_by_one(
         &mut self,
         time: T,

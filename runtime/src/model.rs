@@ -9,9 +9,9 @@ use crate::scalar::dispatch::Kernel;
 /// tree that it comes from: {H_d, K − T} and {H_d, U − V}.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Transfer<T> {
-    /// What the kinetic energy does, W_K.
+    /// Part of the kinetic energy, W_K.
     pub kinetic: T,
-    /// What the potential energy does, W_P.
+    /// Part of the potential energy, W_P.
     pub potential: T,
 }
 
@@ -25,7 +25,7 @@ impl<T: Add<Output = T>> Transfer<T> {
 /// A part of an emitted function that is too long to be one.
 #[doc(hidden)]
 pub trait Part<const NUMBER: usize, A> {
-    /// What it hands on.
+    /// The values that the part hands on.
     type Output;
 
     /// Computes it.
@@ -55,7 +55,7 @@ pub struct ParameterError {
     pub what: &'static str,
     /// Its value, in SI units.
     pub value: f64,
-    /// What it has to be, as in "positive".
+    /// The condition on it, as in "positive".
     pub requirement: &'static str,
 }
 
@@ -117,7 +117,8 @@ impl core::error::Error for ParameterError {}
 /// A link as [`require_regular`] sees it. SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkBody {
-    /// What is zero where the link turns without energy, for the message.
+    /// Name of the quantity that is zero where the link turns without energy,
+    /// for the message.
     pub what: &'static str,
     /// Index of the parent, which stands before the link.
     pub parent: Option<usize>,

@@ -1,4 +1,5 @@
-//! What emitted code implements, and how integrators see it.
+//! The traits that emitted code implements, and the systems that integrators
+//! see.
 //!
 //! A description becomes a type that implements [`Pendulum`] (accelerations in
 //! absolute angles), [`Energy`], and, where the tree has identical siblings,

@@ -126,7 +126,7 @@ fn projection_onto_the_energy() {
 struct Mass;
 
 impl Canonical<f64> for Mass {
-    fn freedoms(&self) -> usize {
+    fn degrees_of_freedom(&self) -> usize {
         1
     }
 

@@ -271,7 +271,7 @@ fn replace(source: &str, mut replacements: Vec<(Range<usize>, String)>, path: &P
         text.push_str(source.get(at..range.start).unwrap_or_default());
         text.push_str(&replacement);
         at = range.end;
-        // What is left out takes its line along.
+        // A region that is left out takes its line along.
         let rest = source.get(at..).unwrap_or_default();
         if replacement.is_empty() && rest.starts_with('\n') {
             at += 1;

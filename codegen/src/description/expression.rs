@@ -18,7 +18,7 @@ const MAX_DEGREE: u32 = 8;
 pub struct Expression {
     /// Its tokens; the first of them where the compiler does not join spans.
     pub span: Span,
-    /// What it says.
+    /// Its form and its parts.
     pub kind: ExpressionKind,
 }
 
@@ -46,7 +46,7 @@ pub enum ExpressionKind {
     Call {
         /// The function.
         function: Ident,
-        /// What stands in its parentheses.
+        /// The expression in its parentheses.
         argument: Box<Expression>,
     },
 }
@@ -212,7 +212,7 @@ impl Expression {
         Err(expected(input, Self::WHAT))
     }
 
-    /// How a value is called where one is missing.
+    /// Wording for a value where one is missing.
     const WHAT: &'static str = "a number or the name of a parameter";
 
     /// The opposite if `negative`, by a minus at `sign`.

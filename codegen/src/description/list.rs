@@ -7,11 +7,11 @@ use syn::parse::{ParseStream, Parser as _};
 
 use crate::report::{Diagnostic, Message, Report};
 
-/// What could be read of a list.
+/// The readable members of a list.
 pub(super) struct List<T> {
     /// The members that could be read.
     pub(super) members: Vec<T>,
-    /// Whether there was another one.
+    /// True if the list has an unreadable member too.
     pub(super) damaged: bool,
 }
 
@@ -79,7 +79,7 @@ pub(super) fn parse_all<T>(
             }
         });
         outcome = Some(parsed);
-        // What is wrong is in `outcome`; syn is not to add to it.
+        // The mistake is in `outcome`; syn is not to add to it.
         input.parse::<TokenStream>().map(|_| ())
     };
     match (read.parse2(tokens), outcome) {

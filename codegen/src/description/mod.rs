@@ -1,4 +1,5 @@
-//! What the user wrote: the grammar of the attribute, with source positions.
+//! The description as written: the grammar of the attribute, with source
+//! positions.
 //!
 //! ```text
 //! attribute   = [ entry { "," entry } [ "," ] ]
@@ -65,12 +66,12 @@ pub struct Description {
     pub drive: Option<Drive>,
     /// The links at the top level; a right description has one.
     pub roots: Vec<Node>,
-    /// What `emit(...)` asks for.
+    /// Members of `emit(...)`.
     pub requests: Vec<Request>,
-    /// What `observe(...)` defines.
+    /// Members of `observe(...)`.
     pub observables: Vec<Observable>,
-    /// Whether part of it was unreadable, which is reported already: what is
-    /// missing may have stood there.
+    /// True if part of it was unreadable, which is reported already: anything
+    /// that is missing may have stood there.
     pub damaged: bool,
 }
 
@@ -117,14 +118,14 @@ pub struct StructItem {
     pub tokens: TokenStream,
 }
 
-/// What moves the tree from outside.
+/// The motion and the torque that are imposed from outside.
 #[derive(Debug, Clone)]
 pub struct Drive {
     /// The word `drive`.
     pub name: Ident,
-    /// What the parentheses hold.
+    /// Members of the parentheses.
     pub parts: Vec<Property>,
-    /// Whether part of it was unreadable, which is reported already.
+    /// True if part of it was unreadable, which is reported already.
     pub damaged: bool,
 }
 
@@ -133,21 +134,21 @@ pub struct Drive {
 pub struct Node {
     /// Its name.
     pub name: Ident,
-    /// What follows the colon: a shape, or `generations`.
+    /// Word behind the colon: a shape, or `generations`.
     pub shape: Option<Ident>,
-    /// What the parentheses hold.
+    /// Members of the parentheses.
     pub properties: Vec<Property>,
-    /// What the brackets hold.
+    /// Members of the brackets.
     pub children: Vec<Node>,
-    /// What follows the `*`.
+    /// Number behind the `*`.
     pub copies: Option<Multiplicity>,
-    /// Whether part of it was unreadable, which is reported already: what is
-    /// missing may have stood there.
+    /// True if part of it was unreadable, which is reported already: anything
+    /// that is missing may have stood there.
     pub damaged: bool,
 }
 
 impl Node {
-    /// Whether this link or one below it was unreadable in part.
+    /// Returns true if this link or one below it was unreadable in part.
     pub fn is_damaged(&self) -> bool {
         self.damaged || self.children.iter().any(Node::is_damaged)
     }
@@ -211,7 +212,7 @@ impl Value {
 pub struct Observable {
     /// Its name.
     pub name: Ident,
-    /// What it is.
+    /// Its definition.
     pub value: Expression,
 }
 
@@ -220,9 +221,9 @@ pub struct Observable {
 pub struct Request {
     /// Its name.
     pub name: Ident,
-    /// What its parentheses hold; `None` without parentheses.
+    /// Members of its parentheses; `None` without parentheses.
     pub forms: Option<Vec<Form>>,
-    /// Whether some of the forms were unreadable, which is reported already.
+    /// True if some of the forms were unreadable, which is reported already.
     pub damaged: bool,
 }
 
@@ -231,7 +232,7 @@ pub struct Request {
 pub struct Form {
     /// Its name.
     pub name: Ident,
-    /// What follows the `=`.
+    /// Number behind the `=`.
     pub value: Option<Multiplicity>,
     /// The names in its parentheses.
     pub members: Option<Vec<Ident>>,

@@ -1,5 +1,5 @@
-//! What is emitted about sectors besides functions: their list, and the docs
-//! of their energies.
+//! Emission about sectors besides functions: their list, and the docs of their
+//! energies.
 
 use super::Emission;
 use crate::mechanics::expression::Expr;

@@ -16,7 +16,7 @@ const ROWS: usize = 8;
 /// A formula longer than this is left to `expand --stage mechanics`.
 const LONGEST_FORMULA: usize = 600;
 
-/// What w is in formulas of transfers.
+/// Meaning of w in formulas of transfers.
 const IN_PHASE: &str = "In the formulas w are the angular velocities (in rad/s) of the in-phase motion: those that belong to the in-phase momenta where all differences vanish.";
 
 impl Emission<'_> {
@@ -24,7 +24,7 @@ impl Emission<'_> {
         mechanics::text(expr, &self.mechanics.symbols)
     }
 
-    /// What the model's docs say beside its author's words.
+    /// Docs of the model beside its author's words.
     pub(super) fn model_docs(&self) -> Vec<String> {
         let scene = self.scene;
         if let Some(generations) = &scene.generations {

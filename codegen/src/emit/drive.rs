@@ -26,7 +26,8 @@ impl Emission<'_> {
         vec![String::new(), format!("Driven by {what}.{frame}")]
     }
 
-    /// What the docs of a function of the kinetic energy add about the frame.
+    /// Sentence about the frame for the docs of a function of the kinetic
+    /// energy.
     pub(super) fn frame_note(&self) -> &'static str {
         if self.has_moving_pivot() {
             " In the frame of reference that moves with the root's pivot."
@@ -35,7 +36,7 @@ impl Emission<'_> {
         }
     }
 
-    /// What the docs of accelerations say after `at `.
+    /// Arguments before the angles, for the docs of accelerations behind `at `.
     pub(super) fn at_time(&self) -> &'static str {
         if self.mechanics.drive.is_some() {
             "`time` (in s), "
@@ -44,7 +45,7 @@ impl Emission<'_> {
         }
     }
 
-    /// What b depends on beside the state.
+    /// Arguments of b beside the state, for formulas.
     pub(super) fn and_time(&self) -> &'static str {
         if self.mechanics.drive.is_some() {
             ", t"
@@ -53,7 +54,7 @@ impl Emission<'_> {
         }
     }
 
-    /// What is missing from the conservative transfer.
+    /// Powers that the conservative transfer leaves out, for its docs.
     pub(super) fn on_top(&self) -> &'static str {
         if self.has_moving_pivot() {
             "the powers of friction and of the drive come on top"

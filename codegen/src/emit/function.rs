@@ -14,7 +14,7 @@ pub(super) struct Written {
     pub(super) lines: Vec<Line>,
     pub(super) locals: Locals,
     pub(super) gathered: Gathered,
-    /// Whether it is to be written in parts.
+    /// True if the body is to be written in parts.
     pub(super) long: bool,
 }
 
@@ -94,8 +94,8 @@ impl Emission<'_> {
     /// The body of a function, and the parts behind it if it is long.
     fn body(&self, entry: &Entry, needed: &[ValueId]) -> (TokenStream, TokenStream) {
         let written = self.written(entry, needed);
-        if self.is_late(entry, &written) {
-            let parts = self.late_parts(entry, needed, &written);
+        if self.is_sunk(entry, &written) {
+            let parts = self.sunk_parts(entry, needed, &written);
             return (self.through_evaluate(entry), parts);
         }
         if written.long {

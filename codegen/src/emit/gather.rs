@@ -118,7 +118,7 @@ impl Emission<'_> {
         }
     }
 
-    /// Whether the code names an element of an argument.
+    /// Returns true if the code names an element of an argument.
     pub(super) fn reads(&self, argument: Argument, read: &[ValueId]) -> bool {
         read.iter()
             .any(|&id| matches!(*self.op(id), Op::Input(of, _) if of == argument))

@@ -12,7 +12,6 @@ mod formulas;
 mod function;
 mod gather;
 mod generations;
-mod late;
 mod link_equations;
 mod loops;
 mod model;
@@ -22,6 +21,7 @@ mod one_link;
 mod parts;
 mod places;
 mod quantities;
+mod sink;
 mod stub;
 mod table;
 mod taylor;
@@ -51,7 +51,7 @@ pub(crate) struct Emission<'a> {
 
 /// The tokens that stand where the attributed struct stood.
 ///
-/// The same input gives the same tokens. Linear in the program's length.
+/// Equal input gives equal tokens. Linear in the program's length.
 pub fn emit(
     item: &StructItem,
     scene: &Scene,

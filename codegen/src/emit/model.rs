@@ -155,7 +155,7 @@ impl Emission<'_> {
         }
     }
 
-    /// How the constants are formed, of numbers or of parameters.
+    /// Functions that form the constants, of numbers or of parameters.
     pub(super) fn values(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let constants = self.constants();

@@ -1,7 +1,7 @@
 //! Names of the local values of an emitted function.
 
 use super::Emission;
-use crate::program::{Argument, Entry, Fused, Op, ValueId, spelling};
+use crate::program::{Argument, Entry, Fused, Op, ValueId, constant_names};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longer generated names say less than a number.
@@ -11,10 +11,10 @@ const LONGEST_NAME: usize = 48;
 /// the compiler recurses.
 const DEEPEST: usize = 16;
 
-/// What the accelerations of long trees call other things than values.
+/// Names that the accelerations of long trees give to other things than values.
 const RESERVED: [&str; 2] = ["turns", "alpha"];
 
-/// Which values of a function get a `let`, and what they are called.
+/// Names of the values of a function that get a `let`.
 pub(super) struct Locals {
     pub(super) names: BTreeMap<ValueId, String>,
     /// Sums that are written with a product in them.
@@ -144,7 +144,7 @@ impl Emission<'_> {
             _ => locals.names.get(&operand).cloned(),
         };
         let described = match self.op(id) {
-            Op::Number(number) => spelling::number(number),
+            Op::Number(number) => constant_names::number(number),
             Op::Neg(a) => format!("minus_{}", name(*a)?),
             Op::Add(a, b) => format!("{}_plus_{}", name(*a)?, name(*b)?),
             Op::Sub(a, b) => format!("{}_minus_{}", name(*a)?, name(*b)?),

@@ -52,12 +52,13 @@ impl Line {
     }
 }
 
-/// Whether these lines are too many for one function.
+/// Returns true if these lines are too many for one function.
 pub(super) fn long(lines: &[Line]) -> bool {
     height(lines) > MOST_LINES
 }
 
-/// Whether a function of these lines is compiled as a whole, in parts or not.
+/// Returns true if a function of these lines is compiled as a whole, in parts
+/// or not.
 pub(super) fn is_whole(lines: &[Line]) -> bool {
     height(lines) <= MOST_INLINED
 }
@@ -216,7 +217,7 @@ impl Emission<'_> {
         };
         let needed = self.program.needed(&entry.outputs);
         let written = self.written(entry, &needed);
-        if !written.long || self.is_late(entry, &written) {
+        if !written.long || self.is_sunk(entry, &written) {
             return TokenStream::new();
         }
         let Written { lines, locals, .. } = written;

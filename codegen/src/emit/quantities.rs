@@ -7,7 +7,7 @@ use crate::scene::Quantity;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-/// What the numbers of an expression are written in.
+/// Type in which the numbers of an expression are written.
 #[derive(Clone, Copy)]
 pub(super) enum Numbers {
     /// `f64`.

@@ -1,6 +1,6 @@
-//! What stands in for the model when the description is wrong: the type and
-//! its methods without meaning, so that an editor shows the description's
-//! errors and no others.
+//! Substitute of the model when the description is wrong: the type and its
+//! methods without meaning, so that an editor shows the description's errors
+//! and no others.
 
 use crate::description::{Description, Expression, ExpressionKind, Node, Value};
 use crate::scene::OBSERVABLE_SUFFIXES;
@@ -154,7 +154,7 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
         }
 
         impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
-            fn freedoms(&self) -> usize { 0 }
+            fn degrees_of_freedom(&self) -> usize { 0 }
             fn canonical_rates(&self, _: T, _: &[T], _: &[T], _: &mut [T], _: &mut [T]) {}
         }
 
@@ -194,7 +194,7 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     }
 }
 
-/// What the differences of groups of single links are called.
+/// Names of the differences of groups of single links.
 fn places(description: &Description) -> Vec<String> {
     let mut groups: Vec<(String, usize)> = Vec::new();
     let mut pending: Vec<&Node> = description.roots.iter().collect();

@@ -38,17 +38,18 @@ pub(super) struct Recurrences<'e> {
     pub(super) emission: &'e Emission<'e>,
     entry: &'e Entry,
     bias: &'e [ValueId],
-    /// What the coefficients of the bias need.
+    /// Values that the coefficients of the bias need.
     needed: Vec<ValueId>,
     links: usize,
     /// Names of the coefficients of order 0.
     pub(super) locals: Locals,
     /// Names of those of order k.
     names: BTreeMap<ValueId, Ident>,
-    /// Whether a value depends on the state or the time.
+    /// True for values that depend on the state or the time.
     pub(super) varies: BTreeMap<ValueId, bool>,
     sums: Vec<Sum>,
-    /// What k is called, and what holds the coefficients of the state.
+    /// Names of k and of the structure that holds the coefficients of the
+    /// state.
     order: Ident,
     known: Ident,
     order_number: Ident,
@@ -126,7 +127,7 @@ impl<'e> Recurrences<'e> {
         }
     }
 
-    /// Whether the recurrences of the tree are all there is.
+    /// Returns true if the recurrences of the tree are all there is.
     pub(super) fn is_empty(&self) -> bool {
         self.bias.iter().all(|id| !self.varies[id])
     }
@@ -141,7 +142,7 @@ impl<'e> Recurrences<'e> {
         self.sums.len()
     }
 
-    /// What they add to the workspace.
+    /// Quads that the sums add to the workspace.
     pub(super) fn room(&self) -> Option<TokenStream> {
         let size = Literal::usize_unsuffixed(2 * self.quads());
         (self.quads() > 0).then(|| quote!(+ #size * (order + 1)))
@@ -171,7 +172,7 @@ impl<'e> Recurrences<'e> {
         }
     }
 
-    /// Whether an operation needs a sum of products.
+    /// Returns true if an operation needs a sum of products.
     fn nonlinear(&self, op: &Op) -> bool {
         match *op {
             _ if self.is_given(op) => false,
@@ -288,8 +289,8 @@ impl<'e> Recurrences<'e> {
     }
 }
 
-/// What the bias needs: of sines and cosines of the time both, as their
-/// recurrences do.
+/// Values that the bias needs. Sines and cosines of the time come in pairs, as
+/// their recurrences need both.
 fn with_partners(emission: &Emission<'_>, bias: &[ValueId]) -> Vec<ValueId> {
     let mut outputs = bias.to_vec();
     for id in emission.program.needed(bias) {
@@ -305,7 +306,7 @@ fn with_partners(emission: &Emission<'_>, bias: &[ValueId]) -> Vec<ValueId> {
     emission.program.needed(&outputs)
 }
 
-/// What an expansion starts from.
+/// Values from which an expansion starts.
 fn roots(expansion: &Expansion) -> Vec<ValueId> {
     let lists = [&expansion.sines, &expansion.cosines];
     lists.into_iter().flatten().copied().collect()

@@ -97,7 +97,7 @@ impl Emission<'_> {
             false => quote!(self.accelerations(&theta, &omega)),
         };
         let time = self.time_name();
-        let body = self.late().unwrap_or_else(|| {
+        let body = self.sunk().unwrap_or_else(|| {
             quote! {
                 let theta = ::core::array::from_fn(theta);
                 let omega = ::core::array::from_fn(omega);
@@ -179,7 +179,7 @@ impl Emission<'_> {
         quote! {
             impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
                 #[inline]
-                fn freedoms(&self) -> usize {
+                fn degrees_of_freedom(&self) -> usize {
                     #links
                 }
 

@@ -155,12 +155,12 @@ impl Formula {
         Self(self.0.pow(Atom::num(i64::from(exponent))))
     }
 
-    /// Whether the formula is literally zero; expand first.
+    /// Returns true if the formula is literally zero; expand first.
     pub fn is_zero(&self) -> bool {
         self.0.is_zero()
     }
 
-    /// Whether the formula is no sum.
+    /// Returns true if the formula is no sum.
     pub fn is_term(&self) -> bool {
         !matches!(self.0.as_view(), AtomView::Add(_))
     }

@@ -26,7 +26,7 @@ pub struct Joint {
     pub spring: Expr,
 }
 
-/// What the articulated recursion is formed from.
+/// The quantities from which the articulated recursion is formed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Articulation {
     /// Gravitational acceleration.

@@ -4,7 +4,7 @@
 use crate::scene::{Group, LinkId, OrbitId, Scene};
 use std::collections::BTreeMap;
 
-/// Where a symmetric coordinate lives.
+/// Place of a symmetric coordinate in the tree.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Mean angle of all links of an orbit; the link's own angle where the

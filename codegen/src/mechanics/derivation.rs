@@ -17,7 +17,7 @@ pub struct CombinationId(pub usize);
 /// A sum of coordinates with integer weights, the first one positive.
 pub type Combination = Vec<(SymbolId, i64)>;
 
-/// What a trigonometric symbol means.
+/// Meaning of a trigonometric symbol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trigonometric {
     /// cos of a coordinate.
@@ -235,7 +235,7 @@ impl<'s> Derivation<'s> {
         (cos, sin)
     }
 
-    /// The same where they are in use already.
+    /// cos and sin of θ_a − θ_b where they are in use already.
     pub(super) fn known_between(&self, a: SymbolId, b: SymbolId) -> (SymbolId, SymbolId) {
         self.of_two[&(a, b)]
     }

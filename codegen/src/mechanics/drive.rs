@@ -1,5 +1,5 @@
-//! What moves the tree from outside (physics §7): a torque on the root and a
-//! motion of its pivot, as functions of time.
+//! The drive (physics §7): a torque on the root and a motion of its pivot, as
+//! functions of time.
 //!
 //! The frame of reference moves with the pivot. There the pivot's acceleration
 //! a acts on every link as the inertial force −m a in its centre of mass, so
@@ -14,7 +14,7 @@ use super::print::{latex, latex_name, text};
 use crate::scene::{Signal, TimeFunction};
 use std::collections::BTreeMap;
 
-/// What a symbol means that depends on time alone.
+/// Meaning of a symbol that depends on time alone.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Temporal<F = Expr> {
     /// Time itself, s.
@@ -38,7 +38,7 @@ pub struct PivotMotion {
     pub acceleration: Option<SymbolId>,
 }
 
-/// What moves the tree from outside.
+/// The torque and the forces that act on the tree from outside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// Meaning of the symbols that depend on time alone, each in terms of

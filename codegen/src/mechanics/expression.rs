@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SymbolId(pub u32);
 
-/// What a symbol stands for; the declaration order is the canonical order of
-/// factors in a product, constants first so that they can be folded together.
+/// Role of a symbol; the declaration order is the canonical order of factors in
+/// a product, constants first so that they can be folded together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
     /// A named number of the description: a parameter of the model.
@@ -46,7 +46,7 @@ pub struct Symbol {
     pub text: String,
     /// Spelling in LaTeX.
     pub latex: String,
-    /// What it stands for.
+    /// Its role in formulas.
     pub role: Role,
 }
 
@@ -138,7 +138,7 @@ impl Expr {
         Self::Number(Rational::from(0))
     }
 
-    /// Whether this is the number zero.
+    /// Returns true if this is the number zero.
     pub fn is_zero(&self) -> bool {
         matches!(self, Self::Number(number) if number.is_zero())
     }
@@ -157,9 +157,9 @@ impl Expr {
         }
     }
 
-    /// The same expression with every sum and product in canonical order,
-    /// which depends on the symbols' roles and creation order alone: the order
-    /// in which an algebra system happens to keep terms must not reach the
+    /// The expression with every sum and product in canonical order, which
+    /// depends on the symbols' roles and creation order alone: the order in
+    /// which an algebra system happens to keep terms must not reach the
     /// generated code.
     pub fn canonical(self, symbols: &Symbols) -> Self {
         match self {

@@ -82,7 +82,8 @@ impl Derivation<'_> {
         Ok(mechanics)
     }
 
-    /// Whether copies branch into copies, or have other links below them.
+    /// Returns true if copies branch into copies, or have other links below
+    /// them.
     fn is_nested(&self) -> bool {
         let scene = self.scene;
         let copies = scene.groups.iter().flat_map(|group| &group.copies);

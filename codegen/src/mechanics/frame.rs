@@ -52,8 +52,8 @@ pub(super) struct Frame {
     /// The part of the potential energy that is in torsion springs.
     pub(super) springs: Formula,
     pub(super) dissipation: Formula,
-    /// What the generalized forces of the drive are the gradient of, at fixed
-    /// time; zero without a drive.
+    /// Function whose gradient at fixed time is the generalized forces of the
+    /// drive; zero without a drive.
     pub(super) drive: Formula,
 }
 
@@ -73,7 +73,7 @@ impl Frame {
         }
     }
 
-    /// Whether it is such a frame.
+    /// Returns true if nothing but the symbols of this frame is derived.
     pub(super) fn has_symbols_alone(&self) -> bool {
         self.mass.iter().next().is_none()
     }
@@ -161,8 +161,8 @@ impl Frame {
             .collect()
     }
 
-    /// What the Euler–Lagrange equations hold beside M q̈, so that
-    /// d/dt ∂L/∂v_i − ∂L/∂q_i + ∂R/∂v_i − Q_i = Σ_j M_ij q̈_j + bias_i.
+    /// Terms of the Euler–Lagrange equations beside M q̈, so that d/dt ∂L/∂v_i
+    /// − ∂L/∂q_i + ∂R/∂v_i − Q_i = Σ_j M_ij q̈_j + bias_i.
     pub(super) fn bias(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
         let mut rows: Vec<Vec<Formula>> = vec![Vec::new(); self.coordinates.len()];
         for (a, b, term) in self.kinetic_terms() {

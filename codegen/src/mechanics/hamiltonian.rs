@@ -1,6 +1,6 @@
-//! How momenta change: the forces of the Lagrangian, the slopes of the
-//! Hamiltonian, and what the mass matrix does meanwhile. None of them inverts
-//! the mass matrix: the velocities stand for M⁻¹ p.
+//! Rates of the momenta: the forces of the Lagrangian, the slopes of the
+//! Hamiltonian, and the change of the mass matrix meanwhile. None of them
+//! inverts the mass matrix: the velocities stand for M⁻¹ p.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;

@@ -13,7 +13,7 @@ use super::print::latex_name;
 /// that people read.
 const WRITTEN_OUT: usize = 2;
 
-/// What counts as small when W is truncated.
+/// Quantities that count as small when W is truncated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counting {
     /// The difference angles; momenta stay whole (the paper's sense).
@@ -42,7 +42,7 @@ pub(super) struct Expansion {
 pub(super) struct WrittenOut {
     /// The symbol D.
     pub(super) determinant: SymbolId,
-    /// What D is.
+    /// D as a formula.
     pub(super) determinant_value: Formula,
     /// The adjugate, dense, in the order of `in_phase`.
     pub(super) adjugate: Vec<Vec<Formula>>,
@@ -67,7 +67,8 @@ impl Derivation<'_> {
             .intern(Role::Bookkeeping, "epsilon", "ε", "\\varepsilon")
     }
 
-    /// The same with further symbols replaced by series in ε.
+    /// As [`orders`](Self::orders), with further symbols replaced by series in
+    /// ε.
     pub(super) fn orders_with(
         &mut self,
         formula: &Formula,

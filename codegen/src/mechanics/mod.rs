@@ -36,7 +36,7 @@ pub use drive::{Drive, PivotMotion, Temporal};
 pub use inverse_mass::Counting;
 pub use lock::LockError;
 pub use observables::{
-    Canonical, EnergySymbols, FormedSymbols, FunctionOf, Observable, ObservableFrame, Observables,
+    Canonical, EnergySymbols, FunctionOf, NestedSymbols, Observable, ObservableFrame, Observables,
     System,
 };
 pub use print::{latex, text};
@@ -54,7 +54,7 @@ pub struct Constant {
     pub symbol: SymbolId,
     /// Its value in terms of the scene's parameters.
     pub value: Expr,
-    /// What it means, in words.
+    /// Its meaning in words.
     pub meaning: String,
     /// Its unit.
     pub unit: &'static str,
@@ -153,7 +153,7 @@ pub struct Transfer {
 /// W cut off at an order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truncated {
-    /// What counts as small.
+    /// Quantities that count as small.
     pub counting: Counting,
     /// The highest order kept.
     pub order: u32,
@@ -183,7 +183,7 @@ pub struct Expansion {
     pub leading: Vec<Entry>,
     /// Velocities of higher orders, each in terms of earlier ones.
     pub corrections: Vec<Correction>,
-    /// The same solved and written out, for small blocks.
+    /// w and the inverse mass matrix solved and written out, for small blocks.
     pub written_out: Option<WrittenOut>,
 }
 
@@ -216,7 +216,7 @@ pub struct Mechanics {
     pub combinations: Vec<Combination>,
     /// Constants of the model, in the order of their symbols.
     pub constants: Vec<Constant>,
-    /// What moves the tree from outside, if anything does.
+    /// The drive, if the scene has one.
     pub drive: Option<Drive>,
     /// The mechanics in absolute angles.
     pub absolute: Frame,

@@ -8,7 +8,7 @@ use super::frame::Frame;
 use super::print;
 use crate::scene::{Function, LinkId, Observed, Place, Variable, VariableKind};
 
-/// What the symbol of a function of an expression means.
+/// Meaning of a symbol that stands for a function of an expression.
 pub(super) struct Composite {
     pub(super) function: Function,
     pub(super) argument: Formula,
@@ -17,7 +17,8 @@ pub(super) struct Composite {
     partner: SymbolId,
 }
 
-/// Where an observable is written: the variables are those of one frame.
+/// The frame in which an observable is written: the variables are those of one
+/// frame.
 pub(super) struct Setting<'a> {
     pub(super) frame: &'a Frame,
     /// The symmetric coordinates, if the frame's variables are those.

@@ -29,7 +29,7 @@ use super::expression::{Role, SymbolId};
 use super::frame::Frame;
 use super::observable::Setting;
 use super::observables::{
-    Canonical, FormedSymbols, FunctionOf, Observable, ObservableFrame, Observables, System,
+    Canonical, FunctionOf, NestedSymbols, Observable, ObservableFrame, Observables, System,
 };
 use super::print::latex_name;
 use super::rate_symbols::RateSymbols;
@@ -182,7 +182,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// What the observables of a frame refer to.
+    /// Symbols and definitions that the observables of a frame refer to.
     fn observable_frame(
         &self,
         frame: &Frame,
@@ -219,7 +219,7 @@ impl Derivation<'_> {
             };
             return ObservableFrame {
                 accelerations,
-                formed: FormedSymbols {
+                nested: NestedSymbols {
                     forces: formed(&symbols.forces),
                     torques: formed(&symbols.torques),
                     friction_accelerations: formed(&symbols.friction_accelerations),
@@ -261,7 +261,7 @@ impl Derivation<'_> {
         define(&symbols.changes, &|| frame.mass_changes(self));
         ObservableFrame {
             accelerations,
-            formed: FormedSymbols::default(),
+            nested: NestedSymbols::default(),
             friction: uses(&symbols.friction_accelerations).then(|| System {
                 unknowns: symbols.friction_accelerations.clone(),
                 right: self.exprs(&torques()),

@@ -11,9 +11,9 @@ pub struct Observables {
     pub list: Vec<Observable>,
     /// Functions of whole expressions; arguments hold earlier ones only.
     pub functions: BTreeMap<SymbolId, FunctionOf>,
-    /// What the observables in absolute angles use.
+    /// Quantities that the observables in absolute angles use.
     pub absolute: ObservableFrame,
-    /// What the observables in symmetric coordinates use.
+    /// Quantities that the observables in symmetric coordinates use.
     pub symmetric: ObservableFrame,
 }
 
@@ -31,7 +31,7 @@ pub struct FunctionOf {
 pub struct Observable {
     /// Its name.
     pub name: String,
-    /// Whether its variables are the symmetric ones.
+    /// True if its variables are the symmetric ones.
     pub symmetric: bool,
     /// F in coordinates, velocities and momenta.
     pub value: Expr,
@@ -55,7 +55,7 @@ pub struct Canonical {
 /// A linear system with the mass matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct System {
-    /// What is solved for.
+    /// The unknowns, for which the system is solved.
     pub unknowns: Vec<SymbolId>,
     /// The right side.
     pub right: Vec<Expr>,
@@ -65,7 +65,7 @@ pub struct System {
 /// defines: written out, they would fill pages. One for each coordinate; none
 /// where none is used.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct FormedSymbols {
+pub struct NestedSymbols {
     /// ∂L/∂q_i at fixed velocities, with the drive.
     pub forces: Vec<SymbolId>,
     /// Forces of friction and drag Q_i.
@@ -93,15 +93,16 @@ pub struct EnergySymbols {
     pub potential_slopes: Vec<SymbolId>,
 }
 
-/// What the rates of one frame refer to, as far as they do.
+/// Quantities that the rates of one frame refer to, as far as they do.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ObservableFrame {
     /// Generalized accelerations; none where no rate holds them.
     pub accelerations: Vec<SymbolId>,
     /// Accelerations by friction and drag alone: M a = Q.
     pub friction: Option<System>,
-    /// What the program forms on means and differences, on nested trees.
-    pub formed: FormedSymbols,
+    /// Symbols that the program forms on means and differences, on nested
+    /// trees.
+    pub nested: NestedSymbols,
     /// Forces, slopes of H and changes of M in coordinates and velocities.
     pub definitions: BTreeMap<SymbolId, Expr>,
     /// The momenta in coordinates and velocities; none where no observable

@@ -3,7 +3,7 @@
 use super::expression::{Expr, Symbols};
 use crate::exact::Rational;
 
-/// How a notation spells the parts of an expression.
+/// Spelling of the parts of an expression in one notation.
 struct Notation {
     latex: bool,
 }

@@ -21,7 +21,7 @@ pub(super) struct RateSymbols {
     pub(super) slopes: Vec<SymbolId>,
     /// (Ṁ v)_i.
     pub(super) changes: Vec<SymbolId>,
-    /// Whether there is friction on coordinate i.
+    /// True for coordinates i with friction.
     pub(super) has_torque: Vec<bool>,
 }
 

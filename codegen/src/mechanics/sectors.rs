@@ -1,6 +1,6 @@
-//! What the sectors' energies and transfers are made of (physics §3, §5): the
-//! constants of each orbit, once for all its copies, and which coordinates
-//! form a sector.
+//! Ingredients of the sectors' energies and transfers (physics §3, §5): the
+//! constants of each orbit, once for all its copies, and which coordinates form
+//! a sector.
 //!
 //! On a nested tree the formulas in symmetric coordinates would fill pages; the
 //! program is formed from these constants by arithmetic on means and

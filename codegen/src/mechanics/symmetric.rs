@@ -216,7 +216,7 @@ impl Derivation<'_> {
             })
     }
 
-    /// Whether all groups have two copies and none hangs in another.
+    /// Returns true if all groups have two copies and none hangs in another.
     fn has_plain_cosines(&self) -> bool {
         let groups = &self.scene.groups;
         let nested = |group: &Group| {

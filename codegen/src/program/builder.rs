@@ -12,7 +12,7 @@ pub(super) struct Builder {
     pub(super) definitions: Vec<Definition>,
     known: Known,
     pub(super) setup: Setup,
-    /// What is left out, for comparison.
+    /// The pass that is left out, for comparison.
     pub(super) off: Option<Pass>,
 }
 
@@ -210,7 +210,7 @@ impl Builder {
         }
     }
 
-    /// What a constant is, where no parameter is involved.
+    /// Exact value of a constant, where no parameter is involved.
     pub(super) fn exact(&self, value: ValueId) -> Option<Rational> {
         match self.op(value) {
             Op::Number(number) => Some(number.clone()),
@@ -219,8 +219,8 @@ impl Builder {
         }
     }
 
-    /// Whether a constant can be divided by, whatever the parameters of the
-    /// scene.
+    /// Returns true if a constant can be divided by, whatever the parameters of
+    /// the scene.
     pub(super) fn is_never_zero(&self, value: ValueId, scene: &Scene) -> bool {
         match self.op(value) {
             Op::Number(number) => !number.is_zero(),

@@ -1,16 +1,15 @@
-//! Which solve the accelerations take: both are derived, and the cheaper one
-//! stays.
+//! The choice of the solve for the accelerations: both are derived, and the
+//! cheaper one stays.
 
 use super::count::{Operations, operations};
 use super::lower::{Door, Lowering};
 use super::{Pass, ValueId};
 use crate::scene::{Scene, Solve};
 
-/// How the accelerations in absolute angles are solved for, and what the other
-/// way would cost.
+/// The solve for the accelerations in absolute angles, and the cost of both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// What is emitted.
+    /// The solve that is emitted.
     pub solve: Solve,
     /// Operations of the factorisation.
     pub factorization: Operations,
@@ -18,8 +17,8 @@ pub struct Choice {
     pub recursion: Operations,
 }
 
-/// What a division costs in products and sums. On current processors one takes
-/// as long as 4 to 8 of these at full width; both solves have one for each link
+/// Cost of a division in products and sums. On current processors one takes as
+/// long as 4 to 8 of these at full width; both solves have one for each link
 /// with children, so that little depends on it.
 const DIVISION: usize = 6;
 

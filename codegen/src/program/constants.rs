@@ -2,7 +2,7 @@
 //! description's numbers and parameters; everything else is formed from them
 //! once, exactly where no parameter is involved.
 
-use super::spelling;
+use super::constant_names;
 use crate::exact::Rational;
 use crate::scene::{Scene, Sign};
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ConstantId(pub u32);
 
-/// How a constant is formed.
+/// Operation that forms a constant.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ConstantOp {
     /// A number.
@@ -48,7 +48,7 @@ impl ConstantOp {
 /// A constant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConstantDefinition {
-    /// How it is formed.
+    /// The operation that forms it.
     pub op: ConstantOp,
     /// Its value, where no parameter is involved.
     pub exact: Option<Rational>,
@@ -164,8 +164,8 @@ impl Setup {
         }
     }
 
-    /// Whether the signs that the scene demands of its parameters make a
-    /// constant positive.
+    /// Returns true if the signs that the scene demands of its parameters make
+    /// a constant positive.
     pub(super) fn is_positive(&self, id: ConstantId, scene: &Scene) -> bool {
         let positive = |id: &ConstantId| self.is_positive(*id, scene);
         match &self.get(id).op {
@@ -205,7 +205,7 @@ impl Setup {
         }
         let id = ConstantId(self.definitions.len() as u32);
         let exact = self.value(&op);
-        let wanted = name.map_or_else(|| spelling::constant(self, &op), str::to_owned);
+        let wanted = name.map_or_else(|| constant_names::constant(self, &op), str::to_owned);
         // A parameter keeps its name in texts, so it claims none; should it become
         // a field, `emit` tells the two apart.
         let name = match op {

@@ -1,4 +1,4 @@
-//! What an entry point costs.
+//! The cost of an entry point.
 
 use super::{Definition, Op, Program, ValueId};
 use std::collections::BTreeSet;

@@ -19,7 +19,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> (Vec<Entry>
         match &mechanics.sectors {
             // Only the names of the frame are derived then.
             Some(sectors) if symmetric.mass.is_empty() => {
-                list.symmetric_by_copies(scene, sectors);
+                list.symmetric_of_nested(scene, sectors);
             }
             _ => list.symmetric(symmetric),
         }

@@ -1,4 +1,4 @@
-//! Which products are fused with the sums that they feed.
+//! The fusion of products with the sums that they feed.
 //!
 //! # Rule
 //! A product that sums alone use, each of them formed anew from it, is part of
@@ -18,11 +18,11 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Fused {
     /// The product.
     pub product: ValueId,
-    /// Whether it is subtracted.
+    /// True if the product is subtracted.
     pub minus_product: bool,
-    /// What it is added to.
+    /// The value to which the product is added.
     pub addend: ValueId,
-    /// Whether that is subtracted.
+    /// True if the addend is subtracted.
     pub minus_addend: bool,
 }
 

@@ -7,7 +7,7 @@ use crate::exact::Rational;
 
 impl Setup {
     /// Values of all constants for given values of the scene's parameters.
-    /// What no parameter touches is rounded once from its exact value.
+    /// A constant without parameters is rounded once from its exact value.
     pub fn evaluate(&self, parameters: &[f64]) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.definitions.len());
         for definition in &self.definitions {
@@ -60,8 +60,8 @@ impl Program {
         self.evaluate_fused(sin_cos, unfused, entry, parameters, input)
     }
 
-    /// The same with a fused multiply-add `x * y + z` of the caller's, wherever
-    /// emitted code has one.
+    /// As [`evaluate`](Self::evaluate), with a fused multiply-add `x * y + z`
+    /// of the caller's wherever emitted code has one.
     pub fn evaluate_fused(
         &self,
         sin_cos: impl Fn(f64) -> (f64, f64),

@@ -1,4 +1,5 @@
-//! How many values wait for a later use: what the registers have to hold.
+//! Number of values that wait for a later use, which the registers have to
+//! hold.
 
 use super::{Definition, Entry, Op, Program, ValueId};
 

@@ -20,8 +20,8 @@ pub(super) struct Lowering<'a> {
     pub(super) constants: BTreeMap<SymbolId, ConstantId>,
 }
 
-/// How symbols of one frame are supplied: handed over by the caller, or formed
-/// on demand.
+/// Values for the symbols of one frame: handed over by the caller, or formed on
+/// demand.
 #[derive(Clone)]
 pub(super) struct Door<'a> {
     pub(super) frame: &'a Frame,
@@ -31,7 +31,7 @@ pub(super) struct Door<'a> {
     pub(super) velocities: Option<Argument>,
     /// Argument that holds the momenta; formed from the velocities if none.
     pub(super) momenta: Option<Argument>,
-    /// What observables refer to beside the frame.
+    /// Quantities that observables refer to beside the frame.
     pub(super) observed: Option<&'a ObservableFrame>,
     values: BTreeMap<SymbolId, ValueId>,
 }
@@ -199,7 +199,7 @@ impl<'a> Lowering<'a> {
         solution
     }
 
-    /// What stands after `theta_` in the names of a frame's coordinates.
+    /// Names of a frame's coordinates, without `theta_`.
     pub(super) fn coordinate_names(&self, frame: &Frame) -> Vec<String> {
         frame
             .coordinates

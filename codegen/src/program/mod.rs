@@ -8,20 +8,20 @@
 mod angles;
 mod builder;
 mod choice;
+pub(crate) mod constant_names;
 mod constants;
-mod copies;
 mod count;
 mod dead;
 mod drive;
 mod entries;
+mod entry_state;
 mod factors;
-mod formed;
 mod fuse;
-mod handed;
 mod interpret;
 mod live;
 mod lower;
 mod named;
+mod nested_observables;
 mod observables;
 mod pair;
 mod passes;
@@ -31,7 +31,7 @@ mod rules;
 mod scale;
 mod sectors;
 mod solve;
-pub(crate) mod spelling;
+mod symmetric;
 mod taylor;
 mod terms;
 mod text;
@@ -59,7 +59,7 @@ pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
     lower_without(None, scene, mechanics)
 }
 
-/// The same without one of the passes, to see what that one is worth.
+/// As [`lower()`], but without one of the passes, to see the worth of that one.
 pub fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
     let mut lowering = lower::Lowering::new(mechanics);
     lowering.builder.off = off;
@@ -80,7 +80,7 @@ pub fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) ->
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ValueId(pub u32);
 
-/// What an entry point receives: an array, but for the time.
+/// An argument of an entry point: an array, but for the time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Argument {
     /// Time, s: a single number.
@@ -99,7 +99,7 @@ pub enum Argument {
     Momenta,
     /// Angles or angular velocities, absolute: the transform serves both.
     Absolute,
-    /// The same in symmetric coordinates.
+    /// Angles or angular velocities, symmetric.
     Symmetric,
 }
 
@@ -143,7 +143,7 @@ impl Op {
         first.into_iter().chain(second)
     }
 
-    /// The same operation on other operands.
+    /// This operation on other operands.
     pub(crate) fn with_operands(&self, of: impl Fn(ValueId) -> ValueId) -> Self {
         match *self {
             Self::Input(..) | Self::Constant(_) | Self::Number(_) => self.clone(),
@@ -166,7 +166,7 @@ pub struct Definition {
     pub op: Op,
     /// Name in emitted code; unnamed values are written in place.
     pub name: Option<String>,
-    /// What it is called where code needs a name for it, if that is known.
+    /// Name for it where code needs one, if one is known.
     pub hint: Option<String>,
 }
 
@@ -183,13 +183,13 @@ pub enum Shape {
     Matrix(usize),
     /// A `Transfer`: kinetic part, potential part.
     Transfer,
-    /// That many `Transfer`s.
+    /// A number of `Transfer`s.
     Transfers(usize),
     /// A `Budget` of that many sectors: energies, transfers, powers.
     Budget(usize),
 }
 
-/// How the kinetic energy of a sector is defined (physics §5).
+/// Definition of the kinetic energy of a sector (physics §5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnergyDefinition {
     /// A0: ½ pᵀ B(0)⁻¹ p.
@@ -202,7 +202,7 @@ pub enum EnergyDefinition {
     Velocity,
 }
 
-/// What an entry point computes; the emitter documents it accordingly.
+/// Purpose of an entry point; the emitter documents it accordingly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// θ̈ from θ, ω.
@@ -271,7 +271,7 @@ pub enum Purpose {
     Observable(usize, ObservableForm),
 }
 
-/// What a function says about an observable.
+/// Quantity that a function gives of an observable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ObservableForm {
     /// F from coordinates and velocities.
@@ -291,7 +291,7 @@ pub enum ObservableForm {
 pub struct Entry {
     /// Function name.
     pub name: String,
-    /// What it computes.
+    /// Its purpose.
     pub purpose: Purpose,
     /// Arguments in order.
     pub arguments: Vec<Argument>,
@@ -310,7 +310,7 @@ pub struct Program {
     pub entries: Vec<Entry>,
     /// The model's constants.
     pub setup: Setup,
-    /// How the accelerations are solved for.
+    /// The solve for the accelerations, and its cost.
     pub choice: Choice,
     /// The pass that was left out, for comparison.
     pub without: Option<Pass>,

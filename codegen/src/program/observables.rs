@@ -1,9 +1,9 @@
 //! Entry points of observables: values and rates.
 
 use super::entries::EntryList;
-use super::formed::Formed;
-use super::handed::{CANONICAL, State};
+use super::entry_state::{CANONICAL, EntryState};
 use super::lower::{Door, Lowering};
+use super::nested_observables::NestedObservables;
 use super::{Argument, ObservableForm, Purpose, Shape, ValueId};
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{Frame, Mechanics, ObservableFrame, System};
@@ -51,10 +51,10 @@ struct Ways<'a> {
     phase: Door<'a>,
     velocities: [Argument; 2],
     momenta: [Argument; 2],
-    /// What the accelerations are computed from.
+    /// Arguments from which the accelerations are computed.
     rates: Vec<Argument>,
     /// On nested trees, what solves with the mass matrix.
-    formed: Option<Formed<'a>>,
+    nested: Option<NestedObservables<'a>>,
 }
 
 impl EntryList<'_, '_> {
@@ -85,12 +85,12 @@ impl EntryList<'_, '_> {
             if frame.mass.is_empty()
                 && let Some(sectors) = &mechanics.sectors
             {
-                let formed = Formed::new(self.lowering, scene, sectors);
-                formed.supply(self.lowering, used, &mut ways.motion, State::Rates);
+                let nested = NestedObservables::new(self.lowering, scene, sectors);
+                nested.supply(self.lowering, used, &mut ways.motion, EntryState::Rates);
                 if scene.requests.momenta {
-                    formed.supply(self.lowering, used, &mut ways.phase, CANONICAL);
+                    nested.supply(self.lowering, used, &mut ways.phase, CANONICAL);
                 }
-                ways.formed = Some(formed);
+                ways.nested = Some(nested);
             }
             ways
         });
@@ -131,7 +131,7 @@ impl EntryList<'_, '_> {
             velocities,
             momenta,
             rates,
-            formed: None,
+            nested: None,
         }
     }
 
@@ -152,8 +152,8 @@ impl EntryList<'_, '_> {
             let (value, rate) = (&observable.value, &canonical.rate);
             self.form(number, FromMomenta, "_from_momenta", &momenta, phase, value);
             if let Some(system) = &canonical.adjoint {
-                match &ways.formed {
-                    Some(formed) => formed.solve(self.lowering, phase, system),
+                match &ways.nested {
+                    Some(nested) => nested.solve(self.lowering, phase, system),
                     None => self.lowering.solve_system(phase, system),
                 }
             }

@@ -8,7 +8,7 @@
 //! | common factors | `factors.rs` | on whole programs |
 //! | fusing | `fuse.rs` | on an entry point, for emission and interpreter alike |
 //! | dead code | `dead.rs` | on an entry point, which is the program pruned to its outputs |
-//! | order | `emit/late.rs` | on accelerations with more values than registers |
+//! | order | `emit/sink.rs` | on accelerations with more values than registers |
 //! | splitting | `emit/parts.rs` | on functions that are too long for the compiler |
 //!
 //! Every one keeps what [`Program::verify`] checks, and the meaning: exactly, or within
@@ -33,7 +33,7 @@ pub enum Pass {
     AngleAddition,
     /// A common factor of several terms is multiplied once.
     CommonFactors,
-    /// Of two solves the cheaper one.
+    /// The cheaper of two solves is taken.
     Choice,
     /// Products are part of the sums that they feed.
     Fusing,
@@ -84,7 +84,8 @@ impl Pass {
         Self::ALL.into_iter().find(|pass| pass.name() == name)
     }
 
-    /// Whether it changes what a function computes; if not, only how it is written.
+    /// Returns true if the pass changes the operations of a function; if not,
+    /// it changes only how they are written.
     fn is_counted(self) -> bool {
         !matches!(self, Self::Order | Self::Splitting)
     }

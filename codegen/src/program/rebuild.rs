@@ -112,8 +112,8 @@ fn minus(expr: Expr) -> Expr {
     Expr::Product(vec![Expr::Number((-1).into()), expr])
 }
 
-/// The same with sums of sums and products of products as one, and without
-/// what changes nothing.
+/// The expression with sums of sums and products of products as one, and
+/// without terms and factors that change nothing.
 fn flat(expr: Expr) -> Expr {
     match expr {
         Expr::Sum(parts) => {

@@ -48,12 +48,12 @@ fn scaled((high, low): (f64, f64), factor: f64) -> (f64, f64) {
     (product, rest)
 }
 
-/// What rounding makes of a number in two parts, by its size.
+/// Rounding error of a number in two parts, relative to its size.
 fn relative((high, low): (f64, f64)) -> f64 {
     low / high
 }
 
-/// The same of its reciprocal.
+/// Rounding error of its reciprocal, relative to the size of that.
 fn reciprocal((high, low): (f64, f64)) -> f64 {
     let reciprocal = 1.0 / high;
     high.mul_add(reciprocal, -1.0) + low * reciprocal

@@ -1,36 +1,53 @@
 //! Entry points that work on means and differences: the motion of nested trees
 //! in symmetric coordinates, and the budgets of sectors.
 
-use super::copies::{Copies, Field, Fields, Motion, Series, Share, Values, Which, orbits};
 use super::entries::EntryList;
-use super::handed::{self, CANONICAL, State, copies, motion, values};
+use super::entry_state::{self, CANONICAL, EntryState, motion, symmetric_tree, values};
+use super::symmetric::{
+    ConstantValues, Fields, SectorId, Share, SymmetricField, SymmetricMotion, SymmetricTree,
+    TruncatedSeries, orbits,
+};
 use super::{Argument, EnergyDefinition, Purpose, Shape, ValueId};
 use crate::mechanics::{Counting, Mechanics, Sectors};
 use crate::scene::{BudgetRequest, Scene};
 
 impl EntryList<'_, '_> {
-    /// What [`EntryList::symmetric`] gives for flat trees.
-    pub(super) fn symmetric_by_copies(&mut self, scene: &Scene, sectors: &Sectors) {
+    /// Motion and momenta in symmetric coordinates, as [`EntryList::symmetric`]
+    /// gives them for flat trees.
+    pub(super) fn symmetric_of_nested(&mut self, scene: &Scene, sectors: &Sectors) {
         use Argument::{Coordinates, Momenta, Rates};
         let mechanics = self.lowering.mechanics;
         let orbits = orbits(scene, &mechanics.coordinates);
         let values = values(self.lowering, sectors);
-        let mut copies = copies(self.lowering, &orbits, None);
-        let motion = motion(&mut copies, scene, mechanics, &values, State::Rates);
-        let [conservative, other] = copies.accelerations(&values, &motion);
-        let accelerations = copies.sum(&conservative, &other);
-        let accelerations =
-            by_coordinate(&mut copies, mechanics, &accelerations, Copies::component);
-        let momenta = by_coordinate(&mut copies, mechanics, &motion.momenta, Copies::projected);
+        let mut tree = symmetric_tree(self.lowering, &orbits, None);
+        let motion = motion(&mut tree, scene, mechanics, &values, EntryState::Rates);
+        let [conservative, other] = tree.accelerations(&values, &motion);
+        let accelerations = tree.sum(&conservative, &other);
+        let accelerations = by_coordinate(
+            &mut tree,
+            mechanics,
+            &accelerations,
+            SymmetricTree::component,
+        );
+        let momenta = by_coordinate(
+            &mut tree,
+            mechanics,
+            &motion.momenta,
+            SymmetricTree::projected,
+        );
         let requests = &scene.requests;
         let canonical = requests.momenta.then(|| {
-            let motion = handed::motion(&mut copies, scene, mechanics, &values, CANONICAL);
+            let motion = entry_state::motion(&mut tree, scene, mechanics, &values, CANONICAL);
             let hamiltonian = requests.energies.then(|| {
-                let energy = copies.hamiltonian(&values, &motion);
-                copies.graded.total(&energy)
+                let energy = tree.hamiltonian(&values, &motion);
+                tree.series.total(&energy)
             });
-            let velocities =
-                by_coordinate(&mut copies, mechanics, &motion.rates, Copies::component);
+            let velocities = by_coordinate(
+                &mut tree,
+                mechanics,
+                &motion.rates,
+                SymmetricTree::component,
+            );
             (hamiltonian, velocities)
         });
         for (index, &value) in accelerations.iter().enumerate() {
@@ -75,9 +92,9 @@ impl EntryList<'_, '_> {
     /// Budgets of the sectors, from absolute angles and, where those are asked
     /// for, from symmetric coordinates.
     pub(super) fn budgets(&mut self, scene: &Scene, sectors: &Sectors, request: &BudgetRequest) {
-        let mut states = vec![State::Absolute];
+        let mut states = vec![EntryState::Absolute];
         if scene.requests.symmetric {
-            states.push(State::Rates);
+            states.push(EntryState::Rates);
         }
         for state in states {
             self.exact_budgets(scene, sectors, request, state);
@@ -95,18 +112,18 @@ impl EntryList<'_, '_> {
         scene: &Scene,
         sectors: &Sectors,
         request: &BudgetRequest,
-        state: State,
+        state: EntryState,
     ) {
         let mechanics = self.lowering.mechanics;
         let orbits = orbits(scene, &mechanics.coordinates);
         let values = values(self.lowering, sectors);
-        let mut copies = copies(self.lowering, &orbits, None);
-        let motion = motion(&mut copies, scene, mechanics, &values, state);
-        let places: Vec<Which> = sectors.sectors.iter().map(|sector| sector.place).collect();
-        let count = places.len();
+        let mut tree = symmetric_tree(self.lowering, &orbits, None);
+        let motion = motion(&mut tree, scene, mechanics, &values, state);
+        let ids: Vec<SectorId> = sectors.sectors.iter().map(|sector| sector.place).collect();
+        let count = ids.len();
         let mut found: Vec<(&str, Purpose, Vec<ValueId>, Shape)> = Vec::new();
-        let mut shares = |copies: &mut Copies<'_>, name, definition, shares: Vec<Share>| {
-            let outputs = flattened(copies, &shares);
+        let mut shares = |tree: &mut SymmetricTree<'_>, name, definition, shares: Vec<Share>| {
+            let outputs = flattened(tree, &shares);
             found.push((
                 name,
                 Purpose::Budget(definition),
@@ -124,32 +141,32 @@ impl EntryList<'_, '_> {
             ),
         ] {
             if wanted {
-                let all = places
+                let all = ids
                     .iter()
-                    .map(|&which| copies.canonical_share(&values, &motion, which, at_rest))
+                    .map(|&sector| tree.canonical_share(&values, &motion, sector, at_rest))
                     .collect();
-                shares(&mut copies, name, definition, all);
+                shares(&mut tree, name, definition, all);
             }
         }
         if request.velocity || request.parseval {
-            let [conservative, other] = copies.accelerations(&values, &motion);
+            let [conservative, other] = tree.accelerations(&values, &motion);
             let accelerations = [&conservative, &other];
             if request.velocity {
-                let all = places
+                let all = ids
                     .iter()
-                    .map(|&which| copies.velocity_share(&values, &motion, which, accelerations))
+                    .map(|&sector| tree.velocity_share(&values, &motion, sector, accelerations))
                     .collect();
                 shares(
-                    &mut copies,
+                    &mut tree,
                     "budget_velocity",
                     EnergyDefinition::Velocity,
                     all,
                 );
             }
             if request.parseval {
-                let all = copies.parseval_shares(&values, &motion, &places, accelerations);
+                let all = tree.parseval_shares(&values, &motion, &ids, accelerations);
                 shares(
-                    &mut copies,
+                    &mut tree,
                     "budget_parseval",
                     EnergyDefinition::Parseval,
                     all,
@@ -157,7 +174,7 @@ impl EntryList<'_, '_> {
             }
         }
         if request.canonical {
-            let outputs = transfers(&mut copies, &values, &motion, &places, |_| false);
+            let outputs = transfers(&mut tree, &values, &motion, &ids, |_| false);
             found.push((
                 "sector_transfers",
                 Purpose::SectorTransfers(None),
@@ -166,11 +183,11 @@ impl EntryList<'_, '_> {
             ));
         }
         if request.matrix {
-            let matrix = copies.transfer_matrix(&values, &motion, &places);
+            let matrix = tree.transfer_matrix(&values, &motion, &ids);
             let outputs = matrix
                 .iter()
                 .flatten()
-                .map(|value| copies.graded.total(value))
+                .map(|value| tree.series.total(value))
                 .collect();
             found.push((
                 "transfer_matrix",
@@ -181,8 +198,8 @@ impl EntryList<'_, '_> {
         }
         for (name, purpose, outputs, shape) in found {
             let (name, mut arguments) = match state {
-                State::Absolute => (name.to_owned(), vec![Argument::Theta, Argument::Omega]),
-                State::Rates | State::Momenta(_) => (
+                EntryState::Absolute => (name.to_owned(), vec![Argument::Theta, Argument::Omega]),
+                EntryState::Rates | EntryState::Momenta(_) => (
                     format!("symmetric_{name}"),
                     vec![Argument::Coordinates, Argument::Rates],
                 ),
@@ -205,17 +222,17 @@ impl EntryList<'_, '_> {
         let mechanics = self.lowering.mechanics;
         let orbits = orbits(scene, &mechanics.coordinates);
         let values = values(self.lowering, sectors);
-        let mut copies = copies(self.lowering, &orbits, Some(order as usize));
-        let state = State::Momenta(counting);
-        let motion = motion(&mut copies, scene, mechanics, &values, state);
-        let places: Vec<Which> = sectors.sectors.iter().map(|sector| sector.place).collect();
+        let mut tree = symmetric_tree(self.lowering, &orbits, Some(order as usize));
+        let state = EntryState::Momenta(counting);
+        let motion = motion(&mut tree, scene, mechanics, &values, state);
+        let ids: Vec<SectorId> = sectors.sectors.iter().map(|sector| sector.place).collect();
         let small = scene.requests.budget.as_ref();
         let small = small.map_or(&[][..], |budget| budget.small.as_slice());
-        let loses = |which: Which| {
+        let loses = |sector: SectorId| {
             counting == Counting::Angle
-                && which.is_some_and(|place| small.is_empty() || small.contains(&place))
+                && sector.is_some_and(|id| small.is_empty() || small.contains(&id))
         };
-        let outputs = transfers(&mut copies, &values, &motion, &places, loses);
+        let outputs = transfers(&mut tree, &values, &motion, &ids, loses);
         let name = match counting {
             Counting::Angle => "angle",
             Counting::Amplitude => "amplitude",
@@ -225,39 +242,39 @@ impl EntryList<'_, '_> {
             Purpose::SectorTransfers(Some((counting, order))),
             &[Argument::Coordinates, Argument::Momenta],
             outputs,
-            Shape::Transfers(places.len()),
+            Shape::Transfers(ids.len()),
         );
     }
 }
 
 /// One value for each symmetric coordinate.
 pub(super) fn by_coordinate<'b>(
-    copies: &mut Copies<'b>,
+    tree: &mut SymmetricTree<'b>,
     mechanics: &Mechanics,
     fields: &Fields,
-    component: fn(&mut Copies<'b>, &Field, Which) -> Series,
+    component: fn(&mut SymmetricTree<'b>, &SymmetricField, SectorId) -> TruncatedSeries,
 ) -> Vec<ValueId> {
     mechanics
         .coordinates
         .iter()
         .map(|coordinate| {
-            let (orbit, which) = coordinate.kind.place();
-            let value = component(copies, &fields[orbit], which);
-            copies.graded.total(&value)
+            let (orbit, sector) = coordinate.kind.place();
+            let value = component(tree, &fields[orbit], sector);
+            tree.series.total(&value)
         })
         .collect()
 }
 
 /// Energies, then transfers, then powers.
-fn flattened(copies: &mut Copies<'_>, shares: &[Share]) -> Vec<ValueId> {
-    let parts: [fn(&Share) -> &Series; 3] = [
+fn flattened(tree: &mut SymmetricTree<'_>, shares: &[Share]) -> Vec<ValueId> {
+    let parts: [fn(&Share) -> &TruncatedSeries; 3] = [
         |share| &share.energy,
         |share| &share.transfer,
         |share| &share.power,
     ];
     let mut outputs = Vec::new();
     for part in parts {
-        outputs.extend(shares.iter().map(|share| copies.graded.total(part(share))));
+        outputs.extend(shares.iter().map(|share| tree.series.total(part(share))));
     }
     outputs
 }
@@ -266,23 +283,23 @@ fn flattened(copies: &mut Copies<'_>, shares: &[Share]) -> Vec<ValueId> {
 /// K is meant through the order kept and differentiated then, so that its slope
 /// in the differences has one order less.
 fn transfers(
-    copies: &mut Copies<'_>,
-    values: &Values,
-    motion: &Motion,
-    places: &[Which],
-    loses_an_order: impl Fn(Which) -> bool,
+    tree: &mut SymmetricTree<'_>,
+    values: &ConstantValues,
+    motion: &SymmetricMotion,
+    ids: &[SectorId],
+    loses_an_order: impl Fn(SectorId) -> bool,
 ) -> Vec<ValueId> {
     let mut outputs = Vec::new();
-    for &which in places {
-        let parts = copies.transfer_parts(values, motion, which);
-        let slopes = if loses_an_order(which) {
-            copies.graded.without_highest(&parts.slopes)
+    for &sector in ids {
+        let parts = tree.transfer_parts(values, motion, sector);
+        let slopes = if loses_an_order(sector) {
+            tree.series.without_highest(&parts.slopes)
         } else {
             parts.slopes
         };
-        let kinetic = copies.graded.add(&slopes, &parts.kinetic);
-        outputs.push(copies.graded.total(&kinetic));
-        outputs.push(copies.graded.total(&parts.potential));
+        let kinetic = tree.series.add(&slopes, &parts.kinetic);
+        outputs.push(tree.series.total(&kinetic));
+        outputs.push(tree.series.total(&parts.potential));
     }
     outputs
 }

@@ -11,7 +11,7 @@ use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{Frame, Mechanics, Trigonometric};
 
-/// What the outputs of the entry are; links in their order.
+/// Outputs of the entry by their meaning; links in their order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Expansion {
     /// sin θ.
@@ -243,7 +243,7 @@ impl EntryList<'_, '_> {
     }
 }
 
-/// Which function of an angle multiplies a constant.
+/// Function of an angle that multiplies a constant.
 #[derive(Clone, Copy)]
 enum Between {
     Cosine,
@@ -325,8 +325,8 @@ fn constant_times(
     Some((function, constant))
 }
 
-/// Whether a term has the square of a velocity: the recurrences form these
-/// with the mass matrix, of whose derivatives they are made.
+/// Returns true if a term has the square of a velocity: the recurrences form
+/// these with the mass matrix, of whose derivatives they are made.
 fn is_centrifugal(mechanics: &Mechanics, term: &Expr) -> bool {
     term.factors().iter().any(|factor| match factor {
         Expr::Power(base, 2) => match base.as_ref() {

@@ -20,7 +20,7 @@ impl Argument {
 }
 
 impl Argument {
-    /// What stands before a coordinate's name for an element of the argument.
+    /// Letter before a coordinate's name for an element of the argument.
     pub(super) fn letter(self) -> &'static str {
         match self {
             Self::Theta | Self::Coordinates | Self::Absolute | Self::Symmetric => "theta",

@@ -13,8 +13,8 @@ pub(super) struct Turn {
 }
 
 impl Lowering<'_> {
-    /// Whether a coordinate appears in a combination, so that its versine is
-    /// formed anyway.
+    /// Returns true if a coordinate appears in a combination, so that its
+    /// versine is formed anyway.
     pub(super) fn is_combined(&self, coordinate: SymbolId) -> bool {
         self.mechanics
             .combinations

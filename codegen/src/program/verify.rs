@@ -49,8 +49,8 @@ fn is_unrepresentable(number: &Rational) -> bool {
 }
 
 impl super::Setup {
-    /// Whether every constant has a value that an `f64` can hold, where no
-    /// parameter is involved.
+    /// Returns true if every constant has a value that an `f64` can hold, where
+    /// no parameter is involved.
     pub(super) fn is_representable(&self) -> bool {
         self.definitions.iter().all(|definition| {
             let exact = definition.exact.as_ref();

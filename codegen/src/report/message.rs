@@ -2,17 +2,17 @@
 
 use super::nearest::nearest;
 
-/// What is wrong in a description.
+/// A mistake in a description.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Message {
     /// Another token should stand here.
     Expected {
-        /// What should.
+        /// The token that should.
         what: &'static str,
     },
     /// The list ends too early.
     Ended {
-        /// What is missing.
+        /// The missing token.
         what: &'static str,
     },
     /// Brackets or parentheses nested too deeply.
@@ -34,7 +34,7 @@ pub enum Message {
     },
     /// An unknown setting of the scene.
     UnknownEntry {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The known one that is spelt most alike.
         nearest: Option<&'static str>,
@@ -67,14 +67,14 @@ pub enum Message {
     },
     /// A name that is no snake-case identifier.
     NotSnakeCase {
-        /// As written.
+        /// Text as written.
         name: String,
-        /// As it could be written.
+        /// Text as it could be written.
         suggestion: Option<String>,
     },
     /// A shape that is not in the table.
     UnknownShape {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The known one that is spelt most alike.
         nearest: Option<&'static str>,
@@ -83,7 +83,7 @@ pub enum Message {
     },
     /// A property that the body does not have.
     UnknownProperty {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The body: "a link", "a `rod`".
         body: String,
@@ -124,14 +124,14 @@ pub enum Message {
     NotAShape,
     /// A value below zero that must not be.
     Negative {
-        /// As in "mass of `child`".
+        /// Name of it, as in "mass of `child`".
         what: String,
         /// The value.
         value: String,
     },
     /// A value that must be above zero.
     NotPositive {
-        /// As in "length of `child`".
+        /// Name of it, as in "length of `child`".
         what: String,
         /// The value.
         value: String,
@@ -147,12 +147,12 @@ pub enum Message {
     NotACode,
     /// Code in loops for something that it does not do.
     NoLoops {
-        /// As in "`emit(modes)`".
+        /// Name of it, as in "`emit(modes)`".
         what: String,
     },
     /// More links than can be expanded, of a rule whose code cannot be loops.
     TooManyForUnrolled {
-        /// As in "`emit(modes)`".
+        /// Name of it, as in "`emit(modes)`".
         what: String,
         /// The limit.
         limit: usize,
@@ -166,7 +166,7 @@ pub enum Message {
     DivisionByZero,
     /// A literal that is no plain decimal number.
     NotDecimal {
-        /// As written.
+        /// Text as written.
         text: String,
     },
     /// A number that no `f64` can hold.
@@ -184,7 +184,7 @@ pub enum Message {
     },
     /// A function in the drive that does not exist.
     DriveFunction {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The known one that is spelt most alike.
         nearest: Option<&'static str>,
@@ -193,7 +193,7 @@ pub enum Message {
     EmptyDrive,
     /// A part of the drive that does not exist.
     UnknownDrive {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The known one that is spelt most alike.
         nearest: Option<&'static str>,
@@ -211,14 +211,14 @@ pub enum Message {
     },
     /// An output that does not exist.
     UnknownRequest {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The known one that is spelt most alike.
         nearest: Option<&'static str>,
     },
     /// A way to solve that does not exist.
     UnknownSolve {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The known one that is spelt most alike.
         nearest: Option<&'static str>,
@@ -235,7 +235,7 @@ pub enum Message {
     },
     /// A form of the budget that does not exist.
     UnknownBudgetForm {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The known one that is spelt most alike.
         nearest: Option<&'static str>,
@@ -248,7 +248,7 @@ pub enum Message {
     SmallWithoutOrder,
     /// A sector that the scene does not have.
     UnknownSector {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The known one that is spelt most alike.
         nearest: Option<String>,
@@ -262,7 +262,7 @@ pub enum Message {
     },
     /// A form of the transfer that does not exist.
     UnknownForm {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The known one that is spelt most alike.
         nearest: Option<&'static str>,
@@ -297,7 +297,7 @@ pub enum Message {
     },
     /// A name in an observable that means nothing.
     UnknownSymbol {
-        /// As written.
+        /// Text as written.
         name: String,
         /// The known one that is spelt most alike.
         nearest: Option<String>,
@@ -311,7 +311,7 @@ pub enum Message {
     },
     /// A function in an observable that does not exist.
     UnknownFunction {
-        /// As written.
+        /// Text as written.
         name: String,
         /// All functions.
         known: Vec<&'static str>,

@@ -6,11 +6,11 @@ use super::Message;
 /// A message in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// What is wrong, on its own.
+    /// Statement of the mistake that stands on its own.
     pub text: String,
-    /// What is wrong with the marked tokens.
+    /// Mistake in the marked tokens.
     pub label: String,
-    /// What to write instead.
+    /// Correction to write instead.
     pub hint: String,
 }
 
@@ -432,7 +432,7 @@ impl Message {
     }
 }
 
-/// How an attribute looks, for tokens out of place.
+/// Outline of an attribute, for tokens out of place.
 const OUTLINE: &str = "an attribute looks like `gravity = 9.80665, parent(mass = 0.1, com = 0.1, \
      inertia = 0, joint = 0.3) [child: rod(mass = 0.1, length = 0.2) * 2], emit(energies)`";
 

@@ -16,19 +16,19 @@ pub(super) struct Body {
     pub(super) inertia: Quantity,
     /// Centre of mass, from the pivot.
     pub(super) com: Offset,
-    /// Where children hang, from the pivot, unless they say it themselves.
+    /// Attachment of the children, from the pivot, unless they name their own.
     pub(super) joint: Option<Offset>,
 }
 
 /// A shape, and how its body follows from its dimensions.
 pub(super) struct Shape {
-    /// What stands behind the colon.
+    /// Word behind the colon.
     pub(super) name: &'static str,
-    /// What must or may be given.
+    /// Properties that must or may be given.
     pub(super) dimensions: &'static [Dimension],
     /// The body that follows.
     pub(super) body: fn(&Given) -> Result<Body, ExactError>,
-    /// What must be positive beside the dimensions.
+    /// Length that must be positive beside the dimensions.
     pub(super) condition: Option<Condition>,
 }
 
@@ -74,7 +74,7 @@ const RADIUS: Dimension = required("radius", "m", Sign::Positive);
 /// A distance that may be zero: a disc can turn about its centre.
 const DISTANCE: Dimension = required("length", "m", Sign::NonNegative);
 
-/// What every link may say, whatever its shape.
+/// Properties that every link may have, whatever its shape.
 pub(super) const COMMON: &[Dimension] = &[
     optional("com", "m", Sign::Any),
     optional("inertia", "kg m²", Sign::NonNegative),
@@ -85,7 +85,7 @@ pub(super) const COMMON: &[Dimension] = &[
     optional("spring", "N m", Sign::NonNegative),
 ];
 
-/// What a link without a shape must say.
+/// Properties that a link without a shape must have.
 pub(super) const PLAIN: &[Dimension] = &[
     MASS,
     required("com", "m", Sign::Any),

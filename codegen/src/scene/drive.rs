@@ -1,4 +1,4 @@
-//! What moves the tree from outside, as functions of time.
+//! The drive: torque and motion from outside, as functions of time.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -118,7 +118,8 @@ fn signal(
     part(expression, usage, values, report)
 }
 
-/// Whether an expression is what a property could have: no time, no function.
+/// Returns true for an expression that a property could have: no time, no
+/// function.
 fn is_plain(expression: &Expression) -> bool {
     match &expression.kind {
         ExpressionKind::Number(_) => true,

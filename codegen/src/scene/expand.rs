@@ -134,7 +134,7 @@ fn group_name(template: &Template, suffix: &str) -> String {
     format!("{}{outer}", template.name)
 }
 
-/// Whether all copies together are at most [`MAX_LINKS`].
+/// Returns true if all copies together are at most [`MAX_LINKS`].
 pub(super) fn check_size(templates: &[Template], report: &mut Report) -> bool {
     let mut copies: Vec<usize> = Vec::with_capacity(templates.len());
     let mut links: usize = 0;

@@ -77,7 +77,7 @@ pub struct Scene {
     pub orbits: Vec<Orbit>,
     /// Identical sibling subtrees, in the order of their first link.
     pub groups: Vec<Group>,
-    /// What moves the tree from outside, if anything does.
+    /// The drive, if the tree has one.
     pub drive: Option<Drive>,
     /// Named values that the model is given at run time: gravity's first, then
     /// link by link in the order in which the description names them, then the
@@ -86,14 +86,14 @@ pub struct Scene {
     /// Conditions on values that depend on parameters, to be checked when the
     /// model is built.
     pub requirements: Vec<Requirement>,
-    /// What is asked for beside the accelerations.
+    /// Outputs beside the accelerations.
     pub requests: Requests,
     /// Quantities of the user's own. One that is written in symmetric
     /// coordinates comes with `requests.symmetric`.
     pub observables: Vec<Observable>,
-    /// How many links each of `links` stands for, where the code is loops over
-    /// generations: then `links` holds one link of each generation, below each
-    /// other, and there are no groups.
+    /// Number of links that each of `links` stands for, where the code is loops
+    /// over generations: then `links` holds one link of each generation, below
+    /// each other, and there are no groups.
     pub generations: Option<Generations>,
     /// The constants of all links, where the code is a loop over a table.
     pub table: Option<Table>,
@@ -103,14 +103,14 @@ pub struct Scene {
 /// what `crate = ...` says.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CratePath {
-    /// Whether the path starts with `::`.
+    /// True if the path starts with `::`.
     pub global: bool,
     /// The names between the `::`, as written.
     pub segments: Vec<String>,
 }
 
 impl Scene {
-    /// Whether the code is loops, over generations or a table of links.
+    /// Returns true if the code is loops, over generations or a table of links.
     pub fn in_loops(&self) -> bool {
         self.generations.is_some() || self.table.is_some()
     }
@@ -220,7 +220,7 @@ pub struct Group {
 pub struct Parameter {
     /// Snake-case name.
     pub name: String,
-    /// What it is used for, in words, with its unit where it stands alone.
+    /// Its uses, in words, with its unit where it stands alone.
     pub doc: String,
     /// The strictest condition among its direct uses.
     pub sign: Sign,
@@ -248,7 +248,7 @@ pub struct Requirement {
     pub sign: Sign,
 }
 
-/// How the accelerations in absolute angles are solved for.
+/// Method by which the accelerations in absolute angles are solved for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Solve {
     /// The mass matrix factorised along the tree, M = LᵀDL.
@@ -270,11 +270,11 @@ impl Solve {
     }
 }
 
-/// What is asked for beside the accelerations.
+/// Outputs that are asked for beside the accelerations.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Requests {
-    /// How accelerations are to be solved for; the one of fewer operations if
-    /// nothing is said.
+    /// Solve for the accelerations; the one of fewer operations if nothing is
+    /// said.
     pub solve: Option<Solve>,
     /// Kinetic and potential energy.
     pub energies: bool,
@@ -296,8 +296,8 @@ pub struct Requests {
     pub drive: bool,
 }
 
-/// Which forms of the sectors' budget are asked for; at least one. The forms
-/// differ in the kinetic energy that a sector is said to have.
+/// Forms of the sectors' budget that are asked for; at least one. The forms
+/// differ in the definition of a sector's kinetic energy.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct BudgetRequest {
     /// From the momenta and the sector's block of the mass matrix at rest.
@@ -308,7 +308,7 @@ pub struct BudgetRequest {
     pub parseval: bool,
     /// From the velocities and the block at the configuration.
     pub velocity: bool,
-    /// Who gives whom how much, by Parseval.
+    /// Energy transfer from each sector to each other, by Parseval.
     pub matrix: bool,
     /// Orders in the amplitude of the differences through which the transfers
     /// are expanded. Comes with `momenta` and `symmetric`.
@@ -321,7 +321,7 @@ pub struct BudgetRequest {
     pub small: Vec<(usize, usize)>,
 }
 
-/// Which forms of the energy transfer are asked for; at least one.
+/// Forms of the energy transfer that are asked for; at least one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TransferRequest {
     /// Orders of the kinetic energy in the difference angles, momenta kept

@@ -1,4 +1,4 @@
-//! Which names a description may give.
+//! The names that a description may give.
 
 use proc_macro2::{Ident, Span};
 
@@ -70,7 +70,7 @@ pub(super) fn check_parameter(name: &str, span: Span, report: &mut Report) -> Op
     }
 }
 
-/// What is wrong with a name.
+/// The message about a name that may not be used.
 fn fault(name: &str) -> Option<Message> {
     let name = name.to_owned();
     if KEYWORDS.contains(&name.as_str()) || EMITTED.contains(&name.as_str()) {
@@ -83,8 +83,8 @@ fn fault(name: &str) -> Option<Message> {
     }
 }
 
-/// Whether `name` is letters a to z, digits and single underscores, a letter
-/// first and no underscore last.
+/// Returns true if `name` is letters a to z, digits and single underscores, a
+/// letter first and no underscore last.
 fn is_snake_case(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     name.starts_with(|c: char| c.is_ascii_lowercase())
@@ -110,7 +110,7 @@ fn snake_case(name: &str) -> Option<String> {
     fault_free(&suggestion).then_some(suggestion)
 }
 
-/// Whether a name may be used.
+/// Returns true if a name may be used.
 fn fault_free(name: &str) -> bool {
     is_snake_case(name) && !KEYWORDS.contains(&name) && !EMITTED.contains(&name)
 }

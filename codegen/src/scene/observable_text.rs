@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::{Observed, Parameter, Quantity};
 
-/// How tightly a value binds, and how tightly its place asks for.
+/// Binding strength of a value, and the one that its place asks for.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Binding {
     Sum,

@@ -16,7 +16,7 @@ use crate::report::{Message, Report, nearest};
 pub struct Observable {
     /// Snake-case name; its functions are called after it.
     pub name: String,
-    /// What it is.
+    /// Its definition.
     pub value: Observed,
 }
 
@@ -25,7 +25,7 @@ pub struct Observable {
 pub enum Observed {
     /// Numbers, parameters, gravity, and what is formed of them.
     Known(Quantity),
-    /// What moves.
+    /// A quantity that moves.
     Variable(Variable),
     /// A constant of the model, by its name there; one that the model does not
     /// have is zero.
@@ -51,15 +51,15 @@ pub enum Observed {
 /// A coordinate, or its velocity or momentum.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Variable {
-    /// As the user writes it: `theta_child_1`, `p_d`.
+    /// Name as the user writes it: `theta_child_1`, `p_d`.
     pub name: String,
-    /// What of the coordinate.
+    /// Angle, velocity or momentum of the coordinate.
     pub kind: VariableKind,
     /// The coordinate.
     pub place: Place,
 }
 
-/// What of a coordinate a [`Variable`] is.
+/// Kind of a [`Variable`] of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VariableKind {
     /// The coordinate itself, rad.
@@ -106,7 +106,8 @@ impl Function {
 }
 
 impl Observed {
-    /// Whether a variable that only the symmetric coordinates have occurs.
+    /// Returns true if a variable that only the symmetric coordinates have
+    /// occurs.
     pub fn is_symmetric(&self) -> bool {
         match self {
             Self::Variable(variable) => matches!(variable.place, Place::Symmetric(_)),
@@ -122,7 +123,7 @@ impl Observed {
     }
 }
 
-/// What the functions of an observable are called after its name.
+/// Suffixes of an observable's name in the names of its functions.
 pub const OBSERVABLE_SUFFIXES: [&str; 5] = [
     "",
     "_rate",
@@ -135,9 +136,9 @@ pub const OBSERVABLE_SUFFIXES: [&str; 5] = [
 /// list against the fixtures.
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
-    "accelerations", "accelerations_into", "canonical_rates", "clone", "default", "eq",
-    "evaluate", "fmt", "freedoms", "from", "from_parameters", "from_symmetric", "hamiltonian",
-    "into", "kinetic_energy", "kinetic_energy_of", "mass_matrix", "momenta", "new", "part",
+    "accelerations", "accelerations_into", "canonical_rates", "clone", "default",
+    "degrees_of_freedom", "eq", "evaluate", "fmt", "from", "from_parameters", "from_symmetric",
+    "hamiltonian", "into", "kinetic_energy", "kinetic_energy_of", "mass_matrix", "momenta", "new", "part",
     "potential_energy", "potential_energy_of", "cast", "stiffness_matrix",
     "symmetric_accelerations", "symmetric_accelerations_into", "symmetric_momenta",
     "symmetric_velocities", "taylor_coefficients", "taylor_coefficients_into", "to_symmetric",

@@ -1,6 +1,6 @@
-//! Whether an observable's part is zero whatever its variables are: tried at a
-//! few points, in numbers, since the algebra comes later and may not divide by
-//! zero.
+//! The probe of an observable's part: is it zero whatever its variables are? It
+//! is tried at a few points, in numbers, since the algebra comes later and may
+//! not divide by zero.
 
 use super::Quantity;
 use super::observables::{Function, Observed};
@@ -25,7 +25,7 @@ impl Probe {
 }
 
 impl Observed {
-    /// Whether the value vanishes at all points, within rounding.
+    /// Returns true if the value vanishes at all points, within rounding.
     pub(super) fn is_zero(&self) -> bool {
         POINTS.iter().all(|&point| {
             let Probe { value, size } = self.probe(point);
@@ -33,7 +33,7 @@ impl Observed {
         })
     }
 
-    /// Whether the value is too large for an `f64` at all points.
+    /// Returns true if the value is too large for an `f64` at all points.
     pub(super) fn is_out_of_range(&self) -> bool {
         POINTS
             .iter()

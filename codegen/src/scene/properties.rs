@@ -1,5 +1,5 @@
-//! What stands in the parentheses of a link: which properties there are, which
-//! are missing, and the body that follows.
+//! The parentheses of a link: which properties there are, which are missing,
+//! and the body that follows.
 
 use super::bodies::{Body, COMMON, Condition, Dimension, Given, PLAIN, SHAPES, Shape};
 use super::rule::{COUNTS, Counts, RATIOS, Rule};
@@ -22,7 +22,7 @@ pub(super) struct Properties {
 /// Properties that can be a pair.
 const POINTS: &[&str] = &["com", "joint", "at"];
 
-/// What a link may and must say.
+/// Properties that a link may and must have.
 pub(super) struct Kind {
     /// In words: "a link", "a `rod`".
     text: String,
@@ -165,7 +165,7 @@ impl Kind {
                 sound = false;
                 let (message, meant) = self.unknown(name.clone());
                 report.error(property.name.span(), message);
-                // What was probably meant is misspelt, not missing.
+                // The property that was probably meant is misspelt, not missing.
                 seen.extend(meant.map(str::to_owned));
             }
             seen.push(name);

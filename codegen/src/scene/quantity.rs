@@ -49,7 +49,7 @@ impl Quantity {
         }
     }
 
-    /// Whether the value is known to be 0.
+    /// Returns true if the value is known to be 0.
     pub fn is_zero(&self) -> bool {
         self.exact().is_some_and(Rational::is_zero)
     }
@@ -200,7 +200,7 @@ impl Quantity {
     }
 }
 
-/// What surrounds a value in the text, from loosest to tightest.
+/// Surroundings of a value in the text, from loosest to tightest.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Place {
     Sum,
@@ -266,7 +266,7 @@ impl Shown<'_> {
         }
     }
 
-    /// Whether the value needs parentheses where it stands.
+    /// Returns true if the value needs parentheses where it stands.
     fn is_loose(&self) -> bool {
         match self.value {
             Quantity::Exact(value) => {

@@ -1,4 +1,5 @@
-//! What is asked for, and whether it can be derived for the tree.
+//! Requests: the outputs that are asked for, and the check that they can be
+//! derived for the tree.
 
 use std::ops::RangeInclusive;
 

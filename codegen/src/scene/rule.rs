@@ -15,7 +15,7 @@ pub(super) struct Rule {
     pub(super) count: usize,
     /// Children of a link, at least one.
     pub(super) branching: usize,
-    /// How its code is written, where the description says so.
+    /// Form of its code, where the description gives one.
     pub(super) code: Option<Code>,
     /// A link's mass over its parent's.
     pub(super) mass_ratio: Quantity,
@@ -23,7 +23,7 @@ pub(super) struct Rule {
     pub(super) length_ratio: Quantity,
 }
 
-/// How the code of a rule is written.
+/// Form of the code of a rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Code {
     /// In loops over generations.
@@ -162,7 +162,7 @@ fn count(value: &Value) -> Option<usize> {
     Some(number.numerator_text().parse::<u32>().unwrap_or(u32::MAX) as usize)
 }
 
-/// How code is written, as the value of a property.
+/// Form of the code, as the value of a property.
 fn code(value: &Value) -> Option<Code> {
     let Value::Single(Expression {
         kind: ExpressionKind::Name(name),

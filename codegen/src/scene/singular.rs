@@ -1,4 +1,4 @@
-//! Whether a mass matrix is regular for all angles.
+//! The check that a mass matrix is regular for all angles.
 //!
 //! The mass matrix is singular at a configuration if some velocities other than
 //! zero have no kinetic energy there. Call a subtree *yielding* if in some
@@ -35,11 +35,11 @@ pub(super) fn check_regular(templates: &[Template], report: &mut Report) {
     }
 }
 
-/// What is known about the children of a link.
+/// The children of a link, as far as they are known.
 struct Subtrees<'a> {
     /// Pivots of the children that do not yield.
     firm: Vec<&'a Offset>,
-    /// Whether a link below can turn without energy.
+    /// True if a link below can turn without energy.
     singular: bool,
 }
 
@@ -76,15 +76,15 @@ pub(super) fn singular(templates: &[Template]) -> Vec<usize> {
     found
 }
 
-/// Whether the link can turn about its resting pivot; `firm` holds the pivots of
-/// the children that do not yield.
+/// Returns true if the link can turn about its resting pivot; `firm` holds the
+/// pivots of the children that do not yield.
 fn turns(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
     body.inertia.is_zero()
         && (body.mass.is_zero() || is_origin(&body.com))
         && firm.iter().all(|pivot| is_origin(pivot))
 }
 
-/// Whether the link's own pivot can move.
+/// Returns true if the link's own pivot can move.
 fn yields(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
     if body.mass.is_zero() && firm.is_empty() {
         return true;
@@ -100,7 +100,7 @@ fn yields(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
     centre.is_some_and(|centre| !is_origin(centre) && firm.iter().all(|pivot| *pivot == centre))
 }
 
-/// Whether a point is known to be the pivot.
+/// Returns true if a point is known to be the pivot.
 fn is_origin(Offset { along, lateral }: &Offset) -> bool {
     [along, lateral].into_iter().all(Quantity::is_zero)
 }

@@ -8,7 +8,7 @@ use crate::mechanics::coordinates::symmetric_coordinates;
 
 /// The meaning of a name.
 pub(super) enum Meaning {
-    /// This.
+    /// One quantity.
     One(Observed),
     /// A parameter of the user's and a symbol of ours.
     Several,
@@ -99,14 +99,14 @@ impl Symbols {
         &self.example
     }
 
-    /// Whether a name is that of something that moves.
+    /// Returns true if a name is that of a quantity that moves.
     pub(super) fn is_variable(&self, name: &str) -> bool {
         let meaning = self.get(name);
         matches!(meaning, Some(Meaning::One(Observed::Variable(_))))
     }
 
-    /// Whether a name is that of a constant of the model, which has a function
-    /// to read it.
+    /// Returns true if a name is that of a constant of the model, which has a
+    /// function to read it.
     pub(super) fn is_constant(&self, name: &str) -> bool {
         let meaning = self.get(name);
         matches!(meaning, Some(Meaning::One(Observed::Constant(_))))

@@ -31,7 +31,8 @@ pub(super) struct Template {
     pub(super) spring: Option<Quantity>,
 }
 
-/// What is built up on the way through the description.
+/// The templates and values that are built up on the way through the
+/// description.
 #[derive(Default)]
 pub(super) struct Builder {
     /// Parents before children, depth first.
@@ -49,7 +50,7 @@ pub(super) struct WholeRule {
     pub(super) span: Span,
 }
 
-/// What a link hangs from.
+/// The joint from which a link hangs.
 #[derive(Clone)]
 struct Parent {
     index: usize,
@@ -127,7 +128,7 @@ impl Builder {
         }
     }
 
-    /// Where a link hangs on its parent.
+    /// Attachment of a link to its parent.
     fn pivot(
         &self,
         node: &Node,

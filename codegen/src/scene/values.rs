@@ -8,7 +8,7 @@ use crate::description::{Expression, ExpressionKind};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Message, Report};
 
-/// What a value is for.
+/// Use of a value.
 pub(super) struct Usage<'a> {
     /// In words, as in "mass of `child`".
     pub(super) what: String,
@@ -189,7 +189,7 @@ pub(super) fn message_for(error: ExactError) -> Message {
     }
 }
 
-/// What is wrong with a number that must have a sign.
+/// The message about a number of the wrong sign.
 fn violation(number: &Rational, what: &str, sign: Sign) -> Option<Message> {
     let (what, value) = (what.to_owned(), number.to_string());
     match sign {
@@ -201,7 +201,7 @@ fn violation(number: &Rational, what: &str, sign: Sign) -> Option<Message> {
     }
 }
 
-/// What is wrong with a value whose numbers are too long to go on with or do not
+/// The message about a value whose numbers are too long to go on with or do not
 /// fit an `f64`: silently they would become zero or infinite.
 pub(super) fn unrepresentable(value: &Quantity) -> Option<Message> {
     let mut message = None;

@@ -54,7 +54,8 @@ pub struct SectorModes {
     /// largest of all entries, both in orthonormal coordinates: rounding where
     /// the equilibrium is in phase.
     pub mass_off_block: f64,
-    /// The same of the stiffness matrix; zero where that is zero.
+    /// Largest absolute entry of the stiffness matrix between two sectors, over
+    /// the largest of all; zero where that is zero.
     pub stiffness_off_block: f64,
 }
 
@@ -62,7 +63,7 @@ impl SectorModes {
     /// Splits `mass` (kg m²) and `stiffness` (N m/rad), both by rows and for
     /// absolute angles at an in-phase equilibrium, into the blocks of `sectors`.
     ///
-    /// What couples the sectors is left out of the blocks and reported as
+    /// Entries between sectors are left out of the blocks and reported as
     /// [`mass_off_block`](Self::mass_off_block) and
     /// [`stiffness_off_block`](Self::stiffness_off_block): look at them where
     /// the equilibrium might not be in phase. Effort grows as n³ with n links.

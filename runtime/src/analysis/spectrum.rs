@@ -19,11 +19,11 @@ pub enum Window {
     Hann,
 }
 
-/// How a spectrum is taken. By default the mean is removed and the window is
-/// that of Hann.
+/// Options of a spectrum. By default the mean is removed and the window is that
+/// of Hann.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SpectrumOptions {
-    /// Whether the mean of the samples is subtracted first.
+    /// True if the mean of the samples is subtracted first.
     pub remove_mean: bool,
     /// Weights of the samples; amplitudes are corrected for their sum.
     pub window: Window,

@@ -29,7 +29,7 @@ where
     On: AsRef<[T]>,
     Out: AsMut<[T]>,
 {
-    /// How many states it has done.
+    /// Number of states that it has done.
     type Output = usize;
 
     #[inline(always)]
@@ -239,7 +239,8 @@ fn store<R: Register>(slices: &mut [impl AsMut<[R::Lane]>], link: usize, end: us
     }
 }
 
-/// The same, where it is needed: chosen between are places and not numbers.
+/// As [`load`], where the number is needed: the choice is between places and
+/// not numbers.
 #[inline(always)]
 fn load_late<R: Register>(
     slices: &[impl AsRef<[R::Lane]>],

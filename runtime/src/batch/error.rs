@@ -1,4 +1,4 @@
-//! What a batch refuses.
+//! Errors of a batch.
 
 use core::fmt;
 

@@ -83,7 +83,7 @@ impl Ensemble<'_> {
     ///
     /// # Examples
     ///
-    /// How fast a rod is after ten seconds, by its friction:
+    /// Speed of a rod after ten seconds, by its friction:
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -136,7 +136,8 @@ impl Ensemble<'_> {
     ///
     /// # Examples
     ///
-    /// Where a trajectory fails, its samples end, and no other is concerned:
+    /// The samples of a trajectory end where it fails, and no other trajectory
+    /// is concerned:
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -256,7 +257,7 @@ impl Ensemble<'_> {
 pub struct Samples<T> {
     dimension: usize,
     values: Vec<T>,
-    /// Where it ended, or why it did before.
+    /// End of the trajectory, or the reason for which it ended before.
     pub end: Result<Solution<T>, IntegrationError<T>>,
 }
 

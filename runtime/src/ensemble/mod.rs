@@ -2,8 +2,8 @@
 //!
 //! An [`Ensemble`] hands items (initial conditions, parameter sets) to threads,
 //! one after the other, and gives the results back in the order of the items.
-//! What a result is is the caller's choice; an item that fails with an error
-//! is one `Err` among the results, and the others run on.
+//! The caller chooses the type of a result; an item that fails with an error is
+//! one `Err` among the results, and the others run on.
 //!
 //! Pendulums can be integrated in the lanes of vector registers, several
 //! trajectories at a time on each thread: many starts of one model
@@ -26,11 +26,11 @@ use crate::integrate::{DenseStep, IntegrationError, Integrator, Solution};
 use crate::scalar::Real;
 use crate::system::{Ode, State};
 
-/// How an ensemble is computed.
+/// Computation of an ensemble.
 ///
 /// # Examples
 ///
-/// Where a hundred pendulums are after ten seconds, one of which starts from
+/// Positions of a hundred pendulums after ten seconds, one of which starts from
 /// nowhere:
 ///
 /// ```

@@ -12,7 +12,7 @@ pub(super) struct Queue<'a> {
 
 // The counters carry no data: relaxed order suffices.
 impl<'a> Queue<'a> {
-    /// So many items, none of them taken.
+    /// A queue of `items` items, none of them taken.
     pub(super) fn new(items: usize, progress: Option<&'a (dyn Fn(usize) + Sync)>) -> Self {
         Self {
             items,

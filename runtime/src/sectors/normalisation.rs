@@ -17,7 +17,7 @@ pub enum Normalisation {
     Orthonormal,
 }
 
-/// What is transformed: momenta go the other way than coordinates.
+/// Kind of the transformed quantity: momenta go the other way than coordinates.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Coordinates,
@@ -50,8 +50,8 @@ fn coordinates(sectors: &'static [Sector]) -> impl Iterator<Item = &'static Sect
     sectors.iter().flat_map(|sector| sector.coordinates)
 }
 
-/// Whether slices have one number for each coordinate; else the second is
-/// filled with NaN.
+/// Returns true if slices have one number for each coordinate; else fills the
+/// second with NaN.
 fn fits<T: Scalar>(sectors: &'static [Sector], from: usize, to: &mut [T]) -> bool {
     let count = coordinates(sectors).count();
     let fits = from == count && to.len() == count;

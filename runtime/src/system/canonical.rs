@@ -19,7 +19,7 @@ use crate::scalar::Scalar;
 /// struct Point { mass: f64, length: f64 }
 ///
 /// impl Canonical<f64> for Point {
-///     fn freedoms(&self) -> usize {
+///     fn degrees_of_freedom(&self) -> usize {
 ///         1
 ///     }
 ///     fn canonical_rates(
@@ -41,11 +41,11 @@ use crate::scalar::Scalar;
 /// ```
 pub trait Canonical<T> {
     /// Number of coordinates, and of momenta.
-    fn freedoms(&self) -> usize;
+    fn degrees_of_freedom(&self) -> usize;
 
     /// Writes the rates of the coordinates `q` (rad) and of the momenta `p`
     /// (kg m²/s) at `time` (s). All four slices have length
-    /// [`freedoms`](Self::freedoms).
+    /// [`degrees_of_freedom`](Self::degrees_of_freedom).
     ///
     /// Where there is no answer, write NaN.
     fn canonical_rates(&self, time: T, q: &[T], p: &[T], q_rates: &mut [T], p_rates: &mut [T]);
@@ -58,12 +58,12 @@ pub struct CanonicalVariables<'a, C>(pub &'a C);
 
 impl<T: Scalar, C: Canonical<T>> Ode<T> for CanonicalVariables<'_, C> {
     fn dimension(&self) -> usize {
-        2 * self.0.freedoms()
+        2 * self.0.degrees_of_freedom()
     }
 
     #[inline]
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        let n = self.0.freedoms();
+        let n = self.0.degrees_of_freedom();
         if state.len() != 2 * n || rates.len() != 2 * n {
             rates.fill(T::from_f64(f64::NAN));
             return;

@@ -64,7 +64,7 @@ use super::Pendulum;
 /// # Ok::<(), branched_pendulum::batch::BatchError>(())
 /// ```
 pub trait Cast<T: Scalar>: Pendulum<T> {
-    /// The same pendulum on other scalars.
+    /// This pendulum on other scalars.
     type Of<S: Scalar>: Cast<S>;
 
     /// Takes every constant through `convert`, which should change their type
@@ -90,15 +90,16 @@ pub trait Cast<T: Scalar>: Pendulum<T> {
         alpha: impl FnMut(usize, T),
     );
 
-    /// How many values [`in_registers`](Self::in_registers) needs room for.
+    /// Number of values that [`in_registers`](Self::in_registers) needs room
+    /// for.
     #[doc(hidden)]
     fn room(&self) -> usize {
         0
     }
 
-    /// What a [`Batch`](crate::batch::Batch) computes with at `time`: this pendulum
-    /// in registers, or where that would be large, something that takes its numbers
-    /// as they are needed.
+    /// The form in which a [`Batch`](crate::batch::Batch) computes at `time`:
+    /// this pendulum in registers, or where that would be large, something that
+    /// takes its numbers as they are needed.
     #[doc(hidden)]
     #[inline(always)]
     fn in_registers<R: Register<Lane = T>>(&self, time: T, room: &mut [T]) -> impl InRegisters<R> {
@@ -113,7 +114,7 @@ pub trait Cast<T: Scalar>: Pendulum<T> {
 /// A pendulum in registers, at one time.
 #[doc(hidden)]
 pub trait InRegisters<R> {
-    /// As [`Cast::evaluate`].
+    /// Evaluates as [`Cast::evaluate`] does.
     fn evaluate(
         &mut self,
         theta: impl Fn(usize) -> R,
@@ -150,7 +151,8 @@ pub(crate) fn at<T: Scalar>(numbers: &[T], index: usize) -> T {
     }
 }
 
-/// The same with [`put`] in place of reading.
+/// Writes the element at an index; nothing beyond the end, as [`at`] reads NaN
+/// there.
 #[inline(always)]
 pub(crate) fn put<T>(numbers: &mut [T], index: usize, value: T) {
     if let Some(number) = numbers.get_mut(index) {
@@ -158,7 +160,8 @@ pub(crate) fn put<T>(numbers: &mut [T], index: usize, value: T) {
     }
 }
 
-/// Whether all slices have one number a link; fills `alpha` with NaN if not.
+/// Returns true if all slices have one number a link; fills `alpha` with NaN if
+/// not.
 #[inline(always)]
 fn fit<T: Scalar, P: Pendulum<T>>(theta: &[T], omega: &[T], alpha: &mut [T]) -> bool {
     let fit = theta.len() == P::LINKS && omega.len() == P::LINKS && alpha.len() == P::LINKS;

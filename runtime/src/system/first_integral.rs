@@ -54,7 +54,7 @@ pub struct CanonicalEnergy<'a, P>(pub &'a P);
 
 impl<T: Scalar, P: Canonical<T> + Energy<T>> FirstIntegral<T> for CanonicalEnergy<'_, P> {
     fn evaluate(&self, state: &[T], gradient: &mut [T]) -> T {
-        let n = self.0.freedoms();
+        let n = self.0.degrees_of_freedom();
         if state.len() != 2 * n || gradient.len() != 2 * n {
             gradient.fill(T::from_f64(f64::NAN));
             return T::from_f64(f64::NAN);

@@ -28,7 +28,8 @@ pub trait TaylorPendulum<T: Scalar>: Cast<T> {
         work: &mut [Quad<T>],
     );
 
-    /// The same of this pendulum on other scalars, in their arithmetic: how
+    /// Writes the coefficients of this pendulum on other scalars, in their
+    /// arithmetic: so
     /// [`Ensemble::integrate_in_lanes`](crate::ensemble::Ensemble::integrate_in_lanes)
     /// expands as many motions at a time as a vector register holds.
     ///

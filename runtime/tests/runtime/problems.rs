@@ -156,7 +156,7 @@ impl<T: Scalar> SymmetricPendulum<T> for BranchedDouble {
 /// ∂L/∂θ_1 = μ ω_1 Σ sin(θ_j − θ_1) ω_j − G_1 sin θ_1,
 /// ∂L/∂θ_j = −μ ω_1 sin(θ_j − θ_1) ω_j − G_2 sin θ_j.
 impl Canonical<f64> for BranchedDouble {
-    fn freedoms(&self) -> usize {
+    fn degrees_of_freedom(&self) -> usize {
         3
     }
 

@@ -1,4 +1,4 @@
-//! Where methods fail, each is driven into it: what must come out is an error
+//! Limits of methods, into which each is driven: what must come out is an error
 //! with the state to continue from, or a bounded, stated degradation.
 //!
 //! Elsewhere: steps that no solver solves (`gauss.rs`), events at the start and

@@ -12,7 +12,7 @@ struct Pair {
 }
 
 impl Canonical<f64> for Pair {
-    fn freedoms(&self) -> usize {
+    fn degrees_of_freedom(&self) -> usize {
         2
     }
 

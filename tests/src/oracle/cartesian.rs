@@ -11,25 +11,26 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use super::drive::Push;
 use super::{Tree, Vector, dot, perpendicular, turned, turned_terms};
 
-/// What the tree does in one state, and how large the terms are that each
-/// figure is summed from: the measure for rounding errors.
+/// Motion of the tree in one state, and the size of the terms from which each
+/// figure is summed: the measure for rounding errors.
 #[derive(Clone, Debug)]
 pub struct Motion {
     /// Mass matrix M, kg m².
     pub mass: DMatrix<f64>,
-    /// The same with the absolute value of every term.
+    /// M with the absolute value of every term.
     pub mass_terms: DMatrix<f64>,
     /// Centrifugal, gravity and friction torques on the left-hand side, N m.
     pub bias: DVector<f64>,
-    /// The same with the absolute value of every term.
+    /// The bias with the absolute value of every term.
     pub bias_terms: DVector<f64>,
     /// Kinetic energy ½ Σ m v² + I ω², J.
     pub kinetic: f64,
-    /// The same with the absolute value of every term, v multiplied out.
+    /// The kinetic energy with the absolute value of every term, v multiplied
+    /// out.
     pub kinetic_terms: f64,
     /// Potential energy, zero where all angles are zero, J.
     pub potential: f64,
-    /// The same with the absolute value of every term.
+    /// The potential energy with the absolute value of every term.
     pub potential_terms: f64,
 }
 
@@ -79,8 +80,8 @@ impl Motion {
         Self::driven(tree, theta, omega, &Push::default())
     }
 
-    /// The same with a torque on the root and an accelerated pivot. Velocities
-    /// and energies are relative to the pivot.
+    /// The motion with a torque on the root and an accelerated pivot.
+    /// Velocities and energies are relative to the pivot.
     pub fn driven(tree: &Tree, theta: &[f64], omega: &[f64], push: &Push) -> Self {
         let n = tree.links.len();
         let mut motion = Self {

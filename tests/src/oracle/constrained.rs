@@ -28,7 +28,7 @@ pub fn accelerations(tree: &Tree, theta: &[f64], omega: &[f64]) -> Vec<f64> {
     driven(tree, theta, omega, &Push::default())
 }
 
-/// The same with a torque on the root and an accelerated pivot, all in the
+/// Accelerations with a torque on the root and an accelerated pivot, all in the
 /// frame of the ground: only the condition on the root's pivot changes.
 ///
 /// # Panics

@@ -7,8 +7,8 @@ use std::ops::{Add, Mul};
 use super::Vector;
 use crate::random::Random;
 
-/// What drives a tree at one time, and how large the terms are that each figure
-/// is summed from.
+/// The drive of a tree at one time, and the size of the terms from which each
+/// figure is summed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Push {
     /// Torque on the root, N m.

@@ -6,16 +6,16 @@ use std::fmt::Write;
 use super::{Link, Tree};
 use crate::random::Random;
 
-/// What a random tree may look like.
+/// Properties of a random tree.
 #[derive(Clone, Copy, Debug)]
 pub struct Recipe {
     /// Number of links at which the tree stops growing.
     pub links: usize,
     /// Numbers of identical siblings to choose from.
     pub copies: &'static [usize],
-    /// Whether links with copies may have children, so that groups nest.
+    /// True if links with copies may have children, so that groups nest.
     pub nested: bool,
-    /// What stands in `emit(...)`.
+    /// Text in `emit(...)`.
     pub requests: &'static str,
 }
 
@@ -24,7 +24,7 @@ pub struct Recipe {
 pub struct Sample {
     /// The arguments of the attribute.
     pub text: String,
-    /// The same in numbers, copies written out.
+    /// The tree in numbers, copies written out.
     pub tree: Tree,
 }
 
@@ -37,7 +37,7 @@ struct Node {
     /// Shape and properties.
     text: String,
     link: Link,
-    /// Where children hang unless they say it themselves.
+    /// Attachment of the children, unless they name their own.
     joint: [f64; 2],
 }
 

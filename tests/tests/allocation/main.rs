@@ -34,7 +34,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Of a first and of a second call.
+/// Allocations of a first and of a second call.
 fn of_two(mut call: impl FnMut()) -> [u64; 2] {
     let start = ALLOCATIONS.with(Cell::get);
     call();

@@ -93,7 +93,8 @@ fn deepest_nesting_is_read() {
     assert_eq!(scene.map(|scene| scene.links.len()), Some(64));
 }
 
-/// What only the derivation knows to be zero is refused at its place too.
+/// A divisor that only the derivation knows to be zero is refused at its place
+/// too.
 #[test]
 fn divisors_that_vanish_in_the_model() {
     let source = "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1),

@@ -104,7 +104,7 @@ fn shapes() {
     insta::assert_snapshot!("shapes_scene", scene(SHAPES));
 }
 
-/// What later stages rely on.
+/// Invariants on which later stages rely.
 fn assert_invariants(scene: &Scene) {
     for (i, link) in scene.links.iter().enumerate() {
         assert_eq!(link.parent.is_none(), i == 0);

@@ -61,7 +61,7 @@ fn source(links: &[Link]) -> String {
     )
 }
 
-/// Whether the front end calls the tree singular.
+/// Returns true if the front end calls the tree singular.
 fn is_refused(links: &[Link]) -> bool {
     let source = source(links);
     let Outcome { scene, report, .. } = run_source(&source);

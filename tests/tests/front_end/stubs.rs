@@ -1,4 +1,4 @@
-//! What stands in for a model whose description is wrong has the functions that
+//! The substitute of a model whose description is wrong has the functions that
 //! the right one has.
 
 use std::collections::BTreeMap;
@@ -67,7 +67,7 @@ fn they_have_the_functions_and_traits_of_models() {
         let wrong = expand(quote!(gravity = 1, #attribute), item);
         assert!(wrong.to_string().contains("compile_error"));
         let stub = functions(wrong.clone());
-        // What only a right model has: its constants.
+        // Functions that only a right model has: its constants.
         let constants = right.mechanics.constants.iter();
         let constants = constants.map(|c| right.mechanics.symbols.get(c.symbol).code.clone());
         let constants: Vec<String> = constants.collect();

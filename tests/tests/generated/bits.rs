@@ -21,7 +21,7 @@ use branched_pendulum_tests::source::scene;
 
 const STATES: usize = 200;
 
-/// What a compiled function returns, as a list.
+/// Results of a compiled function, as a list.
 trait Values {
     fn values(self) -> Vec<f64>;
 }

@@ -1,6 +1,6 @@
-//! What the compiler makes of the paper's accelerations, disassembled: one
-//! division, no check of bounds, and no calls but for sines and cosines; and, for
-//! one state and for batches, in fused instructions.
+//! The machine code of the paper's accelerations, disassembled: one division,
+//! no check of bounds, and no calls but for sines and cosines; and, for one
+//! state and for batches, in fused instructions.
 
 use branched_pendulum::Pendulum;
 use branched_pendulum::batch::Batch;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::SystemTime;
 
-/// Where cargo put the dependencies of this test.
+/// Directory in which cargo put the dependencies of this test.
 fn dependencies() -> PathBuf {
     let test = std::env::current_exe().expect("the test runs from a file");
     test.parent().expect("a file has a folder").to_owned()
@@ -176,7 +176,7 @@ pub fn use_it() -> f64 {
 }
 "#;
 
-/// The same with parameters.
+/// A user's crate with parameters.
 const WRONG_WITH_PARAMETERS: &str = r#"
 //! A user's crate in the middle of an edit.
 use branched_pendulum::prelude::*;
@@ -197,7 +197,7 @@ pub fn use_it() -> Result<[f64; 3], ParameterError> {
 }
 "#;
 
-/// The same with a drive, which gives functions a time.
+/// A user's crate with a drive, which gives functions a time.
 const WRONG_WITH_DRIVE: &str = r#"
 //! A user's crate in the middle of an edit.
 use branched_pendulum::prelude::*;

@@ -131,7 +131,7 @@ fn accelerations_and_power_agree_with_both_oracles() {
     power.assert_below(1e-14, "power");
 }
 
-/// The same accelerations in symmetric coordinates, of nested groups too.
+/// Driven accelerations in symmetric coordinates, of nested groups too.
 #[test]
 fn symmetric_coordinates_are_driven_alike() {
     let mut worst = Worst::default();

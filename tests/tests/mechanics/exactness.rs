@@ -65,7 +65,7 @@ fn an_antiphase_of_zero_stays_zero_over_a_million_steps() {
     assert!(range.width() > 2.0, "{}", range.width());
 }
 
-/// The same over 100 s, with a disturbance in the last place: the zero above
+/// The motion over 100 s, with a disturbance in the last place: the zero above
 /// is not for lack of growth.
 #[test]
 fn a_disturbance_in_the_last_place_grows() {
@@ -211,7 +211,8 @@ const STRUCTURES: &[(&str, &str)] = &[
     ),
 ];
 
-/// Whether group `inner` is group `outer` or hangs in one of its copies.
+/// Returns true if group `inner` is group `outer` or hangs in one of its
+/// copies.
 fn within(compiled: &Compiled, inner: usize, outer: usize) -> bool {
     let scene = &compiled.scene;
     let mut at = scene.groups[inner].parent;

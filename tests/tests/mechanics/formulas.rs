@@ -120,9 +120,10 @@ impl Algebra<'_> {
         reduced
     }
 
-    /// Whether a polynomial in the symbols, over powers of D and of the
-    /// symbols in `denominators`, is identically zero: w written out, multiplied
-    /// by all denominators, D written out, sines and cosines reduced.
+    /// Returns true if a polynomial in the symbols, over powers of D and of the
+    /// symbols in `denominators`, is identically zero: w written out,
+    /// multiplied by all denominators, D written out, sines and cosines
+    /// reduced.
     pub(crate) fn vanishes(&self, difference: &Formula, denominators: &[&str]) -> bool {
         let (determinant, value) = self.determinant();
         let mut cleared = difference.substitute(&self.written_out()).expand();

@@ -17,8 +17,8 @@ use branched_pendulum_tests::source::{self, attributed_struct};
 use crate::support::{Worst, compile};
 use cases::{CASES, Case, OBSERVABLES, Point};
 
-/// What a fixture's model has as a function, an observable cannot be called:
-/// the front end's list of them is complete.
+/// No observable can take the name of a function of a fixture's model: the
+/// front end's list of them is complete.
 #[test]
 fn no_emitted_function_can_be_defined_again() {
     for fixture in ["chain", "offset", "paper", "simple", "sweep", "triplet"] {

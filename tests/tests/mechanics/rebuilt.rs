@@ -179,7 +179,8 @@ fn accelerations_solve_the_equations_of_motion() {
     });
 }
 
-/// The same of a driven tree, and the powers that belong to it.
+/// Accelerations of a driven tree solve its equations of motion, and the powers
+/// belong to it.
 #[test]
 fn drive() {
     // The elimination is that of the derived equations, symbol by symbol; the

@@ -7,8 +7,7 @@ use branched_pendulum_codegen::program::{Argument, Program};
 use branched_pendulum_codegen::scene::Scene;
 use branched_pendulum_tests::source;
 
-/// What the pipeline makes of a description; the stages that can be shared
-/// between threads.
+/// The stages of a description that can be shared between threads.
 pub(crate) struct Compiled {
     pub(crate) scene: Scene,
     pub(crate) mechanics: Mechanics,

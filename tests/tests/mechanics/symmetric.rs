@@ -223,7 +223,7 @@ fn momenta_and_velocities() {
     back.assert_below(1e-14, "symmetric velocities");
 }
 
-/// The same in absolute angles.
+/// p = M ω in absolute angles, and back.
 #[test]
 fn absolute_momenta_and_velocities() {
     let mut forth = Worst::default();
@@ -328,7 +328,7 @@ fn the_mass_matrix_is_block_diagonal_in_phase() {
                 );
             }
             let Some((group, index)) = own else { continue };
-            // The same place in the block of the group's first difference.
+            // This place in the block of the group's first difference.
             let position = members(own).iter().position(|&m| m == i);
             let position = position.expect("a coordinate is in its sector");
             let first = members(Some((group, 1)));

@@ -25,7 +25,7 @@ impl<T: Scalar> Expansion<T> {
     ) -> Self {
         let (zero, order) = (T::from_f64(0.0), order as usize);
         let mut coefficients = vec![[[zero; 3]; 2]; order + 1];
-        // What stands in the workspace before does not count.
+        // Numbers that stand in the workspace before do not count.
         let nan = T::from_f64(f64::NAN);
         let mut work = vec![Quad([nan; 4]); P::taylor_workspace(order)];
         expand(&mut coefficients, &mut work);

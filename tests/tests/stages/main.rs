@@ -1,11 +1,11 @@
-//! What every stage says about the fixture scenes, pinned as snapshots, and
-//! that it says the same each time.
+//! The text of every stage for the fixture scenes, pinned as snapshots, and
+//! equal each time.
 
 mod determinism;
 mod ladder;
-mod late;
 mod lengths;
 mod pages;
 mod passes;
 mod prose;
+mod sink;
 mod snapshots;

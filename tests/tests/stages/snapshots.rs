@@ -51,7 +51,7 @@ fn functions(name: &str, functions: &[&str]) {
     }
 }
 
-/// What each function costs: a change here is a change of speed.
+/// Cost of each function: a change here is a change of speed.
 fn operations(name: &str) {
     let program = scene(name).program;
     let table: String = program

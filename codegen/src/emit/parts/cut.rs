@@ -1,4 +1,5 @@
-//! Where a long function is cut, and what its parts hand to each other.
+//! The cut of a long function into parts, and the values that its parts hand to
+//! each other.
 
 use super::{Line, MOST_IN_PART, Part, Parts};
 use crate::emit::Emission;

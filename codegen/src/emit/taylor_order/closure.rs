@@ -93,7 +93,7 @@ impl Recurrences<'_> {
             .collect()
     }
 
-    /// What is given of order k, taken apart.
+    /// Given coefficients of order k, taken apart.
     fn inputs(&self) -> TokenStream {
         let angle = |index: usize| self.find(&Op::Input(Argument::Theta, index));
         let lists = [
@@ -121,8 +121,8 @@ impl Recurrences<'_> {
         read.then(|| quote!(let [#(#elements),*] = #known.#list;))
     }
 
-    /// Whether a coefficient of order k that is given is read: sines and cosines
-    /// are given as angles are, none is formed of the other.
+    /// Returns true if a coefficient of order k that is given is read: sines
+    /// and cosines are given as angles are, none is formed of the other.
     fn is_read(&self, id: ValueId) -> bool {
         let formed = |other: &&ValueId| !self.is_given(self.emission.op(**other));
         let mut formed = self.needed.iter().filter(formed);

@@ -1,4 +1,5 @@
-//! Which factor is taken out of a sum of products, and what stands then.
+//! The factor that is taken out of a sum of products, and the terms that stand
+//! then.
 
 use crate::program::ValueId;
 use crate::program::builder::Builder;

@@ -89,15 +89,15 @@ fn factored(program: &Program, chosen: &[bool]) -> Program {
     program.without_dead_code()
 }
 
-/// What the pass knows of an entry point.
+/// An entry point as the pass sees it.
 struct Function {
     /// The values that it needs and that are still to come, last first.
     ahead: Vec<ValueId>,
     /// The value that uses a value, where there is one alone and that once.
     user: BTreeMap<ValueId, ValueId>,
-    /// Whether factors are taken out.
+    /// True if factors are taken out.
     chosen: bool,
-    /// Whether its products are fused with its sums.
+    /// True if its products are fused with its sums.
     fused: bool,
     /// Values that are others here than in the entry points before it.
     own: BTreeMap<ValueId, ValueId>,
@@ -126,7 +126,8 @@ impl Function {
         }
     }
 
-    /// What has become of a value, `values` being what it is elsewhere.
+    /// The value that stands for an old one here; `values` holds those of the
+    /// other entry points.
     fn value(&self, id: ValueId, values: &[ValueId]) -> ValueId {
         let own = self.own.get(&id).copied();
         own.unwrap_or_else(|| values[id.0 as usize])
@@ -136,8 +137,8 @@ impl Function {
 struct Factoring<'p> {
     program: &'p Program,
     builder: Builder,
-    /// What has become of the values of the program, in the first entry point that needs
-    /// them.
+    /// The values that stand for those of the program, in the first entry point
+    /// that needs them.
     values: Vec<ValueId>,
 }
 
@@ -206,7 +207,7 @@ impl Factoring<'_> {
         matches!(self.program.definition(id).op, Op::Add(..) | Op::Sub(..))
     }
 
-    /// Whether a value becomes a part of the one that uses it.
+    /// Returns true if a value becomes a part of the one that uses it.
     fn opens(&self, id: ValueId, user: ValueId, function: &Function) -> bool {
         self.program.definition(id).name.is_none() && function.user.get(&id) == Some(&user)
     }

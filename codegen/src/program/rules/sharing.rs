@@ -24,8 +24,8 @@ impl Known {
         found.copied()
     }
 
-    /// The same, where programs without sharing have one value too: inputs, constants,
-    /// sines and cosines.
+    /// As [`find`](Self::find), for operations that are one value in programs
+    /// without sharing too: inputs, constants, sines and cosines.
     pub(in crate::program) fn find_leaf(&self, op: &Op) -> Option<ValueId> {
         let leaf = !op.operands().any(|_| true) || matches!(op, Op::Sin(_) | Op::Cos(_));
         if leaf { self.find(op) } else { None }

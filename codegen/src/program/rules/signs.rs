@@ -7,7 +7,7 @@
 use crate::program::builder::Builder;
 use crate::program::{Op, ValueId};
 
-/// What a change of sign is applied to.
+/// The operand of a change of sign.
 fn opposite(builder: &Builder, id: ValueId) -> Option<ValueId> {
     match *builder.op(id) {
         Op::Neg(inner) => Some(inner),

@@ -19,7 +19,7 @@ pub struct Background {
 }
 
 impl Background {
-    /// The same bounds for every coordinate: `angle` in rad, `rate` in rad/s.
+    /// Equal bounds for every coordinate: `angle` in rad, `rate` in rad/s.
     #[must_use]
     pub fn uniform<M: TransferForms<f64>>(angle: f64, rate: f64) -> Self {
         let n = <M as Pendulum<f64>>::LINKS;
@@ -29,8 +29,8 @@ impl Background {
         }
     }
 
-    /// What the tree goes through in the time `duration` (s) after a release
-    /// from rest at the symmetric coordinates `release` (rad) with all small
+    /// Bounds of the motion in the time `duration` (s) after a release from
+    /// rest at the symmetric coordinates `release` (rad) with all small
     /// differences at zero: the largest absolute values at the ends of steps.
     ///
     /// # Errors

@@ -35,9 +35,9 @@ impl ErrorCurve {
         self.points.iter().map(error).collect()
     }
 
-    /// Where the form with this index in [`forms`](Self::forms) first passes
-    /// `level`, between two points by a power law. None without points or such
-    /// a form.
+    /// Amplitude at which the form with this index in [`forms`](Self::forms)
+    /// first passes `level`, between two points by a power law. None without
+    /// points or such a form.
     #[must_use]
     pub fn crossing(&self, form: usize, level: f64) -> Option<Crossing> {
         let mut previous: Option<(f64, f64)> = None;
@@ -61,12 +61,12 @@ impl ErrorCurve {
     }
 }
 
-/// Where an error passes a level, as the amplitude grows.
+/// Amplitude at which an error passes a level, as the amplitude grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Crossing {
     /// Above the level from the smallest amplitude on, which is given, rad.
     Below(f64),
-    /// It passes the level at this amplitude first, rad.
+    /// The error passes the level at this amplitude first, rad.
     At(f64),
     /// Not above the level up to the largest amplitude, which is given, rad.
     Above(f64),
@@ -99,9 +99,9 @@ impl fmt::Display for Crossing {
 #[derive(Clone, Debug)]
 pub(super) struct Sums {
     states: u64,
-    /// Of W exact, by sector.
+    /// Sums for W exact, by sector.
     exact: Vec<f64>,
-    /// Of the errors, by form, then by sector.
+    /// Sums for the errors, by form, then by sector.
     errors: Vec<f64>,
 }
 

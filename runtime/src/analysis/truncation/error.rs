@@ -12,7 +12,7 @@ pub enum TruncationError {
     NoExactForm,
     /// As many numbers as the model has coordinates are needed.
     Length {
-        /// What they are.
+        /// The quantity that the numbers are.
         what: &'static str,
         /// Number of coordinates.
         expected: usize,
@@ -22,7 +22,7 @@ pub enum TruncationError {
     /// A number that is not usable: amplitudes and rates of sampling must be
     /// positive, bounds not negative, all of them finite.
     Value {
-        /// What it is.
+        /// The quantity.
         what: &'static str,
         /// Its value.
         value: f64,

@@ -1,5 +1,5 @@
-//! How wrong each form of an energy transfer W is, against the amplitude of
-//! what it takes for small.
+//! Errors of the forms of an energy transfer W, against the amplitude of the
+//! coordinates that they take for small.
 //!
 //! For any model that has W in several forms ([`TransferForms`]). Two averages,
 //! both rms of (W − W exact) over rms of W exact at one amplitude, sector by

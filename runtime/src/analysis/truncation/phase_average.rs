@@ -15,8 +15,9 @@ use crate::transfer_forms::TransferForms;
 /// bounds, and every small difference in an oscillation of the amplitude asked
 /// for, with the frequency of its sector and at a random phase of its own.
 ///
-/// The same states at each call, and at all amplitudes but for the amplitude.
-/// Cost: as many evaluations of every form as there are states and amplitudes.
+/// Each call takes the same states, and so do all amplitudes but for the
+/// amplitude. Cost: as many evaluations of every form as there are states and
+/// amplitudes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseAverage {
     /// Amplitudes, rad, positive and growing; [`logarithmic`](super::logarithmic)
@@ -121,7 +122,7 @@ impl PhaseAverage {
     }
 }
 
-/// Which coordinates are small differences.
+/// Returns true for each coordinate that is a small difference.
 fn small_coordinates<M: TransferForms<f64>>() -> Vec<bool> {
     let mut small = vec![false; <M as Pendulum<f64>>::LINKS];
     for &index in M::SMALL_SECTORS

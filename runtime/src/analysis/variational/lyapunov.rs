@@ -7,7 +7,7 @@ use super::{Linearised, Variational};
 use crate::integrate::{IntegrationError, Integrator};
 use crate::system::State;
 
-/// How the exponents of a motion are computed.
+/// Computation of the exponents of a motion.
 ///
 /// Deviations are integrated beside the motion over equal intervals, after each
 /// of which they are made orthonormal again; the mean logarithms of what that

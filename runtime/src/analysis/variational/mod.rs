@@ -13,8 +13,8 @@
 //!
 //! # Example
 //!
-//! How fast a pendulum leaves the top, and how long rounding lets one say where
-//! it is:
+//! Growth of a deviation as a pendulum leaves the top, and the time for which
+//! rounding lets one say where it is:
 //!
 //! ```
 //! use branched_pendulum::analysis::variational::{WithDerivative, flow_jacobian, trusted_until};

@@ -18,7 +18,7 @@ use super::{TIME, batch_agrees, derivatives_agree, lanes_meet_the_plain_method};
 )]
 struct Shaken;
 
-/// It is the first link of one.
+/// The root is the first link of a subtree.
 #[branched_pendulum(
     gravity = 9.80665,
     tree: generations(count = 5, branching = 2, shape = rod, mass = 0.12, length = 0.3,
@@ -27,7 +27,7 @@ struct Shaken;
 )]
 struct Turned;
 
-/// It carries the leaves.
+/// The root carries the leaves.
 #[branched_pendulum(
     gravity = 9.80665,
     tree: generations(count = 2, branching = 90, shape = rod, mass = 0.12, length = 0.3,

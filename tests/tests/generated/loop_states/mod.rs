@@ -76,7 +76,7 @@ struct Bush;
 )]
 struct Sprung;
 
-/// Of driven trees.
+/// Time at which driven trees are evaluated.
 const TIME: f64 = 0.7;
 
 /// Numbers of states: below, at and above the lanes of every register.

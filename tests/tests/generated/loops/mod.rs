@@ -128,7 +128,7 @@ fn oracle_of(scene: &Scene) -> Tree {
     }
 }
 
-/// Where each link of `U` stands in `L`, by name.
+/// Index in `L` of each link of `U`, by name.
 fn order<L: Pendulum<f64>, U: Pendulum<f64>>() -> Vec<usize> {
     assert_eq!(L::LINKS, U::LINKS);
     let name = |index: usize| L::link_name(index).unwrap().to_string();

@@ -85,7 +85,7 @@ fn crooked_tables_agree_with_code_written_out_and_with_the_oracle() {
 )]
 struct Named;
 
-/// The same without length along the links.
+/// The crooked tree without length along the links.
 #[branched_pendulum(
     gravity = 9.80665,
     code = loops,

@@ -1,4 +1,4 @@
-//! What a drive and friction feed is what the energies gain.
+//! Energies gain as much as a drive and friction feed.
 
 use branched_pendulum::prelude::*;
 use branched_pendulum_tests::scenes::driven::{Driven, DrivenParameters};

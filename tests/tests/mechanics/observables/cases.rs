@@ -158,7 +158,7 @@ impl<'a> Point<'a> {
         self.case.observables[number].evaluate(&|name| self.symbol(name))
     }
 
-    /// What the emitted functions take: absolute or symmetric, velocities or
+    /// Inputs of the emitted functions: absolute or symmetric, velocities or
     /// momenta.
     fn inputs(&self, number: usize) -> [Vec<f64>; 3] {
         let compiled = &self.case.compiled;

@@ -7,7 +7,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use crate::support::Compiled;
 
-/// Which kinetic energy a sector is said to have.
+/// Definition of the kinetic energy of a sector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Definition {
     Rest,

@@ -78,8 +78,8 @@ fn regular_trajectory() {
     assert!(errors[3] < 1e-8, "{errors:?}");
 }
 
-/// What is left at tolerances of rounding is rounding: a single error is luck, their
-/// size is not.
+/// At tolerances of rounding the error is rounding: a single error is luck,
+/// their size is not.
 #[test]
 fn rounding_in_the_mean() {
     const TOLERANCES: u32 = 60;
@@ -116,8 +116,9 @@ fn a_hundred_seconds() {
     }
 }
 
-/// What the constants of `f64` are wrong by moves the motion less than rounding does:
-/// divided by one of them, as those of a scene with parameters, by 9e-14.
+/// The rounding of constants to `f64` moves the motion less than rounding on
+/// the way does: divided by one of them, as those of a scene with parameters,
+/// by 9e-14.
 #[test]
 fn rounded_constants() {
     let (_, expected) = reference_state("regular");

@@ -1,9 +1,8 @@
-//! Accelerations of trees with more values than a processor has registers.
-//!
-//! They read angles and velocities, ask for sines and cosines and hand over the
-//! results each where its turn comes: subtree after subtree, as their program
-//! forms them. What is read early, and what is formed of it alone, would be stored
-//! until it is used.
+//! Sinking: accelerations of trees with more values than a processor has
+//! registers read angles and velocities, ask for sines and cosines and hand over
+//! the results each where its turn comes, subtree after subtree, as their program
+//! forms them. A value that is read early would be stored until it is used, and so
+//! would those that are formed of it alone.
 
 use super::Emission;
 use super::function::Written;
@@ -25,7 +24,7 @@ const WAITING: usize = 64;
 const TOGETHER: usize = 4;
 
 /// The lines of `evaluate`, in the making.
-struct Late<'e, 'p> {
+struct Sinking<'e, 'p> {
     emission: &'e Emission<'p>,
     entry: &'e Entry,
     needed: &'e [ValueId],
@@ -43,10 +42,10 @@ struct Late<'e, 'p> {
 }
 
 impl Emission<'_> {
-    /// Whether this function's body stands in `evaluate`, in the order in which
-    /// the values are needed: accelerations whose values do not fit into
-    /// registers, if the compiler sees them as a whole.
-    pub(super) fn is_late(&self, entry: &Entry, written: &Written) -> bool {
+    /// Returns true if this function's body stands in `evaluate`, in the order
+    /// in which the values are needed. That holds for accelerations whose
+    /// values do not fit into registers, if the compiler sees them as a whole.
+    pub(super) fn is_sunk(&self, entry: &Entry, written: &Written) -> bool {
         self.program.without != Some(Pass::Order)
             && entry.purpose == Purpose::Accelerations
             && written.gathered.whole == Some(Argument::Theta)
@@ -55,15 +54,15 @@ impl Emission<'_> {
     }
 
     /// The body of `evaluate`, if it has one of its own.
-    pub(super) fn late(&self) -> Option<TokenStream> {
+    pub(super) fn sunk(&self) -> Option<TokenStream> {
         let mut entries = self.program.entries.iter();
         let entry = entries.find(|entry| entry.purpose == Purpose::Accelerations)?;
         let needed = self.program.needed(&entry.outputs);
         let written = self.written(entry, &needed);
-        if !self.is_late(entry, &written) {
+        if !self.is_sunk(entry, &written) {
             return None;
         }
-        let lines = self.late_lines(entry, &needed, &written);
+        let lines = self.sunk_lines(entry, &needed, &written);
         let links = (0..self.scene.links.len()).map(Literal::usize_unsuffixed);
         let turns = quote!(let turns = T::turns([#(theta(#links)),*]););
         if !written.long {
@@ -72,7 +71,7 @@ impl Emission<'_> {
         }
         let parts = self.parts(&[], &lines, &written.locals);
         let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
-        let time = self.late_time(entry);
+        let time = self.sunk_time(entry);
         let calls = parts.parts.iter().map(|part| {
             let name = part.name(entry);
             quote!(self.#name(#time &turns, &theta, &omega, &mut alpha, &mut #shared);)
@@ -104,8 +103,8 @@ impl Emission<'_> {
         }
     }
 
-    /// What a long `evaluate` calls.
-    pub(super) fn late_parts(
+    /// Parts of a long `evaluate`, as functions of their own.
+    pub(super) fn sunk_parts(
         &self,
         entry: &Entry,
         needed: &[ValueId],
@@ -115,7 +114,7 @@ impl Emission<'_> {
             return TokenStream::new();
         }
         let (runtime, links, locals) = (self.runtime(), self.links(), &written.locals);
-        let parts = self.parts(&[], &self.late_lines(entry, needed, written), locals);
+        let parts = self.parts(&[], &self.sunk_lines(entry, needed, written), locals);
         let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
         let time = entry.arguments.contains(&Argument::Time);
         let time = time.then(|| quote!(time: T,));
@@ -146,7 +145,7 @@ impl Emission<'_> {
         functions.collect()
     }
 
-    fn late_time(&self, entry: &Entry) -> Option<TokenStream> {
+    fn sunk_time(&self, entry: &Entry) -> Option<TokenStream> {
         let timed = entry.arguments.contains(&Argument::Time);
         timed.then(|| quote!(time,))
     }
@@ -169,11 +168,11 @@ impl Emission<'_> {
         }
     }
 
-    fn late_lines(&self, entry: &Entry, needed: &[ValueId], written: &Written) -> Vec<Line> {
+    fn sunk_lines(&self, entry: &Entry, needed: &[ValueId], written: &Written) -> Vec<Line> {
         let locals = &written.locals;
         // The first line asks for all sines and cosines.
         let lines = written.lines.get(1..).unwrap_or_default();
-        let mut late = Late {
+        let mut sinking = Sinking {
             emission: self,
             entry,
             needed,
@@ -185,24 +184,24 @@ impl Emission<'_> {
             written: Vec::new(),
         };
         let mut angles: Vec<ValueId> = Vec::new();
-        for id in lines.iter().flat_map(|line| late.read(&line.reads)) {
-            angles.extend(late.angle(id).filter(|angle| !angles.contains(angle)));
+        for id in lines.iter().flat_map(|line| sinking.read(&line.reads)) {
+            angles.extend(sinking.angle(id).filter(|angle| !angles.contains(angle)));
         }
-        late.groups = angles.chunks(TOGETHER).map(<[_]>::to_vec).collect();
+        sinking.groups = angles.chunks(TOGETHER).map(<[_]>::to_vec).collect();
         for line in lines {
-            if late.is_early(line) {
+            if sinking.is_early(line) {
                 let defined = line.defines.iter().map(|&id| (id, line.clone()));
-                late.early.extend(defined);
+                sinking.early.extend(defined);
             } else {
-                late.line(line);
+                sinking.line(line);
             }
         }
-        late.rest();
-        late.written
+        sinking.rest();
+        sinking.written
     }
 }
 
-impl Late<'_, '_> {
+impl Sinking<'_, '_> {
     /// The named values that are read where `ids` are.
     fn read(&self, ids: &[ValueId]) -> BTreeSet<ValueId> {
         let mut read = BTreeSet::new();
@@ -223,7 +222,8 @@ impl Late<'_, '_> {
         }
     }
 
-    /// Whether a line reads inputs alone, at once or through others that do.
+    /// Returns true if a line reads inputs alone, at once or through others
+    /// that do.
     fn is_early(&self, line: &Line) -> bool {
         let input = |id: &ValueId| matches!(self.emission.op(*id), Op::Input(..));
         let known = |id: &ValueId| input(id) || self.early.contains_key(id);
@@ -234,27 +234,27 @@ impl Late<'_, '_> {
     fn line(&mut self, line: &Line) {
         self.reads(&line.reads);
         self.written.push(line.clone());
-        for (place, output) in self.entry.outputs.iter().enumerate() {
+        for (index, output) in self.entry.outputs.iter().enumerate() {
             if line.defines.contains(output) {
-                self.result(place, *output);
+                self.result(index, *output);
             }
         }
     }
 
     /// The results that no line defines.
     fn rest(&mut self) {
-        for (place, &output) in self.entry.outputs.iter().enumerate() {
-            if !self.results.contains(&place) {
+        for (index, &output) in self.entry.outputs.iter().enumerate() {
+            if !self.results.contains(&index) {
                 self.reads(&[output]);
-                self.result(place, output);
+                self.result(index, output);
             }
         }
     }
 
-    fn result(&mut self, place: usize, output: ValueId) {
+    fn result(&mut self, index: usize, output: ValueId) {
         let value = self.emission.bound(output, self.locals, Binding::Sum);
-        let link = Literal::usize_unsuffixed(place);
-        self.results.insert(place);
+        let link = Literal::usize_unsuffixed(index);
+        self.results.insert(index);
         self.written.push(Line {
             defines: Vec::new(),
             reads: vec![output],

@@ -1,32 +1,32 @@
 //! Parseval for the velocities too (physics §5, definition B): Σ_s E_s = H,
 //! and the transfer matrix {E_s, E_r}.
 
-use super::budget::{Motion, Share};
-use super::field::{Copies, Field};
-use super::motion::{Fields, Values};
-use super::sector::Which;
-use super::series::Series;
-use super::turn::Direction;
+use super::budget::{Share, SymmetricMotion};
+use super::direction::Direction;
+use super::field::{SymmetricField, SymmetricTree};
+use super::motion::{ConstantValues, Fields};
+use super::sector::SectorId;
+use super::series::TruncatedSeries;
 
 /// A vector in the plane for every link of an orbit: x, y.
-type Plane = [Field; 2];
+type Plane = [SymmetricField; 2];
 
 /// Velocities of the centres of mass, and how they change.
 pub(in crate::program) struct Kinematics {
     velocities: Vec<Plane>,
 }
 
-/// What a sector's energy changes with: for each link, its angle at fixed
-/// momenta, and its momentum.
+/// Slopes of a sector's energy: for each link, by its angle at fixed momenta,
+/// and by its momentum.
 pub(in crate::program) struct Slopes {
     angles: Fields,
     momenta: Fields,
 }
 
-impl Copies<'_> {
+impl SymmetricTree<'_> {
     /// Derivative of a point of the links in their angle: (a cos − b sin,
     /// a sin + b cos).
-    fn lever(&mut self, [a, b]: &[Series; 2], direction: &Direction) -> Plane {
+    fn lever(&mut self, [a, b]: &[TruncatedSeries; 2], direction: &Direction) -> Plane {
         let Direction { cos, sin } = direction;
         let parts = [
             self.scale(a, cos),
@@ -58,7 +58,7 @@ impl Copies<'_> {
         [self.add(&a[0], &b[0]), self.add(&a[1], &b[1])]
     }
 
-    fn times(&mut self, plane: &Plane, factor: &Field) -> Plane {
+    fn times(&mut self, plane: &Plane, factor: &SymmetricField) -> Plane {
         [self.mul(&plane[0], factor), self.mul(&plane[1], factor)]
     }
 
@@ -66,8 +66,8 @@ impl Copies<'_> {
     /// each orbit `contribution(lever)` is what a point with that lever adds.
     fn of_centres(
         &mut self,
-        values: &Values,
-        motion: &Motion,
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
         what: &str,
         mut contribution: impl FnMut(&mut Self, &Plane, usize) -> Plane,
     ) -> Vec<Plane> {
@@ -76,7 +76,7 @@ impl Copies<'_> {
         for orbit in 0..self.orbits.len() {
             let constants = &values.orbits[orbit];
             let pivot = match self.orbits[orbit].parent {
-                None => [Field::zero(orbit), Field::zero(orbit)],
+                None => [SymmetricField::zero(orbit), SymmetricField::zero(orbit)],
                 Some(parent) => {
                     let direction = motion.pose.directions[parent].clone();
                     let lever = self.lever(&constants.pivot, &direction);
@@ -98,11 +98,11 @@ impl Copies<'_> {
 
     pub(in crate::program) fn kinematics(
         &mut self,
-        values: &Values,
-        motion: &Motion,
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
     ) -> Kinematics {
-        let velocities = self.of_centres(values, motion, "velocity", |copies, lever, orbit| {
-            copies.times(lever, &motion.rates[orbit])
+        let velocities = self.of_centres(values, motion, "velocity", |tree, lever, orbit| {
+            tree.times(lever, &motion.rates[orbit])
         });
         Kinematics { velocities }
     }
@@ -110,32 +110,32 @@ impl Copies<'_> {
     /// Σ over the orbits of mass · v_s · x_s + inertia · ω_s · y_s.
     fn kinetic_product(
         &mut self,
-        values: &Values,
-        which: Which,
+        values: &ConstantValues,
+        sector: SectorId,
         [v, x]: [&[Plane]; 2],
         [omega, y]: [&Fields; 2],
-    ) -> Series {
-        let mut sum = Series::default();
-        for orbit in self.orbits_of(which) {
+    ) -> TruncatedSeries {
+        let mut sum = TruncatedSeries::default();
+        for orbit in self.orbits_of(sector) {
             let constants = &values.orbits[orbit];
-            let norm = self.sector_norm(orbit, which);
-            let mut dot = Series::default();
+            let norm = self.sector_norm(orbit, sector);
+            let mut dot = TruncatedSeries::default();
             for axis in 0..2 {
                 let (a, b) = (
-                    v[orbit][axis].component(which),
-                    x[orbit][axis].component(which),
+                    v[orbit][axis].component(sector),
+                    x[orbit][axis].component(sector),
                 );
-                let product = self.graded.mul(&a, &b);
-                dot = self.graded.add(&dot, &product);
+                let product = self.series.mul(&a, &b);
+                dot = self.series.add(&dot, &product);
             }
-            let moving = self.graded.mul(&constants.mass, &dot);
+            let moving = self.series.mul(&constants.mass, &dot);
             let product = self
-                .graded
-                .mul(&omega[orbit].component(which), &y[orbit].component(which));
-            let turning = self.graded.mul(&constants.inertia, &product);
-            let both = self.graded.add(&moving, &turning);
-            let term = self.graded.mul(&norm, &both);
-            sum = self.graded.add(&sum, &term);
+                .series
+                .mul(&omega[orbit].component(sector), &y[orbit].component(sector));
+            let turning = self.series.mul(&constants.inertia, &product);
+            let both = self.series.add(&moving, &turning);
+            let term = self.series.mul(&norm, &both);
+            sum = self.series.add(&sum, &term);
         }
         sum
     }
@@ -143,9 +143,9 @@ impl Copies<'_> {
     /// E_s, W_s, P_s of all sectors.
     pub(in crate::program) fn parseval_shares(
         &mut self,
-        values: &Values,
-        motion: &Motion,
-        sectors: &[Which],
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
+        sectors: &[SectorId],
         [conservative, other]: [&Fields; 2],
     ) -> Vec<Share> {
         let kinematics = self.kinematics(values, motion);
@@ -156,31 +156,32 @@ impl Copies<'_> {
             .collect();
         self.all_hinted(&squares, "omega_squared");
         let accelerations =
-            self.of_centres(values, motion, "acceleration", |copies, lever, orbit| {
-                let along = copies.times(lever, &conservative[orbit]);
-                let across = copies.across(lever);
-                let inwards = copies.times(&across, &squares[orbit]);
-                copies.add_planes(&along, &inwards)
+            self.of_centres(values, motion, "acceleration", |tree, lever, orbit| {
+                let along = tree.times(lever, &conservative[orbit]);
+                let across = tree.across(lever);
+                let inwards = tree.times(&across, &squares[orbit]);
+                tree.add_planes(&along, &inwards)
             });
-        let added = self.of_centres(values, motion, "added", |copies, lever, orbit| {
-            copies.times(lever, &other[orbit])
+        let added = self.of_centres(values, motion, "added", |tree, lever, orbit| {
+            tree.times(lever, &other[orbit])
         });
         let velocities = &kinematics.velocities;
         sectors
             .iter()
-            .map(|&which| {
-                let product = |copies: &mut Self, x: &[Plane], y: &Fields| {
-                    copies.kinetic_product(values, which, [velocities, x], [&motion.rates, y])
+            .map(|&sector| {
+                let product = |tree: &mut Self, x: &[Plane], y: &Fields| {
+                    tree.kinetic_product(values, sector, [velocities, x], [&motion.rates, y])
                 };
                 let twice = product(self, velocities, &motion.rates);
                 let half = self.half();
-                let kinetic = self.graded.mul(&half, &twice);
-                let potential = self.sector_potential(values, &motion.pose, which);
+                let kinetic = self.series.mul(&half, &twice);
+                let potential = self.sector_potential(values, &motion.pose, sector);
                 let work = product(self, &accelerations, conservative);
-                let stored = self.sector_potential_rate(values, &motion.pose, &motion.rates, which);
+                let stored =
+                    self.sector_potential_rate(values, &motion.pose, &motion.rates, sector);
                 Share {
-                    energy: self.graded.add(&kinetic, &potential),
-                    transfer: self.graded.add(&work, &stored),
+                    energy: self.series.add(&kinetic, &potential),
+                    transfer: self.series.add(&work, &stored),
                     power: product(self, &added, other),
                 }
             })
@@ -190,11 +191,11 @@ impl Copies<'_> {
     /// The derivatives of E_s in angles (at fixed momenta) and momenta.
     fn slopes(
         &mut self,
-        values: &Values,
-        motion: &Motion,
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
         kinematics: &Kinematics,
-        factors: &super::solve::Factors,
-        which: Which,
+        factors: &super::solve::MassFactors,
+        sector: SectorId,
     ) -> Slopes {
         let orbits = 0..self.orbits.len();
         // Impulses m v_s of the centres of mass, and what they sum to at each
@@ -205,7 +206,7 @@ impl Copies<'_> {
                 let mass = &values.orbits[orbit].mass;
                 let velocity = &kinematics.velocities[orbit];
                 let impulse =
-                    [0, 1].map(|axis| self.scale(mass, &velocity[axis].restricted(which)));
+                    [0, 1].map(|axis| self.scale(mass, &velocity[axis].restricted(sector)));
                 self.plane_hinted(&impulse, "impulse");
                 impulse
             })
@@ -215,9 +216,9 @@ impl Copies<'_> {
             .rates
             .iter()
             .zip(&values.orbits)
-            .map(|(rate, constants)| self.scale(&constants.inertia, &rate.restricted(which)))
+            .map(|(rate, constants)| self.scale(&constants.inertia, &rate.restricted(sector)))
             .collect();
-        let mut by_angles = self.sector_potential_gradient(values, &motion.pose, which);
+        let mut by_angles = self.sector_potential_gradient(values, &motion.pose, sector);
         for orbit in orbits.rev() {
             let constants = &values.orbits[orbit];
             let direction = motion.pose.directions[orbit].clone();
@@ -254,15 +255,12 @@ impl Copies<'_> {
         by_angles: &mut Fields,
         lever: &Plane,
         impulse: &Plane,
-        motion: &Motion,
+        motion: &SymmetricMotion,
     ) {
         let orbit = lever[0].orbit;
-        let dot = |copies: &mut Self, a: &Plane| {
-            let products = [
-                copies.mul(&a[0], &impulse[0]),
-                copies.mul(&a[1], &impulse[1]),
-            ];
-            copies.add(&products[0], &products[1])
+        let dot = |tree: &mut Self, a: &Plane| {
+            let products = [tree.mul(&a[0], &impulse[0]), tree.mul(&a[1], &impulse[1])];
+            tree.add(&products[0], &products[1])
         };
         let along = dot(self, lever);
         self.hinted(&along, "moment");
@@ -277,27 +275,27 @@ impl Copies<'_> {
     /// {E_s, E_r} by rows; antisymmetric, zero on the diagonal.
     pub(in crate::program) fn transfer_matrix(
         &mut self,
-        values: &Values,
-        motion: &Motion,
-        sectors: &[Which],
-    ) -> Vec<Vec<Series>> {
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
+        sectors: &[SectorId],
+    ) -> Vec<Vec<TruncatedSeries>> {
         let kinematics = self.kinematics(values, motion);
         let factors = self.factors(values, &motion.pose);
         let slopes: Vec<Slopes> = sectors
             .iter()
-            .map(|&which| self.slopes(values, motion, &kinematics, &factors, which))
+            .map(|&sector| self.slopes(values, motion, &kinematics, &factors, sector))
             .collect();
-        let mut matrix = vec![vec![Series::default(); sectors.len()]; sectors.len()];
+        let mut matrix = vec![vec![TruncatedSeries::default(); sectors.len()]; sectors.len()];
         for (s, into) in slopes.iter().enumerate() {
             for (r, from) in slopes.iter().enumerate().skip(s + 1) {
-                let mut bracket = Series::default();
+                let mut bracket = TruncatedSeries::default();
                 for orbit in 0..self.orbits.len() {
                     let gain = self.dot(&into.angles[orbit], &from.momenta[orbit]);
                     let loss = self.dot(&into.momenta[orbit], &from.angles[orbit]);
-                    let term = self.graded.sub(&gain, &loss);
-                    bracket = self.graded.add(&bracket, &term);
+                    let term = self.series.sub(&gain, &loss);
+                    bracket = self.series.add(&bracket, &term);
                 }
-                matrix[r][s] = self.graded.neg(&bracket);
+                matrix[r][s] = self.series.neg(&bracket);
                 matrix[s][r] = bracket;
             }
         }

@@ -1,41 +1,41 @@
 //! Cosine and sine of an angle that every link of an orbit has.
 
-use super::field::{Copies, Field};
-use super::series::Series;
+use super::field::{SymmetricField, SymmetricTree};
+use super::series::TruncatedSeries;
 use super::tree::{Branch, weight};
 use crate::exact::Rational;
 use crate::program::{Op, ValueId};
 use std::collections::BTreeMap;
 
-/// 1 − cos and sin of an angle.
-struct Turn {
-    versine: Series,
-    sine: Series,
+/// A rotation as 1 − cos and sin of its angle.
+struct SeriesRotation {
+    versine: TruncatedSeries,
+    sine: TruncatedSeries,
 }
 
 /// cos and sin of the angle of every link.
 #[derive(Clone)]
 pub(in crate::program) struct Direction {
-    pub(in crate::program) cos: Field,
-    pub(in crate::program) sin: Field,
+    pub(in crate::program) cos: SymmetricField,
+    pub(in crate::program) sin: SymmetricField,
 }
 
-impl Copies<'_> {
+impl SymmetricTree<'_> {
     /// e^{iθ}: the mean angle's, turned by what each copy has beyond it, with
     /// 1 − cos of the differences by half angles.
-    pub(in crate::program) fn direction(&mut self, angle: &Field) -> Direction {
+    pub(in crate::program) fn direction(&mut self, angle: &SymmetricField) -> Direction {
         let orbit = angle.orbit;
         let Some(mean) = angle.mean.coefficient(0) else {
             unreachable!("a mean angle is an input")
         };
         let name = self.orbits[orbit].name(None);
-        let builder = &mut *self.graded.builder;
+        let builder = &mut *self.series.builder;
         let (cos, sin) = (builder.cos(mean), builder.sin(mean));
         builder.name(cos, &format!("cos_{name}"));
         builder.name(sin, &format!("sin_{name}"));
-        let (cos, sin) = (self.graded.value(cos), self.graded.value(sin));
-        let mut real = Field::zero(orbit);
-        let mut imaginary = Field::zero(orbit);
+        let (cos, sin) = (self.series.value(cos), self.series.value(sin));
+        let mut real = SymmetricField::zero(orbit);
+        let mut imaginary = SymmetricField::zero(orbit);
         let branch = self.orbits[orbit].branch.as_ref();
         let [less, across] = self.turned(branch, angle, &mut real, &mut imaginary);
         real.mean = less;
@@ -43,7 +43,7 @@ impl Copies<'_> {
         self.hinted(&real, "real");
         self.hinted(&imaginary, "imaginary");
         // (cos + i sin)(1 + real + i imaginary)
-        let mut whole = [Field::zero(orbit), Field::zero(orbit)];
+        let mut whole = [SymmetricField::zero(orbit), SymmetricField::zero(orbit)];
         let parts = [
             (&cos, &real, &sin, &imaginary, true),
             (&cos, &imaginary, &sin, &real, false),
@@ -58,8 +58,8 @@ impl Copies<'_> {
             };
         }
         let [mut cosine, mut sine] = whole;
-        cosine.mean = self.graded.add(&cos, &cosine.mean);
-        sine.mean = self.graded.add(&sin, &sine.mean);
+        cosine.mean = self.series.add(&cos, &cosine.mean);
+        sine.mean = self.series.add(&sin, &sine.mean);
         Direction {
             cos: cosine,
             sin: sine,
@@ -71,12 +71,12 @@ impl Copies<'_> {
     fn turned(
         &mut self,
         branch: Option<&Branch>,
-        angle: &Field,
-        real: &mut Field,
-        imaginary: &mut Field,
-    ) -> [Series; 2] {
+        angle: &SymmetricField,
+        real: &mut SymmetricField,
+        imaginary: &mut SymmetricField,
+    ) -> [TruncatedSeries; 2] {
         let Some(branch) = branch else {
-            return [Series::default(), Series::default()];
+            return [TruncatedSeries::default(), TruncatedSeries::default()];
         };
         let mut reals = Vec::new();
         let mut imaginaries = Vec::new();
@@ -84,38 +84,41 @@ impl Copies<'_> {
             let offset = self.offset(branch, angle, copy);
             let own: Vec<_> = (1..=branch.differences())
                 .map(|index| (branch.group, index))
-                .filter(|&place| !angle.at(place).is_zero() && weight(place.1, copy) != 0)
+                .filter(|&id| !angle.at(id).is_zero() && weight(id.1, copy) != 0)
                 .collect();
             let orbit = &self.orbits[angle.orbit];
             let label = match own.as_slice() {
-                [place] => orbit.name(Some(*place)).to_owned(),
+                [id] => orbit.name(Some(*id)).to_owned(),
                 _ => format!("{}_copy_{}", orbit.name(None), copy + 1),
             };
             let turn = self.turn(&offset, &label);
-            let mut inside = [Field::zero(angle.orbit), Field::zero(angle.orbit)];
+            let mut inside = [
+                SymmetricField::zero(angle.orbit),
+                SymmetricField::zero(angle.orbit),
+            ];
             let [inside_real, inside_imaginary] = &mut inside;
             let below = self.turned(inner.as_ref(), angle, inside_real, inside_imaginary);
             // (1 − vers + i sin)(1 + below) − 1
             let [x, y] = self.rotated(&turn, &below);
             let (real_part, imaginary_part) = (
-                self.graded.sub(&x, &turn.versine),
-                self.graded.add(&y, &turn.sine),
+                self.series.sub(&x, &turn.versine),
+                self.series.add(&y, &turn.sine),
             );
             let number = copy + 1;
-            self.graded
+            self.series
                 .hint(&real_part, &format!("real_{label}_copy_{number}"));
-            self.graded
+            self.series
                 .hint(&imaginary_part, &format!("imaginary_{label}_copy_{number}"));
             reals.push(real_part);
             imaginaries.push(imaginary_part);
-            let places: BTreeMap<_, ()> = inside
+            let ids: BTreeMap<_, ()> = inside
                 .iter()
-                .flat_map(|field| field.differences.keys().map(|&place| (place, ())))
+                .flat_map(|field| field.differences.keys().map(|&id| (id, ())))
                 .collect();
-            for &place in places.keys() {
-                let [x, y] = self.rotated(&turn, &[inside[0].at(place), inside[1].at(place)]);
-                real.put(place, x);
-                imaginary.put(place, y);
+            for &id in ids.keys() {
+                let [x, y] = self.rotated(&turn, &[inside[0].at(id), inside[1].at(id)]);
+                real.put(id, x);
+                imaginary.put(id, y);
             }
         }
         for (field, values) in [(real, &reals), (imaginary, &imaginaries)] {
@@ -127,52 +130,56 @@ impl Copies<'_> {
     }
 
     /// (1 − vers + i sin)(x + iy)
-    fn rotated(&mut self, turn: &Turn, [x, y]: &[Series; 2]) -> [Series; 2] {
-        let graded = &mut self.graded;
-        let one = graded.integer(1);
-        let cos = graded.sub(&one, &turn.versine);
+    fn rotated(
+        &mut self,
+        turn: &SeriesRotation,
+        [x, y]: &[TruncatedSeries; 2],
+    ) -> [TruncatedSeries; 2] {
+        let series = &mut self.series;
+        let one = series.integer(1);
+        let cos = series.sub(&one, &turn.versine);
         let products = [
-            graded.mul(&cos, x),
-            graded.mul(&turn.sine, y),
-            graded.mul(&cos, y),
-            graded.mul(&turn.sine, x),
+            series.mul(&cos, x),
+            series.mul(&turn.sine, y),
+            series.mul(&cos, y),
+            series.mul(&turn.sine, x),
         ];
         [
-            graded.sub(&products[0], &products[1]),
-            graded.add(&products[2], &products[3]),
+            series.sub(&products[0], &products[1]),
+            series.add(&products[2], &products[3]),
         ]
     }
 
-    fn turn(&mut self, angle: &Series, label: &str) -> Turn {
+    fn turn(&mut self, angle: &TruncatedSeries, label: &str) -> SeriesRotation {
         if angle.is_zero() {
-            return Turn {
-                versine: Series::default(),
-                sine: Series::default(),
+            return SeriesRotation {
+                versine: TruncatedSeries::default(),
+                sine: TruncatedSeries::default(),
             };
         }
-        let Some(order) = self.graded.truncation else {
+        let Some(order) = self.series.truncation else {
             return self.turn_by_half_angle(angle, label);
         };
-        let leading = self.graded.leading(angle);
-        let rest = self.graded.sub(angle, &leading);
+        let leading = self.series.leading(angle);
+        let rest = self.series.sub(angle, &leading);
         let small = self.turn_by_powers(&rest, order);
         if leading.is_zero() {
             return small;
         }
         let whole = self.turn_by_half_angle(&leading, label);
         // 1 − vers + i sin of the sum, less 1.
-        let less = self.graded.neg(&small.versine);
+        let less = self.series.neg(&small.versine);
         let [real, imaginary] = self.rotated(&whole, &[less, small.sine]);
-        Turn {
-            versine: self.graded.sub(&whole.versine, &real),
-            sine: self.graded.add(&whole.sine, &imaginary),
+        SeriesRotation {
+            versine: self.series.sub(&whole.versine, &real),
+            sine: self.series.add(&whole.sine, &imaginary),
         }
     }
 
     /// With s, c of half the angle: sin = 2 s c, vers = 2 s². Opposite angles
     /// share them.
-    fn turn_by_half_angle(&mut self, angle: &Series, label: &str) -> Turn {
-        let builder = &mut *self.graded.builder;
+    fn turn_by_half_angle(&mut self, angle: &TruncatedSeries, label: &str) -> SeriesRotation {
+        let builder = &mut *self.series.builder;
         let Some(angle) = angle.coefficient(0) else {
             unreachable!("an angle that is not zero has a value")
         };
@@ -193,21 +200,21 @@ impl Copies<'_> {
         builder.name(sine, &format!("sin_{label}"));
         builder.name(versine, &format!("vers_{label}"));
         let sine = if opposite { builder.neg(sine) } else { sine };
-        Turn {
-            versine: self.graded.value(versine),
-            sine: self.graded.value(sine),
+        SeriesRotation {
+            versine: self.series.value(versine),
+            sine: self.series.value(sine),
         }
     }
 
     /// Taylor polynomials as far as the orders kept.
-    fn turn_by_powers(&mut self, angle: &Series, order: usize) -> Turn {
-        let mut versine = Series::default();
-        let mut sine = Series::default();
-        let mut term = self.graded.integer(1);
+    fn turn_by_powers(&mut self, angle: &TruncatedSeries, order: usize) -> SeriesRotation {
+        let mut versine = TruncatedSeries::default();
+        let mut sine = TruncatedSeries::default();
+        let mut term = self.series.integer(1);
         for power in 1..=order {
-            term = self.graded.mul(&term, angle);
+            term = self.series.mul(&term, angle);
             let share = Rational::from_ratio(1, power as i64).unwrap_or_else(Rational::one);
-            term = self.graded.scale(&share, &term);
+            term = self.series.scale(&share, &term);
             let target = if power % 2 == 1 {
                 &mut sine
             } else {
@@ -215,11 +222,11 @@ impl Copies<'_> {
             };
             // vers: + − +, from x²/2; sin: + − +, from x.
             *target = if (power - 1) / 2 % 2 == 0 {
-                self.graded.add(target, &term)
+                self.series.add(target, &term)
             } else {
-                self.graded.sub(target, &term)
+                self.series.sub(target, &term)
             };
         }
-        Turn { versine, sine }
+        SeriesRotation { versine, sine }
     }
 }

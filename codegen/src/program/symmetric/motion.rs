@@ -1,61 +1,61 @@
 //! The tree's motion by orbits: mass matrix, generalized forces and the solve,
 //! in fields instead of single links.
 
-use super::field::{Copies, Field};
-use super::series::Series;
-use super::turn::Direction;
+use super::direction::Direction;
+use super::field::{SymmetricField, SymmetricTree};
+use super::series::TruncatedSeries;
 
 /// Values of the constants of one orbit; zeros are empty series.
 pub(in crate::program) struct OrbitValues {
-    pub(in crate::program) mass: Series,
-    pub(in crate::program) inertia: Series,
-    pub(in crate::program) com: [Series; 2],
-    pub(in crate::program) pivot: [Series; 2],
-    pub(in crate::program) moment: Series,
-    pub(in crate::program) gravity: Series,
-    pub(in crate::program) lateral_gravity: Series,
-    pub(in crate::program) spring: Series,
-    pub(in crate::program) friction: Series,
-    pub(in crate::program) drag: Series,
-    pub(in crate::program) drive: [Series; 3],
+    pub(in crate::program) mass: TruncatedSeries,
+    pub(in crate::program) inertia: TruncatedSeries,
+    pub(in crate::program) com: [TruncatedSeries; 2],
+    pub(in crate::program) pivot: [TruncatedSeries; 2],
+    pub(in crate::program) moment: TruncatedSeries,
+    pub(in crate::program) gravity: TruncatedSeries,
+    pub(in crate::program) lateral_gravity: TruncatedSeries,
+    pub(in crate::program) spring: TruncatedSeries,
+    pub(in crate::program) friction: TruncatedSeries,
+    pub(in crate::program) drag: TruncatedSeries,
+    pub(in crate::program) drive: [TruncatedSeries; 3],
 }
 
 /// Values of a coupling's constants, and the orbits that it couples.
 pub(in crate::program) struct CouplingValues {
     pub(in crate::program) row: usize,
     pub(in crate::program) column: usize,
-    pub(in crate::program) cosine: Series,
-    pub(in crate::program) sine: Series,
+    pub(in crate::program) cosine: TruncatedSeries,
+    pub(in crate::program) sine: TruncatedSeries,
 }
 
 /// The constants of a scene.
-pub(in crate::program) struct Values {
+pub(in crate::program) struct ConstantValues {
     pub(in crate::program) orbits: Vec<OrbitValues>,
     pub(in crate::program) couplings: Vec<CouplingValues>,
 }
 
 /// One field for each orbit: a vector with one component for each link.
-pub(in crate::program) type Fields = Vec<Field>;
+pub(in crate::program) type Fields = Vec<SymmetricField>;
 
 /// A coupling at a configuration: the entry of the mass matrix and its
 /// derivative in the angle of the descendant.
-pub(super) struct Entry {
+pub(super) struct MassEntry {
     pub(in crate::program) row: usize,
     pub(in crate::program) column: usize,
-    pub(super) value: Field,
-    pub(super) slope: Field,
+    pub(super) value: SymmetricField,
+    pub(super) slope: SymmetricField,
 }
 
 /// A configuration: what depends on the angles alone.
 pub(in crate::program) struct Pose {
     pub(super) angles: Fields,
     pub(super) directions: Vec<Direction>,
-    pub(super) entries: Vec<Entry>,
+    pub(super) entries: Vec<MassEntry>,
 }
 
-impl Copies<'_> {
+impl SymmetricTree<'_> {
     /// The configuration with these angles.
-    pub(in crate::program) fn pose(&mut self, values: &Values, angles: Fields) -> Pose {
+    pub(in crate::program) fn pose(&mut self, values: &ConstantValues, angles: Fields) -> Pose {
         let directions: Vec<Direction> = angles
             .iter()
             .map(|angle| {
@@ -93,7 +93,7 @@ impl Copies<'_> {
             let above = self.orbits[column].name(None).to_owned();
             self.named(&value, &format!("mass_{above}"));
             self.named(&slope, &format!("slope_{above}"));
-            entries.push(Entry {
+            entries.push(MassEntry {
                 row,
                 column,
                 value,
@@ -108,10 +108,10 @@ impl Copies<'_> {
     }
 
     pub(in crate::program) fn zeros(&self) -> Fields {
-        (0..self.orbits.len()).map(Field::zero).collect()
+        (0..self.orbits.len()).map(SymmetricField::zero).collect()
     }
 
-    pub(super) fn accumulate(&mut self, sums: &mut Fields, term: &Field) {
+    pub(super) fn accumulate(&mut self, sums: &mut Fields, term: &SymmetricField) {
         let orbit = term.orbit;
         sums[orbit] = self.add(&sums[orbit], term);
     }
@@ -119,7 +119,7 @@ impl Copies<'_> {
     /// M v.
     pub(in crate::program) fn momenta(
         &mut self,
-        values: &Values,
+        values: &ConstantValues,
         pose: &Pose,
         rates: &Fields,
     ) -> Fields {
@@ -143,7 +143,7 @@ impl Copies<'_> {
     /// ∂U/∂θ of gravity and springs.
     pub(in crate::program) fn potential_gradient(
         &mut self,
-        values: &Values,
+        values: &ConstantValues,
         pose: &Pose,
     ) -> Fields {
         let mut gradient = self.zeros();
@@ -167,8 +167,8 @@ impl Copies<'_> {
         &mut self,
         sums: &mut Fields,
         positions: &Fields,
-        values: &Values,
-        stiffness: fn(&OrbitValues) -> &Series,
+        values: &ConstantValues,
+        stiffness: fn(&OrbitValues) -> &TruncatedSeries,
     ) {
         for (orbit, constants) in values.orbits.iter().enumerate() {
             let stiffness = stiffness(constants);
@@ -189,7 +189,7 @@ impl Copies<'_> {
     }
 
     /// A link's own less its parent's.
-    pub(super) fn relative(&mut self, positions: &Fields, orbit: usize) -> Field {
+    pub(super) fn relative(&mut self, positions: &Fields, orbit: usize) -> SymmetricField {
         match self.orbits[orbit].parent {
             Some(parent) => {
                 let above = self.lift(&positions[parent], orbit);
@@ -202,7 +202,7 @@ impl Copies<'_> {
     /// Generalized forces of friction and drag, Q = −∂R/∂ω, and of the drive.
     pub(in crate::program) fn other_forces(
         &mut self,
-        values: &Values,
+        values: &ConstantValues,
         pose: &Pose,
         rates: &Fields,
     ) -> Fields {
@@ -214,7 +214,7 @@ impl Copies<'_> {
     /// Generalized forces of friction and drag, Q = −∂R/∂ω.
     pub(in crate::program) fn friction_forces(
         &mut self,
-        values: &Values,
+        values: &ConstantValues,
         rates: &Fields,
     ) -> Fields {
         let mut losses = self.zeros();
@@ -228,14 +228,19 @@ impl Copies<'_> {
     }
 
     /// Adds the generalized forces of the drive.
-    pub(in crate::program) fn drive(&mut self, forces: &mut Fields, values: &Values, pose: &Pose) {
+    pub(in crate::program) fn drive(
+        &mut self,
+        forces: &mut Fields,
+        values: &ConstantValues,
+        pose: &Pose,
+    ) {
         for (orbit, constants) in values.orbits.iter().enumerate() {
             let [c, s, torque] = &constants.drive;
             let direction = &pose.directions[orbit];
             let along = self.scale(s, &direction.cos);
             let across = self.scale(c, &direction.sin);
             let pushed = self.sub(&along, &across);
-            let turned = Field::uniform(orbit, torque.clone());
+            let turned = SymmetricField::uniform(orbit, torque.clone());
             self.accumulate(forces, &pushed);
             self.accumulate(forces, &turned);
         }
@@ -292,7 +297,7 @@ impl Copies<'_> {
 
     /// Adds slope · product to the descendants' torque and takes it from the
     /// ancestors'.
-    fn turn_both(&mut self, gradient: &mut Fields, entry: &Entry, product: &Field) {
+    fn turn_both(&mut self, gradient: &mut Fields, entry: &MassEntry, product: &SymmetricField) {
         let own = self.mul(&entry.slope, product);
         let name = format!("turning_{}", self.orbits[entry.column].name(None));
         self.hinted(&own, &name);
@@ -302,8 +307,9 @@ impl Copies<'_> {
         self.accumulate(gradient, &above);
     }
 
-    /// What stands against M θ̈ of the motion itself: for each coupling m(Δ),
-    /// m′ ω² of the other link, centrifugal and no Coriolis terms.
+    /// Terms that stand against M θ̈ and come of the motion itself: for each
+    /// coupling m(Δ), m′ ω² of the other link, centrifugal and no Coriolis
+    /// terms.
     pub(super) fn centrifugal(&mut self, pose: &Pose, rates: &Fields) -> Fields {
         let squares: Fields = rates.iter().map(|rate| self.mul(rate, rate)).collect();
         self.all_hinted(&squares, "omega_squared");
@@ -324,7 +330,7 @@ impl Copies<'_> {
     /// Right-hand side of M θ̈ without friction and drive.
     pub(super) fn conservative_forces(
         &mut self,
-        values: &Values,
+        values: &ConstantValues,
         pose: &Pose,
         rates: &Fields,
     ) -> Fields {

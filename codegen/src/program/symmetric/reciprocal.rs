@@ -1,23 +1,23 @@
 //! One over a quantity of every link, which keeps small differences accurate.
 
-use super::field::{Copies, Field};
-use super::series::Series;
+use super::field::{SymmetricField, SymmetricTree};
+use super::series::TruncatedSeries;
 use super::tree::Branch;
 
-impl Copies<'_> {
+impl SymmetricTree<'_> {
     /// One over a field, link by link.
-    pub(super) fn reciprocal(&mut self, f: &Field) -> Field {
+    pub(super) fn reciprocal(&mut self, f: &SymmetricField) -> SymmetricField {
         let branch = self.branch(f.orbit);
         if !f.varies_below(branch) {
-            let mean = self.graded.reciprocal(&f.mean);
-            return Field::uniform(f.orbit, mean);
+            let mean = self.series.reciprocal(&f.mean);
+            return SymmetricField::uniform(f.orbit, mean);
         }
         let leading = self.leading(f);
         let start = self.reciprocal_of_leading(&leading);
         let rest = self.sub(f, &leading);
         let mut result = start.clone();
-        // What is left is small: each round gains one order.
-        for _ in 0..self.graded.truncation.unwrap_or(0) {
+        // The residual is small: each round gains one order.
+        for _ in 0..self.series.truncation.unwrap_or(0) {
             let product = self.mul(&rest, &result);
             let correction = self.mul(&start, &product);
             result = self.sub(&start, &correction);
@@ -26,23 +26,23 @@ impl Copies<'_> {
     }
 
     /// The part of order 0.
-    pub(super) fn leading(&mut self, f: &Field) -> Field {
-        let mean = self.graded.leading(&f.mean);
-        let mut result = Field::uniform(f.orbit, mean);
-        for (&place, value) in &f.differences {
-            let value = self.graded.leading(value);
-            result.put(place, value);
+    pub(super) fn leading(&mut self, f: &SymmetricField) -> SymmetricField {
+        let mean = self.series.leading(&f.mean);
+        let mut result = SymmetricField::uniform(f.orbit, mean);
+        for (&id, value) in &f.differences {
+            let value = self.series.leading(value);
+            result.put(id, value);
         }
         result
     }
 
     /// One over a field without higher orders.
-    fn reciprocal_of_leading(&mut self, f: &Field) -> Field {
+    fn reciprocal_of_leading(&mut self, f: &SymmetricField) -> SymmetricField {
         let branch = self.branch(f.orbit);
         match branch {
             _ if !f.varies_below(branch) => {
-                let mean = self.graded.reciprocal(&f.mean);
-                Field::uniform(f.orbit, mean)
+                let mean = self.series.reciprocal(&f.mean);
+                SymmetricField::uniform(f.orbit, mean)
             }
             Some(branch) if is_pair_of_links(branch) => self.reciprocal_of_pair(branch, f),
             _ => {
@@ -53,20 +53,20 @@ impl Copies<'_> {
     }
 
     /// 1/(m ± d) = (m ∓ d)/((m + d)(m − d)).
-    fn reciprocal_of_pair(&mut self, branch: &Branch, f: &Field) -> Field {
-        let place = (branch.group, 1);
-        let difference = f.at(place);
+    fn reciprocal_of_pair(&mut self, branch: &Branch, f: &SymmetricField) -> SymmetricField {
+        let id = (branch.group, 1);
+        let difference = f.at(id);
         let values = self.means(branch, f, &f.mean);
-        let product = self.graded.mul(&values[0], &values[1]);
-        let inverse = self.graded.reciprocal(&product);
-        let mut result = Field::uniform(f.orbit, self.graded.mul(&f.mean, &inverse));
-        let quotient = self.graded.mul(&difference, &inverse);
-        result.put(place, self.graded.neg(&quotient));
+        let product = self.series.mul(&values[0], &values[1]);
+        let inverse = self.series.reciprocal(&product);
+        let mut result = SymmetricField::uniform(f.orbit, self.series.mul(&f.mean, &inverse));
+        let quotient = self.series.mul(&difference, &inverse);
+        result.put(id, self.series.neg(&quotient));
         result
     }
 
-    fn reciprocal_by_copies(&mut self, f: &Field) -> Field {
-        let mut result = Field::zero(f.orbit);
+    fn reciprocal_by_copies(&mut self, f: &SymmetricField) -> SymmetricField {
+        let mut result = SymmetricField::zero(f.orbit);
         result.mean = self.inverted(self.branch(f.orbit), f, &f.mean.clone(), &mut result);
         result
     }
@@ -74,15 +74,15 @@ impl Copies<'_> {
     fn inverted(
         &mut self,
         branch: Option<&Branch>,
-        f: &Field,
-        mean: &Series,
-        result: &mut Field,
-    ) -> Series {
+        f: &SymmetricField,
+        mean: &TruncatedSeries,
+        result: &mut SymmetricField,
+    ) -> TruncatedSeries {
         let Some(branch) = branch.filter(|branch| f.varies_below(Some(branch))) else {
-            return self.graded.reciprocal(mean);
+            return self.series.reciprocal(mean);
         };
         let means = self.means(branch, f, mean);
-        let inverses: Vec<Series> = branch
+        let inverses: Vec<TruncatedSeries> = branch
             .copies
             .iter()
             .zip(&means)
@@ -96,9 +96,9 @@ impl Copies<'_> {
 
     /// One step of Newton's: x + x (1 − f x). Copies subtracted from one
     /// another lose the digits of small differences; this brings them back.
-    fn refined(&mut self, f: &Field, estimate: &Field) -> Field {
-        let one = self.graded.integer(1);
-        let one = Field::uniform(f.orbit, one);
+    fn refined(&mut self, f: &SymmetricField, estimate: &SymmetricField) -> SymmetricField {
+        let one = self.series.integer(1);
+        let one = SymmetricField::uniform(f.orbit, one);
         let product = self.mul(f, estimate);
         let defect = self.sub(&one, &product);
         let correction = self.mul(estimate, &defect);

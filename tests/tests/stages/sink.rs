@@ -1,5 +1,6 @@
-//! Where accelerations read their state and ask for sines and cosines: at once
-//! where there are registers for all, else where they are needed.
+//! The order in which accelerations read their state and ask for sines and
+//! cosines: at once where there are registers for all, else one by one where
+//! they are needed.
 
 use super::snapshots::pretty;
 use branched_pendulum_tests::source::{scene, stages_of};

@@ -1,27 +1,27 @@
 //! Linear systems with the mass matrix, all copies of an orbit at once.
 
-use super::field::{Copies, Field};
-use super::motion::{Fields, Pose, Values};
+use super::field::{SymmetricField, SymmetricTree};
+use super::motion::{ConstantValues, Fields, Pose};
 use std::collections::BTreeMap;
 
 /// Lower triangle of a symmetric matrix by orbits. The entry (row, column)
 /// belongs to the links of orbit `row` and their ancestors in `column`.
-type OrbitMatrix = BTreeMap<(usize, usize), Field>;
+type OrbitMatrix = BTreeMap<(usize, usize), SymmetricField>;
 
 /// Factors L and D of the mass matrix, LᵀDL, over the tree without fill-in.
-pub(in crate::program) struct Factors {
-    inverses: Vec<Field>,
+pub(in crate::program) struct MassFactors {
+    inverses: Vec<SymmetricField>,
     /// Descendant, ancestor, multiplier.
-    ratios: Vec<(usize, usize, Field)>,
+    ratios: Vec<(usize, usize, SymmetricField)>,
 }
 
-impl Copies<'_> {
-    fn mass_matrix(&mut self, values: &Values, pose: &Pose) -> OrbitMatrix {
+impl SymmetricTree<'_> {
+    fn mass_matrix(&mut self, values: &ConstantValues, pose: &Pose) -> OrbitMatrix {
         let mut matrix = OrbitMatrix::new();
         for (orbit, constants) in values.orbits.iter().enumerate() {
             matrix.insert(
                 (orbit, orbit),
-                Field::uniform(orbit, constants.moment.clone()),
+                SymmetricField::uniform(orbit, constants.moment.clone()),
             );
         }
         for entry in &pose.entries {
@@ -32,7 +32,11 @@ impl Copies<'_> {
 
     /// Eliminates from the leaves to the root (Featherstone, Rigid Body
     /// Dynamics Algorithms, 2008, §6.5), all copies of an orbit at once.
-    pub(in crate::program) fn factors(&mut self, values: &Values, pose: &Pose) -> Factors {
+    pub(in crate::program) fn factors(
+        &mut self,
+        values: &ConstantValues,
+        pose: &Pose,
+    ) -> MassFactors {
         let mut matrix = self.mass_matrix(values, pose);
         let mut inverses = Vec::new();
         let mut ratios = Vec::new();
@@ -41,7 +45,7 @@ impl Copies<'_> {
             self.named(&pivot, "pivot");
             let inverse = self.reciprocal(&pivot);
             self.named(&inverse, "inverse_pivot");
-            let row: Vec<(usize, Field)> = (0..orbit)
+            let row: Vec<(usize, SymmetricField)> = (0..orbit)
                 .filter_map(|above| Some((above, matrix.get(&(orbit, above))?.clone())))
                 .collect();
             for (above, value) in &row {
@@ -52,7 +56,7 @@ impl Copies<'_> {
                     let product = self.mul(&ratio, entry);
                     let product = self.gather(&product, *above);
                     let old = matrix.remove(&(*above, *other));
-                    let old = old.unwrap_or_else(|| Field::zero(*above));
+                    let old = old.unwrap_or_else(|| SymmetricField::zero(*above));
                     let new = self.sub(&old, &product);
                     let name = format!("reduced_mass_{}", self.orbits[*other].name(None));
                     self.hinted(&new, &name);
@@ -63,11 +67,11 @@ impl Copies<'_> {
             inverses.push(inverse);
         }
         inverses.reverse();
-        Factors { inverses, ratios }
+        MassFactors { inverses, ratios }
     }
 
     /// x with M x = right.
-    pub(in crate::program) fn solve(&mut self, factors: &Factors, right: &Fields) -> Fields {
+    pub(in crate::program) fn solve(&mut self, factors: &MassFactors, right: &Fields) -> Fields {
         let mut solution = right.clone();
         for (orbit, above, ratio) in &factors.ratios {
             let product = self.mul(ratio, &solution[*orbit]);

@@ -11,9 +11,9 @@ use crate::program::builder::Builder;
 
 /// A truncated power series in ε; coefficient k belongs to ε^k. Zero has none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(in crate::program) struct Series(Vec<Option<ValueId>>);
+pub(in crate::program) struct TruncatedSeries(Vec<Option<ValueId>>);
 
-impl Series {
+impl TruncatedSeries {
     /// A value of that order.
     pub(in crate::program) fn of_order(order: usize, value: ValueId) -> Self {
         let mut coefficients = vec![None; order];
@@ -37,62 +37,62 @@ impl Series {
 }
 
 /// Arithmetic on series.
-pub(in crate::program) struct Graded<'b> {
+pub(in crate::program) struct SeriesArithmetic<'b> {
     pub(in crate::program) builder: &'b mut Builder,
-    /// Whether differences count as small, and the highest order kept.
+    /// Highest order kept, if differences count as small.
     pub(in crate::program) truncation: Option<usize>,
 }
 
-impl Graded<'_> {
+impl SeriesArithmetic<'_> {
     fn highest(&self) -> usize {
         self.truncation.unwrap_or(0)
     }
 
-    fn collected(&mut self, mut coefficients: Vec<Option<ValueId>>) -> Series {
+    fn collected(&mut self, mut coefficients: Vec<Option<ValueId>>) -> TruncatedSeries {
         for coefficient in &mut coefficients {
             *coefficient = coefficient.filter(|&value| !self.builder.is(value, 0));
         }
         while coefficients.last() == Some(&None) {
             coefficients.pop();
         }
-        Series(coefficients)
+        TruncatedSeries(coefficients)
     }
 
     /// A value that does not depend on ε.
-    pub(in crate::program) fn value(&mut self, value: ValueId) -> Series {
+    pub(in crate::program) fn value(&mut self, value: ValueId) -> TruncatedSeries {
         self.collected(vec![Some(value)])
     }
 
-    pub(super) fn number(&mut self, number: Rational) -> Series {
+    pub(super) fn number(&mut self, number: Rational) -> TruncatedSeries {
         let value = self.builder.number(number);
         self.value(value)
     }
 
-    pub(super) fn integer(&mut self, number: i64) -> Series {
+    pub(super) fn integer(&mut self, number: i64) -> TruncatedSeries {
         self.number(Rational::from(number))
     }
 
     /// A value that is small of first order, where orders are counted.
-    pub(in crate::program) fn small(&mut self, value: ValueId) -> Series {
+    pub(in crate::program) fn small(&mut self, value: ValueId) -> TruncatedSeries {
         if self.builder.is(value, 0) {
-            return Series::default();
+            return TruncatedSeries::default();
         }
-        Series::of_order(usize::from(self.truncation.is_some()), value)
+        TruncatedSeries::of_order(usize::from(self.truncation.is_some()), value)
     }
 
     /// The part of order 0.
-    pub(super) fn leading(&mut self, series: &Series) -> Series {
+    pub(super) fn leading(&mut self, series: &TruncatedSeries) -> TruncatedSeries {
         let kept = series.0.iter().take(1).copied().collect();
         self.collected(kept)
     }
 
     fn by_order(
         &mut self,
-        a: &Series,
-        b: &Series,
+        a: &TruncatedSeries,
+        b: &TruncatedSeries,
         both: fn(&mut Builder, ValueId, ValueId) -> ValueId,
         right: fn(&mut Builder, ValueId) -> ValueId,
-    ) -> Series {
+    ) -> TruncatedSeries {
         let length = a.0.len().max(b.0.len());
         let coefficients = (0..length)
             .map(|order| match (a.coefficient(order), b.coefficient(order)) {
@@ -105,20 +105,24 @@ impl Graded<'_> {
         self.collected(coefficients)
     }
 
-    pub(in crate::program) fn add(&mut self, a: &Series, b: &Series) -> Series {
+    pub(in crate::program) fn add(
+        &mut self,
+        a: &TruncatedSeries,
+        b: &TruncatedSeries,
+    ) -> TruncatedSeries {
         self.by_order(a, b, Builder::add, |_, value| value)
     }
 
-    pub(super) fn sub(&mut self, a: &Series, b: &Series) -> Series {
+    pub(super) fn sub(&mut self, a: &TruncatedSeries, b: &TruncatedSeries) -> TruncatedSeries {
         self.by_order(a, b, Builder::sub, Builder::neg)
     }
 
-    pub(super) fn neg(&mut self, a: &Series) -> Series {
-        self.sub(&Series::default(), a)
+    pub(super) fn neg(&mut self, a: &TruncatedSeries) -> TruncatedSeries {
+        self.sub(&TruncatedSeries::default(), a)
     }
 
     /// Product, cut off beyond the highest order.
-    pub(super) fn mul(&mut self, a: &Series, b: &Series) -> Series {
+    pub(super) fn mul(&mut self, a: &TruncatedSeries, b: &TruncatedSeries) -> TruncatedSeries {
         let highest = self.highest();
         let mut coefficients: Vec<Option<ValueId>> = vec![None; highest + 1];
         for (order_a, a) in a.orders() {
@@ -135,13 +139,13 @@ impl Graded<'_> {
         self.collected(coefficients)
     }
 
-    pub(super) fn scale(&mut self, factor: &Rational, a: &Series) -> Series {
+    pub(super) fn scale(&mut self, factor: &Rational, a: &TruncatedSeries) -> TruncatedSeries {
         let factor = self.number(factor.clone());
         self.mul(&factor, a)
     }
 
     /// The sum of all orders: the value at ε = 1.
-    pub(in crate::program) fn total(&mut self, series: &Series) -> ValueId {
+    pub(in crate::program) fn total(&mut self, series: &TruncatedSeries) -> ValueId {
         let mut total = self.builder.integer(0);
         for (_, value) in series.orders() {
             total = self.builder.add(total, value);
@@ -150,7 +154,7 @@ impl Graded<'_> {
     }
 
     /// Hints at what the values are, order by order.
-    pub(super) fn hint(&mut self, series: &Series, name: &str) {
+    pub(super) fn hint(&mut self, series: &TruncatedSeries, name: &str) {
         for (order, value) in series.orders() {
             match order {
                 0 => self.builder.hint(value, name),
@@ -160,14 +164,17 @@ impl Graded<'_> {
     }
 
     /// All orders but the highest one kept.
-    pub(in crate::program) fn without_highest(&mut self, series: &Series) -> Series {
+    pub(in crate::program) fn without_highest(
+        &mut self,
+        series: &TruncatedSeries,
+    ) -> TruncatedSeries {
         let highest = self.highest();
         let kept = series.0.iter().take(highest).copied().collect();
         self.collected(kept)
     }
 
     /// 1/a, from the lowest order upwards; order 0 must be there.
-    pub(super) fn reciprocal(&mut self, a: &Series) -> Series {
+    pub(super) fn reciprocal(&mut self, a: &TruncatedSeries) -> TruncatedSeries {
         let Some(leading) = a.coefficient(0) else {
             unreachable!("a pivot vanishes with the differences")
         };

@@ -1,21 +1,21 @@
-//! What the means and differences of fields are called in code, and fields from
-//! the values of single links.
+//! Names of the means and differences of fields in code, and fields from the
+//! values of single links.
 
-use super::field::{Copies, Field};
+use super::field::{SymmetricField, SymmetricTree};
 use super::motion::Fields;
-use super::series::Series;
+use super::series::TruncatedSeries;
 use crate::program::ValueId;
 
-impl Copies<'_> {
+impl SymmetricTree<'_> {
     /// Hints at what the mean and the differences of a field are, order by
     /// order: `slope_child_m`, `slope_child_m_order_2`.
-    pub(super) fn hinted(&mut self, field: &Field, letter: &str) {
+    pub(super) fn hinted(&mut self, field: &SymmetricField, letter: &str) {
         let orbit = &self.orbits[field.orbit];
         let parts = field.differences.iter();
-        let parts = parts.map(|(&place, value)| (Some(place), value));
-        for (which, value) in std::iter::once((None, &field.mean)).chain(parts) {
-            let name = format!("{letter}_{}", orbit.name(which));
-            self.graded.hint(value, &name);
+        let parts = parts.map(|(&id, value)| (Some(id), value));
+        for (sector, value) in std::iter::once((None, &field.mean)).chain(parts) {
+            let name = format!("{letter}_{}", orbit.name(sector));
+            self.series.hint(value, &name);
         }
     }
 
@@ -26,16 +26,16 @@ impl Copies<'_> {
     }
 
     /// Names the mean and the differences of a field: `theta_child_m`.
-    pub(in crate::program) fn named(&mut self, field: &Field, letter: &str) {
+    pub(in crate::program) fn named(&mut self, field: &SymmetricField, letter: &str) {
         let orbit = &self.orbits[field.orbit];
         let parts = field
             .differences
             .iter()
-            .map(|(&place, value)| (Some(place), value));
-        for (which, value) in std::iter::once((None, &field.mean)).chain(parts) {
+            .map(|(&id, value)| (Some(id), value));
+        for (sector, value) in std::iter::once((None, &field.mean)).chain(parts) {
             if let Some(value) = value.coefficient(0) {
-                let name = format!("{letter}_{}", orbit.name(which));
-                self.graded.builder.name(value, &name);
+                let name = format!("{letter}_{}", orbit.name(sector));
+                self.series.builder.name(value, &name);
             }
         }
         self.hinted(field, letter);
@@ -47,8 +47,8 @@ impl Copies<'_> {
         orbit: usize,
         links: &[ValueId],
         letter: &str,
-    ) -> Field {
-        let mut field = Field::zero(orbit);
+    ) -> SymmetricField {
+        let mut field = SymmetricField::zero(orbit);
         let mut next = 0;
         let branch = self.orbits[orbit].branch.as_ref();
         field.mean = self.analysed_below(branch, links, &mut next, &mut field, letter);
@@ -61,14 +61,14 @@ impl Copies<'_> {
         branch: Option<&super::tree::Branch>,
         links: &[ValueId],
         next: &mut usize,
-        field: &mut Field,
+        field: &mut SymmetricField,
         letter: &str,
-    ) -> Series {
+    ) -> TruncatedSeries {
         let Some(branch) = branch else {
             *next += 1;
-            return self.graded.value(links[*next - 1]);
+            return self.series.value(links[*next - 1]);
         };
-        let means: Vec<Series> = branch
+        let means: Vec<TruncatedSeries> = branch
             .copies
             .iter()
             .map(|copy| self.analysed_below(copy.as_ref(), links, next, field, letter))
@@ -81,7 +81,7 @@ impl Copies<'_> {
         let name = self.orbits[field.orbit].name(Some((branch.group, 1)));
         if let Some((place, _)) = name.rsplit_once("_d") {
             let name = format!("{letter}_{place}_m");
-            self.graded.hint(&mean, &name);
+            self.series.hint(&mean, &name);
         }
         mean
     }

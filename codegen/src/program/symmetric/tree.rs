@@ -1,5 +1,6 @@
-//! How the links of an orbit branch into copies.
+//! The branching of an orbit's links into copies.
 
+use super::sector::SectorId;
 use crate::exact::Rational;
 use crate::mechanics::Coordinate;
 use crate::scene::{LinkId, Scene};
@@ -7,7 +8,7 @@ use std::collections::BTreeMap;
 
 /// The links of one orbit.
 #[derive(Clone, Debug)]
-pub(in crate::program) struct Orbit {
+pub(in crate::program) struct OrbitLinks {
     /// Number of links.
     pub(super) links: usize,
     /// Orbit of the links' parents.
@@ -15,13 +16,13 @@ pub(in crate::program) struct Orbit {
     /// The outermost branching, if there is one.
     pub(super) branch: Option<Branch>,
     /// Names of its mean and differences.
-    names: BTreeMap<Option<(usize, usize)>, String>,
+    names: BTreeMap<SectorId, String>,
 }
 
-impl Orbit {
+impl OrbitLinks {
     /// Name of the mean, or of a difference.
-    pub(super) fn name(&self, which: Option<(usize, usize)>) -> &str {
-        self.names.get(&which).map_or("", String::as_str)
+    pub(super) fn name(&self, sector: SectorId) -> &str {
+        self.names.get(&sector).map_or("", String::as_str)
     }
 }
 
@@ -67,11 +68,11 @@ pub(super) fn structure(copies: usize, j: usize, i: usize, l: usize) -> Option<R
 }
 
 /// The orbits of a scene, in its order: parents first.
-pub(in crate::program) fn orbits(scene: &Scene, coordinates: &[Coordinate]) -> Vec<Orbit> {
+pub(in crate::program) fn orbits(scene: &Scene, coordinates: &[Coordinate]) -> Vec<OrbitLinks> {
     let names = |number: usize| {
         let named = coordinates.iter().filter_map(|coordinate| {
-            let (orbit, which) = coordinate.kind.place();
-            (orbit == number).then(|| (which, coordinate.name.clone()))
+            let (orbit, sector) = coordinate.kind.place();
+            (orbit == number).then(|| (sector, coordinate.name.clone()))
         });
         named.collect()
     };
@@ -98,7 +99,7 @@ pub(in crate::program) fn orbits(scene: &Scene, coordinates: &[Coordinate]) -> V
                 orbit.links.iter().map(|&link| chain(link)).collect();
             let chains: Vec<&[(usize, usize)]> = chains.iter().map(Vec::as_slice).collect();
             let parent = scene.links[orbit.links[0].0].parent;
-            Orbit {
+            OrbitLinks {
                 links: orbit.links.len(),
                 parent: parent.map(|LinkId(link)| scene.links[link].orbit.0),
                 branch: branch(scene, &chains),

@@ -1,17 +1,18 @@
-//! States as entry points are handed them, in means and differences.
+//! States in means and differences, as entry points receive them.
 
-use super::copies::{
-    Copies, CouplingValues, Fields, Graded, Motion, Orbit, OrbitValues, Pose, Series, Values,
-};
 use super::lower::{Door, Lowering};
+use super::symmetric::{
+    ConstantValues, CouplingValues, Fields, OrbitLinks, OrbitValues, Pose, SeriesArithmetic,
+    SymmetricMotion, SymmetricTree, TruncatedSeries,
+};
 use super::{Argument, ValueId};
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{Counting, Mechanics, Sectors};
 use crate::scene::{LinkId, Scene};
 
-/// How a state is handed over.
+/// Form of the state that an entry point receives.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum State {
+pub(super) enum EntryState {
     /// Absolute angles and angular velocities.
     Absolute,
     /// Symmetric coordinates and their velocities.
@@ -22,16 +23,16 @@ pub(super) enum State {
 }
 
 /// Without a truncation nothing is counted.
-pub(super) const CANONICAL: State = State::Momenta(Counting::Amplitude);
+pub(super) const CANONICAL: EntryState = EntryState::Momenta(Counting::Amplitude);
 
-pub(super) fn copies<'b>(
+pub(super) fn symmetric_tree<'b>(
     lowering: &'b mut Lowering<'_>,
-    orbits: &'b [Orbit],
+    orbits: &'b [OrbitLinks],
     truncation: Option<usize>,
-) -> Copies<'b> {
+) -> SymmetricTree<'b> {
     let builder = &mut lowering.builder;
-    Copies {
-        graded: Graded {
+    SymmetricTree {
+        series: SeriesArithmetic {
             builder,
             truncation,
         },
@@ -40,7 +41,7 @@ pub(super) fn copies<'b>(
 }
 
 /// The constants as values of the program.
-pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &Sectors) -> Values {
+pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &Sectors) -> ConstantValues {
     let mut door = Door::new(
         &lowering.mechanics.absolute,
         Argument::Theta,
@@ -50,9 +51,9 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &Sectors) -> Values {
     let mut series = |expr: &Expr| {
         let value = lowering.expr(&mut door, expr);
         if lowering.builder.is(value, 0) {
-            Series::default()
+            TruncatedSeries::default()
         } else {
-            Series::of_order(0, value)
+            TruncatedSeries::of_order(0, value)
         }
     };
     let orbits = sectors
@@ -82,25 +83,24 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &Sectors) -> Values {
             sine: series(&coupling.sine),
         })
         .collect();
-    Values { orbits, couplings }
+    ConstantValues { orbits, couplings }
 }
 
-/// The state that an entry point is handed, and what follows from it.
+/// The state that an entry point receives, with momenta, velocities and forces.
 pub(super) fn motion(
-    copies: &mut Copies<'_>,
+    tree: &mut SymmetricTree<'_>,
     scene: &Scene,
     mechanics: &Mechanics,
-    values: &Values,
-    state: State,
-) -> Motion {
-    let handed = |copies: &mut Copies<'_>, argument| -> Fields {
-        let whole = argument == Argument::Momenta && state == State::Momenta(Counting::Angle);
+    values: &ConstantValues,
+    state: EntryState,
+) -> SymmetricMotion {
+    let received = |tree: &mut SymmetricTree<'_>, argument| -> Fields {
+        let whole = argument == Argument::Momenta && state == EntryState::Momenta(Counting::Angle);
         let budget = scene.requests.budget.as_ref();
         let chosen = budget.map_or(&[][..], |budget| budget.small.as_slice());
-        let is_small =
-            |place: &(usize, usize)| !whole && (chosen.is_empty() || chosen.contains(place));
+        let is_small = |id: &(usize, usize)| !whole && (chosen.is_empty() || chosen.contains(id));
         match state {
-            State::Absolute => scene
+            EntryState::Absolute => scene
                 .orbits
                 .iter()
                 .enumerate()
@@ -108,49 +108,49 @@ pub(super) fn motion(
                     let links: Vec<ValueId> = links
                         .links
                         .iter()
-                        .map(|&LinkId(link)| copies.graded.builder.input(argument, link))
+                        .map(|&LinkId(link)| tree.series.builder.input(argument, link))
                         .collect();
-                    copies.analysed(orbit, &links, argument.letter())
+                    tree.analysed(orbit, &links, argument.letter())
                 })
                 .collect(),
-            State::Rates | State::Momenta(_) => {
-                let mut fields = copies.zeros();
+            EntryState::Rates | EntryState::Momenta(_) => {
+                let mut fields = tree.zeros();
                 for (index, coordinate) in mechanics.coordinates.iter().enumerate() {
-                    let value = copies.graded.builder.input(argument, index);
-                    let (orbit, which) = coordinate.kind.place();
+                    let value = tree.series.builder.input(argument, index);
+                    let (orbit, sector) = coordinate.kind.place();
                     let field = &mut fields[orbit];
-                    let value = match which {
-                        Some(place) if is_small(&place) => copies.graded.small(value),
-                        _ => copies.graded.value(value),
+                    let value = match sector {
+                        Some(id) if is_small(&id) => tree.series.small(value),
+                        _ => tree.series.value(value),
                     };
-                    field.set(which, value);
+                    field.set(sector, value);
                 }
                 fields
             }
         }
     };
     let [positions, motions] = match state {
-        State::Absolute => [Argument::Theta, Argument::Omega],
-        State::Rates => [Argument::Coordinates, Argument::Rates],
-        State::Momenta(_) => [Argument::Coordinates, Argument::Momenta],
+        EntryState::Absolute => [Argument::Theta, Argument::Omega],
+        EntryState::Rates => [Argument::Coordinates, Argument::Rates],
+        EntryState::Momenta(_) => [Argument::Coordinates, Argument::Momenta],
     };
-    let angles = handed(copies, positions);
-    let pose: Pose = copies.pose(values, angles);
-    let handed = handed(copies, motions);
-    let (rates, momenta) = if let State::Momenta(_) = state {
-        let momenta = copies.per_link(&handed);
-        let factors = copies.factors(values, &pose);
-        (copies.solve(&factors, &momenta), momenta)
+    let angles = received(tree, positions);
+    let pose: Pose = tree.pose(values, angles);
+    let received = received(tree, motions);
+    let (rates, momenta) = if let EntryState::Momenta(_) = state {
+        let momenta = tree.per_link(&received);
+        let factors = tree.factors(values, &pose);
+        (tree.solve(&factors, &momenta), momenta)
     } else {
-        let momenta = copies.momenta(values, &pose, &handed);
-        (handed, momenta)
+        let momenta = tree.momenta(values, &pose, &received);
+        (received, momenta)
     };
     for (rate, momentum) in rates.iter().zip(&momenta) {
-        copies.named(rate, "omega");
-        copies.named(momentum, "momentum");
+        tree.named(rate, "omega");
+        tree.named(momentum, "momentum");
     }
-    let forces = copies.other_forces(values, &pose, &rates);
-    Motion {
+    let forces = tree.other_forces(values, &pose, &rates);
+    SymmetricMotion {
         pose,
         rates,
         momenta,

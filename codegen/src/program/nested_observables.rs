@@ -1,0 +1,124 @@
+//! Quantities that observables of nested trees refer to, formed on means and
+//! differences: momenta, forces, energies, and the solves with the mass matrix.
+//! Components that the symmetry makes zero are exactly zero here too.
+
+use super::ValueId;
+use super::entry_state::{EntryState, motion, symmetric_tree, values};
+use super::lower::{Door, Lowering};
+use super::sectors::by_coordinate;
+use super::symmetric::{ConstantValues, Fields, MassFactors, OrbitLinks, SymmetricTree, orbits};
+use crate::mechanics::expression::SymbolId;
+use crate::mechanics::{ObservableFrame, Sectors, System};
+use crate::scene::Scene;
+
+/// A nested tree on which observables are formed.
+pub(super) struct NestedObservables<'s> {
+    scene: &'s Scene,
+    orbits: Vec<OrbitLinks>,
+    values: ConstantValues,
+    /// The mass matrix at the coordinates that are handed over.
+    factors: MassFactors,
+}
+
+impl<'s> NestedObservables<'s> {
+    pub(super) fn new(lowering: &mut Lowering<'_>, scene: &'s Scene, sectors: &Sectors) -> Self {
+        let mechanics = lowering.mechanics;
+        let orbits = orbits(scene, &mechanics.coordinates);
+        let values = values(lowering, sectors);
+        let mut tree = symmetric_tree(lowering, &orbits, None);
+        let motion = motion(&mut tree, scene, mechanics, &values, EntryState::Rates);
+        let factors = tree.factors(&values, &motion.pose);
+        Self {
+            scene,
+            orbits,
+            values,
+            factors,
+        }
+    }
+
+    /// Supplies the symbols that are `used`, in a state of the form `state`.
+    pub(super) fn supply(
+        &self,
+        lowering: &mut Lowering<'_>,
+        used: &ObservableFrame,
+        door: &mut Door<'_>,
+        state: EntryState,
+    ) {
+        let (mechanics, values, used) = (lowering.mechanics, &self.values, &used.nested);
+        let mut tree = symmetric_tree(lowering, &self.orbits, None);
+        let motion = motion(&mut tree, self.scene, mechanics, values, state);
+        let mut found: Vec<(SymbolId, ValueId)> = Vec::new();
+        let mut project = |tree: &mut _, symbols: &[SymbolId], fields: &Fields| {
+            let projected = by_coordinate(tree, mechanics, fields, SymmetricTree::projected);
+            found.extend(symbols.iter().copied().zip(projected));
+        };
+        if state == EntryState::Rates {
+            project(&mut tree, &door.frame.momenta, &motion.momenta);
+        }
+        let kinetic = tree.kinetic_gradient(&motion.pose, &motion.rates);
+        let potential = tree.potential_gradient(values, &motion.pose);
+        if let Some(energies) = &used.energies {
+            project(&mut tree, &energies.kinetic_slopes, &kinetic);
+            project(&mut tree, &energies.potential_slopes, &potential);
+        }
+        let mut forces = tree.subtract(&kinetic, &potential);
+        tree.drive(&mut forces, values, &motion.pose);
+        project(&mut tree, &used.forces, &forces);
+        // At fixed momenta K has the opposite slope.
+        let slopes = forces.iter().map(|force| tree.neg(force)).collect();
+        project(&mut tree, &used.slopes, &slopes);
+        let changes = tree.mass_changes(&motion.pose, &motion.rates);
+        project(&mut tree, &used.changes, &changes);
+        let friction = tree.friction_forces(values, &motion.rates);
+        project(&mut tree, &used.torques, &friction);
+        let mut component = |tree: &mut _, symbols: &[SymbolId], fields: &Fields| {
+            let components = by_coordinate(tree, mechanics, fields, SymmetricTree::component);
+            found.extend(symbols.iter().copied().zip(components));
+        };
+        if state != EntryState::Rates {
+            component(&mut tree, &door.frame.velocities, &motion.rates);
+        }
+        if !used.friction_accelerations.is_empty() {
+            let accelerations = tree.solve(&self.factors, &friction);
+            component(&mut tree, &used.friction_accelerations, &accelerations);
+        }
+        if let Some(energies) = &used.energies {
+            let kinetic = tree.kinetic_energy(&motion);
+            let potential = tree.potential_energy(values, &motion.pose);
+            found.push((energies.kinetic, tree.series.total(&kinetic)));
+            found.push((energies.potential, tree.series.total(&potential)));
+        }
+        for (symbol, value) in found {
+            let code = &mechanics.symbols.get(symbol).code;
+            lowering.builder.name(value, code);
+            door.supply(symbol, value);
+        }
+    }
+
+    /// Solves a system with the mass matrix and supplies its unknowns.
+    pub(super) fn solve(&self, lowering: &mut Lowering<'_>, door: &mut Door<'_>, system: &System) {
+        let mechanics = lowering.mechanics;
+        let right: Vec<ValueId> = system
+            .right
+            .iter()
+            .map(|right| lowering.expr(door, right))
+            .collect();
+        let mut tree = symmetric_tree(lowering, &self.orbits, None);
+        let mut momenta = tree.zeros();
+        for (coordinate, &value) in mechanics.coordinates.iter().zip(&right) {
+            if !tree.series.builder.is(value, 0) {
+                let (orbit, sector) = coordinate.kind.place();
+                let value = tree.series.value(value);
+                momenta[orbit].set(sector, value);
+            }
+        }
+        let momenta = tree.per_link(&momenta);
+        let solution = tree.solve(&self.factors, &momenta);
+        let solution = by_coordinate(&mut tree, mechanics, &solution, SymmetricTree::component);
+        for (&symbol, value) in system.unknowns.iter().zip(solution) {
+            let code = &mechanics.symbols.get(symbol).code;
+            lowering.builder.name(value, code);
+            door.supply(symbol, value);
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Energies of the sectors and what feeds them (physics §5): dE_s/dt =
+//! W_s + P_s, the transfer from other sectors and the power of friction and
+//! drive.
+
+use super::field::SymmetricTree;
+use super::motion::{ConstantValues, Fields, Pose};
+use super::sector::SectorId;
+use super::series::TruncatedSeries;
+use std::collections::BTreeMap;
+
+/// A state of motion, with the momenta and forces that belong to it.
+pub(in crate::program) struct SymmetricMotion {
+    pub(in crate::program) pose: Pose,
+    /// Angular velocities.
+    pub(in crate::program) rates: Fields,
+    /// Generalized momenta M ω.
+    pub(in crate::program) momenta: Fields,
+    /// Generalized forces of friction, drag and drive.
+    pub(in crate::program) forces: Fields,
+}
+
+/// E_s, W_s and P_s of one sector.
+pub(in crate::program) struct Share {
+    pub(in crate::program) energy: TruncatedSeries,
+    pub(in crate::program) transfer: TruncatedSeries,
+    pub(in crate::program) power: TruncatedSeries,
+}
+
+/// W_s in the parts of kinetic and potential energy: {E_s, K − T_s} and
+/// {E_s, U − V_s}.
+pub(in crate::program) struct TransferParts {
+    /// −∂T_s/∂p ∂K/∂q.
+    pub(in crate::program) slopes: TruncatedSeries,
+    /// The rest of {E_s, K − T_s}.
+    pub(in crate::program) kinetic: TruncatedSeries,
+    pub(in crate::program) potential: TruncatedSeries,
+}
+
+impl SymmetricTree<'_> {
+    /// Velocities of the sector by itself: B u = p.
+    fn own_velocities(
+        &mut self,
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
+        sector: SectorId,
+        at_rest: bool,
+    ) -> BTreeMap<usize, TruncatedSeries> {
+        let block = if at_rest {
+            self.block_at_rest(values, &motion.pose, sector)
+        } else {
+            self.block(values, &motion.pose, sector)
+        };
+        let momenta = self.projections(&motion.momenta, sector);
+        self.solve_block(&block, &momenta, sector)
+    }
+
+    /// −½ uᵀ Ḃ u: what the change of the sector's block does to ½ pᵀ B⁻¹ p.
+    fn by_change_of_block(
+        &mut self,
+        motion: &SymmetricMotion,
+        sector: SectorId,
+        velocities: &BTreeMap<usize, TruncatedSeries>,
+    ) -> TruncatedSeries {
+        let rate = self.block_rate(&motion.pose, &motion.rates, sector);
+        let change = self.quadratic(&rate, velocities);
+        let half = self.half();
+        let change = self.series.mul(&half, &change);
+        self.series.neg(&change)
+    }
+
+    /// ½ p_sᵀ B_s⁻¹ p_s + V_s with the block at the configuration (definition
+    /// A1) or at rest (A0).
+    pub(in crate::program) fn canonical_share(
+        &mut self,
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
+        sector: SectorId,
+        at_rest: bool,
+    ) -> Share {
+        let velocities = self.own_velocities(values, motion, sector, at_rest);
+        let momenta = self.projections(&motion.momenta, sector);
+        let twice = self.inner(&momenta, &velocities);
+        let half = self.half();
+        let kinetic = self.series.mul(&half, &twice);
+        let potential = self.sector_potential(values, &motion.pose, sector);
+        let slopes = self.kinetic_gradient(&motion.pose, &motion.rates);
+        let gradient = self.potential_gradient(values, &motion.pose);
+        let slopes = self.subtract(&slopes, &gradient);
+        let slopes = self.projections(&slopes, sector);
+        let mut transfer = self.inner(&velocities, &slopes);
+        if !at_rest {
+            let change = self.by_change_of_block(motion, sector, &velocities);
+            transfer = self.series.add(&transfer, &change);
+        }
+        let stored = self.sector_potential_rate(values, &motion.pose, &motion.rates, sector);
+        let forces = self.projections(&motion.forces, sector);
+        Share {
+            energy: self.series.add(&kinetic, &potential),
+            transfer: self.series.add(&transfer, &stored),
+            power: self.inner(&velocities, &forces),
+        }
+    }
+
+    /// The transfer of [`canonical_share`](Self::canonical_share) by definition
+    /// A1, in the parts of kinetic and potential energy.
+    pub(in crate::program) fn transfer_parts(
+        &mut self,
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
+        sector: SectorId,
+    ) -> TransferParts {
+        let velocities = self.own_velocities(values, motion, sector, false);
+        let slopes = self.kinetic_gradient(&motion.pose, &motion.rates);
+        let slopes = self.projections(&slopes, sector);
+        let slopes = self.inner(&velocities, &slopes);
+        let mut kinetic = self.by_change_of_block(motion, sector, &velocities);
+        let weight = self.sector_weight_rate(values, &motion.pose, &motion.rates, sector);
+        kinetic = self.series.add(&kinetic, &weight);
+        let own = self.sector_weight_gradient(values, &motion.pose, sector);
+        let swing = self.inner(&velocities, &own);
+        kinetic = self.series.sub(&kinetic, &swing);
+        // Springs are quadratic: U and V_s have the same slope in the sector.
+        let springs = self.spring_gradient(values, &motion.pose);
+        let projected = self.projections(&springs, sector);
+        let rates = self.components(&motion.rates, sector);
+        let stored = self.inner(&rates, &projected);
+        let swing_of_springs = self.inner(&velocities, &projected);
+        let stored = self.series.sub(&stored, &swing_of_springs);
+        kinetic = self.series.add(&kinetic, &stored);
+        let gradient = self.potential_gradient(values, &motion.pose);
+        let gradient = self.subtract(&gradient, &springs);
+        let gradient = self.projections(&gradient, sector);
+        let pull = self.inner(&velocities, &gradient);
+        TransferParts {
+            slopes,
+            kinetic,
+            potential: self.series.sub(&swing, &pull),
+        }
+    }
+
+    /// ½ ω_sᵀ B_s ω_s + V_s (definition C), with the accelerations that the
+    /// conservative forces and the others give.
+    pub(in crate::program) fn velocity_share(
+        &mut self,
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
+        sector: SectorId,
+        [conservative, other]: [&Fields; 2],
+    ) -> Share {
+        let block = self.block(values, &motion.pose, sector);
+        let rates = self.components(&motion.rates, sector);
+        let half = self.half();
+        let twice = self.quadratic(&block, &rates);
+        let kinetic = self.series.mul(&half, &twice);
+        let potential = self.sector_potential(values, &motion.pose, sector);
+        let accelerations = self.components(conservative, sector);
+        let mut transfer = self.bilinear(&block, &rates, &accelerations);
+        let change = self.block_rate(&motion.pose, &motion.rates, sector);
+        let change = self.quadratic(&change, &rates);
+        let change = self.series.mul(&half, &change);
+        transfer = self.series.add(&transfer, &change);
+        let stored = self.sector_potential_rate(values, &motion.pose, &motion.rates, sector);
+        let other = self.components(other, sector);
+        Share {
+            energy: self.series.add(&kinetic, &potential),
+            transfer: self.series.add(&transfer, &stored),
+            power: self.bilinear(&block, &rates, &other),
+        }
+    }
+
+    /// Accelerations that the conservative forces give, and what the others
+    /// add to them.
+    pub(in crate::program) fn accelerations(
+        &mut self,
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
+    ) -> [Fields; 2] {
+        let factors = self.factors(values, &motion.pose);
+        let forces = self.conservative_forces(values, &motion.pose, &motion.rates);
+        for force in &forces {
+            self.named(force, "torque");
+        }
+        let conservative = self.solve(&factors, &forces);
+        for acceleration in &conservative {
+            self.named(acceleration, "alpha");
+        }
+        let other = if motion
+            .forces
+            .iter()
+            .all(super::field::SymmetricField::is_zero)
+        {
+            self.zeros()
+        } else {
+            self.solve(&factors, &motion.forces)
+        };
+        [conservative, other]
+    }
+
+    /// K = ½ p·ω.
+    pub(in crate::program) fn kinetic_energy(
+        &mut self,
+        motion: &SymmetricMotion,
+    ) -> TruncatedSeries {
+        let mut twice = TruncatedSeries::default();
+        for (momentum, rate) in motion.momenta.iter().zip(&motion.rates) {
+            let product = self.dot(momentum, rate);
+            twice = self.series.add(&twice, &product);
+        }
+        let half = self.half();
+        self.series.mul(&half, &twice)
+    }
+
+    /// H = K + U.
+    pub(in crate::program) fn hamiltonian(
+        &mut self,
+        values: &ConstantValues,
+        motion: &SymmetricMotion,
+    ) -> TruncatedSeries {
+        let kinetic = self.kinetic_energy(motion);
+        self.with_potential(kinetic, values, &motion.pose)
+    }
+
+    /// U.
+    pub(in crate::program) fn potential_energy(
+        &mut self,
+        values: &ConstantValues,
+        pose: &Pose,
+    ) -> TruncatedSeries {
+        self.with_potential(TruncatedSeries::default(), values, pose)
+    }
+
+    fn with_potential(
+        &mut self,
+        mut energy: TruncatedSeries,
+        values: &ConstantValues,
+        pose: &Pose,
+    ) -> TruncatedSeries {
+        let mut sectors: Vec<SectorId> = vec![None];
+        for orbit in &pose.angles {
+            sectors.extend(orbit.differences.keys().map(|&id| Some(id)));
+        }
+        sectors.sort_unstable();
+        sectors.dedup();
+        for sector in sectors {
+            let potential = self.sector_potential(values, pose, sector);
+            energy = self.series.add(&energy, &potential);
+        }
+        energy
+    }
+}

@@ -1,0 +1,189 @@
+//! The potential energy of a sector by Parseval (physics §5):
+//! 1 − cos θ = |1 − e^{iθ}|²/2, and the symmetric coordinates are orthogonal,
+//! so that U is a sum over sectors without interaction, with every part
+//! 2π-periodic in every angle.
+
+use super::field::{SymmetricField, SymmetricTree};
+use super::motion::{ConstantValues, Fields, Pose};
+use super::sector::SectorId;
+use super::series::TruncatedSeries;
+use crate::exact::Rational;
+use std::collections::BTreeMap;
+
+impl SymmetricTree<'_> {
+    pub(super) fn half(&mut self) -> TruncatedSeries {
+        let half = Rational::from_ratio(1, 2).unwrap_or_else(Rational::one);
+        self.series.number(half)
+    }
+
+    /// 1 − e^{iθ} of an orbit in a sector, real and imaginary part; the sign is
+    /// left out where both parts share it.
+    fn chord(&mut self, pose: &Pose, orbit: usize, sector: SectorId) -> [TruncatedSeries; 2] {
+        let direction = &pose.directions[orbit];
+        let (cos, sin) = (
+            direction.cos.component(sector),
+            direction.sin.component(sector),
+        );
+        if sector.is_some() {
+            return [cos, sin];
+        }
+        let one = self.series.integer(1);
+        let less = self.series.sub(&cos, &one);
+        [less, sin]
+    }
+
+    /// V_s.
+    pub(super) fn sector_potential(
+        &mut self,
+        values: &ConstantValues,
+        pose: &Pose,
+        sector: SectorId,
+    ) -> TruncatedSeries {
+        let mut sum = TruncatedSeries::default();
+        for orbit in self.orbits_of(sector) {
+            let constants = &values.orbits[orbit];
+            let norm = self.sector_norm(orbit, sector);
+            let half = self.half();
+            let share = self.series.mul(&half, &norm);
+            let [x, y] = self.chord(pose, orbit, sector);
+            let squares = [self.series.mul(&x, &x), self.series.mul(&y, &y)];
+            let square = self.series.add(&squares[0], &squares[1]);
+            let weight = self.series.mul(&share, &constants.gravity);
+            let gravity = self.series.mul(&weight, &square);
+            sum = self.series.add(&sum, &gravity);
+            if !constants.spring.is_zero() {
+                let relative = self.relative(&pose.angles, orbit).component(sector);
+                let square = self.series.mul(&relative, &relative);
+                let weight = self.series.mul(&share, &constants.spring);
+                let spring = self.series.mul(&weight, &square);
+                sum = self.series.add(&sum, &spring);
+            }
+            if sector.is_none() {
+                let sine = self.projected(&pose.directions[orbit].sin, None);
+                let lateral = self.series.mul(&constants.lateral_gravity, &sine);
+                sum = self.series.add(&sum, &lateral);
+            }
+        }
+        sum
+    }
+
+    /// dV_s/dt at these angular velocities, of gravity alone.
+    pub(super) fn sector_weight_rate(
+        &mut self,
+        values: &ConstantValues,
+        pose: &Pose,
+        rates: &Fields,
+        sector: SectorId,
+    ) -> TruncatedSeries {
+        let mut sum = TruncatedSeries::default();
+        for orbit in self.orbits_of(sector) {
+            let constants = &values.orbits[orbit];
+            let [x, y] = self.chord(pose, orbit, sector);
+            let direction = pose.directions[orbit].clone();
+            let down = self.mul(&direction.sin, &rates[orbit]);
+            let across = self.mul(&direction.cos, &rates[orbit]);
+            let down = self.projected(&down, sector);
+            let across = self.projected(&across, sector);
+            let products = [self.series.mul(&y, &across), self.series.mul(&x, &down)];
+            let rate = self.series.sub(&products[0], &products[1]);
+            let gravity = self.series.mul(&constants.gravity, &rate);
+            sum = self.series.add(&sum, &gravity);
+            if sector.is_none() {
+                let lateral = self.series.mul(&constants.lateral_gravity, &across);
+                sum = self.series.add(&sum, &lateral);
+            }
+        }
+        sum
+    }
+
+    /// dV_s/dt at these angular velocities, of gravity and springs.
+    pub(super) fn sector_potential_rate(
+        &mut self,
+        values: &ConstantValues,
+        pose: &Pose,
+        rates: &Fields,
+        sector: SectorId,
+    ) -> TruncatedSeries {
+        let weight = self.sector_weight_rate(values, pose, rates, sector);
+        let springs = self.spring_gradient(values, pose);
+        let springs = self.projections(&springs, sector);
+        let rates = self.components(rates, sector);
+        let springs = self.inner(&rates, &springs);
+        self.series.add(&weight, &springs)
+    }
+
+    /// ∂V_s/∂q for the sector's own coordinates, of gravity alone.
+    pub(super) fn sector_weight_gradient(
+        &mut self,
+        values: &ConstantValues,
+        pose: &Pose,
+        sector: SectorId,
+    ) -> BTreeMap<usize, TruncatedSeries> {
+        let mut gradient = BTreeMap::new();
+        for orbit in self.orbits_of(sector) {
+            let constants = &values.orbits[orbit];
+            let [x, y] = self.chord(pose, orbit, sector);
+            let direction = pose.directions[orbit].clone();
+            let down = self.weighted(&direction.sin, sector);
+            let across = self.weighted(&direction.cos, sector);
+            let products = [self.series.mul(&y, &across), self.series.mul(&x, &down)];
+            let slope = self.series.sub(&products[0], &products[1]);
+            let mut total = self.series.mul(&constants.gravity, &slope);
+            if sector.is_none() {
+                let lateral = self.series.mul(&constants.lateral_gravity, &across);
+                total = self.series.add(&total, &lateral);
+            }
+            gradient.insert(orbit, total);
+        }
+        gradient
+    }
+
+    /// ∂V_s/∂θ of every link, gravity and springs.
+    pub(super) fn sector_potential_gradient(
+        &mut self,
+        values: &ConstantValues,
+        pose: &Pose,
+        sector: SectorId,
+    ) -> Fields {
+        let mut gradient = self.zeros();
+        for orbit in self.orbits_of(sector) {
+            let constants = &values.orbits[orbit];
+            let direction = pose.directions[orbit].clone();
+            let [x, y] = self.chord(pose, orbit, sector);
+            let part = |value: TruncatedSeries| {
+                let mut field = SymmetricField::zero(orbit);
+                field.set(sector, value);
+                field
+            };
+            let across = self.mul(&part(y), &direction.cos);
+            let down = self.mul(&part(x), &direction.sin);
+            let torque = self.sub(&across, &down);
+            let torque = self.scale(&constants.gravity, &torque);
+            self.accumulate(&mut gradient, &torque);
+            if sector.is_none() {
+                let lateral = self.scale(&constants.lateral_gravity, &direction.cos);
+                self.accumulate(&mut gradient, &lateral);
+            }
+            if !constants.spring.is_zero() {
+                let relative = self.relative(&pose.angles, orbit).restricted(sector);
+                let torque = self.scale(&constants.spring, &relative);
+                self.accumulate(&mut gradient, &torque);
+                if let Some(parent) = self.orbits[orbit].parent {
+                    let reaction = self.gather(&torque, parent);
+                    let reaction = self.neg(&reaction);
+                    self.accumulate(&mut gradient, &reaction);
+                }
+            }
+        }
+        gradient
+    }
+
+    /// ∂U/∂θ of the springs.
+    pub(super) fn spring_gradient(&mut self, values: &ConstantValues, pose: &Pose) -> Fields {
+        let mut gradient = self.zeros();
+        self.in_joints(&mut gradient, &pose.angles, values, |constants| {
+            &constants.spring
+        });
+        gradient
+    }
+}
