@@ -15,6 +15,8 @@ macro_rules! implement_scalar {
     ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
      $lanes:literal, $build:ident, $avx2:ident, $avx512:ident $(, $packs:path)?) => {
         impl Scalar for $float {
+            const PLAIN: bool = true;
+
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
             fn from_f64(value: f64) -> Self {

@@ -107,6 +107,11 @@ pub trait Scalar:
     #[doc(hidden)]
     const SEVERAL: bool = false;
 
+    /// This is `f64` or `f32`: what is long and generic is compiled for them with this
+    /// crate.
+    #[doc(hidden)]
+    const PLAIN: bool = false;
+
     /// The value of this type nearest to `value`; for lanes, the same value in
     /// each. Used for constants, and for them only.
     fn from_f64(value: f64) -> Self;

@@ -90,6 +90,18 @@ pub trait Simd<T>: Scalar {
     /// Reads the first numbers of a slice, if it has enough.
     fn load(numbers: &[T]) -> Option<Self>;
 
+    /// Reads the first numbers of a slice, and zeros behind its end.
+    #[inline(always)]
+    fn load_front(numbers: &[T]) -> Self
+    where
+        T: Scalar,
+    {
+        match Self::load(numbers) {
+            Some(front) => front,
+            None => load_few(numbers),
+        }
+    }
+
     /// Writes the numbers to the front of a slice. A slice too short gets none.
     fn store(self, numbers: &mut [T]);
 
@@ -132,6 +144,35 @@ pub trait Simd<T>: Scalar {
 
     /// Returns the first `count` lanes over and over.
     fn tile_lanes(self, count: usize) -> Self;
+}
+
+/// Numbers in the widest register.
+const WIDEST: usize = 16;
+
+#[cold]
+#[inline(never)]
+fn load_few<T: Scalar, V: Simd<T>>(few: &[T]) -> V {
+    const { assert!(V::LANES <= WIDEST) }
+    let mut numbers = [T::from_f64(0.0); WIDEST];
+    for (number, &value) in numbers.iter_mut().zip(few) {
+        *number = value;
+    }
+    match V::load(&numbers) {
+        Some(front) => front,
+        // There are enough numbers: asserted.
+        None => V::from_f64(f64::NAN),
+    }
+}
+
+/// Returns memory of plain numbers as wide ones, from where the first one would lie;
+/// none of a type that is not its numbers alone.
+#[allow(unsafe_code)]
+pub(crate) fn wide_slice<R: Register>(numbers: &mut [R::Lane]) -> Option<&mut [R]> {
+    if size_of::<R>() != R::LANES * size_of::<R::Lane>() {
+        return None;
+    }
+    // SAFETY: a register is its lanes without padding, and any numbers are such lanes.
+    Some(unsafe { numbers.align_to_mut().1 })
 }
 
 /// A wide number of a plain one.
