@@ -50,6 +50,7 @@ impl<T: Real> StepControl<T> {
 
     /// Judges a step by its scaled error: it was `made` long and `planned` to be,
     /// unless it is the `last` one, which the end of the run cuts short.
+    #[inline(always)]
     pub(crate) fn judge(&mut self, error: T, made: T, (planned, last): (T, bool)) -> Verdict<T> {
         // An error that is NaN must not pass either.
         if !matches!(error.partial_cmp(&T::ONE), Some(order) if order.is_le()) {
@@ -109,7 +110,7 @@ impl<T: Real> StepControl<T> {
     }
 }
 
-/// What becomes of a step, and the length of the one to try next.
+/// The judgement on a step, with the length of the one to try next.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Verdict<T> {
     Accepted(T),

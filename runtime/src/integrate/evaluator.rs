@@ -11,22 +11,24 @@ use crate::system::{Ode, State, Workspace};
 /// A system, with the memory that its evaluations need.
 pub(crate) struct Evaluator<'a, T, O: ?Sized> {
     ode: &'a O,
+    dimension: usize,
     workspace: Workspace<T>,
 }
 
 impl<'a, T: Real, O: Ode<T> + ?Sized> Evaluator<'a, T, O> {
-    /// Evaluates `ode`, which has not been evaluated yet.
-    pub(crate) fn new(ode: &'a O) -> Self {
+    /// Evaluates `ode` for states of `dimension` components.
+    pub(crate) fn new(ode: &'a O, dimension: usize) -> Self {
         Self {
             ode,
+            dimension,
             workspace: Workspace::new(),
         }
     }
 
     /// Number of components of a state.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn dimension(&self) -> usize {
-        self.ode.dimension()
+        self.dimension
     }
 
     /// Writes the rates of `state`, finite or not.

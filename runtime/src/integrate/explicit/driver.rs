@@ -122,7 +122,7 @@ impl<'a, M: Pair, T: Real, O: Ode<T> + ?Sized> Run<'a, M, T, O> {
     /// A run of `ode` about to leave `start`.
     pub(super) fn new(ode: &'a O, options: &Options<T>, start: &State<T>) -> Self {
         Self {
-            system: Evaluator::new(ode),
+            system: Evaluator::new(ode, start.values.len()),
             stages: StepStages::new::<M, T>(options, start.values.clone(), identity),
             time: start.time,
             report: Report::new(),

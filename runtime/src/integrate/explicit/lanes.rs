@@ -194,7 +194,7 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> Stepper<R> for PairInLanes<'_, M, P
     fn attempt(&mut self, span: Span<R>, size: R) {
         let (system, stages) = (&mut self.system, &mut self.stages);
         let Ok(()) = stages.make::<M, _>(system, span);
-        self.finite_end = numbers(check_finite(R::from_f64(0.0), &stages.end));
+        self.finite_end = numbers(check_finite(R::from_f64(0.0), &stages.end[..2 * P::LINKS]));
         let Ok(()) = stages.evaluate_end::<M, _>(system, span.time + span.step);
         self.errors = numbers(M::error(stages, system, size));
     }
@@ -318,7 +318,7 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
         let (stages, n) = (&self.stages, 2 * P::LINKS);
         let failed = |stage: &usize| !numbers(self.system.checks[stage - 1])[lane].is_finite();
         let stage = (2..last).find(failed).unwrap_or(last);
-        // The same operations as in the step.
+        // Operations as in the step, for equal bits.
         let span = Span {
             time: R::splat(span.time),
             step: R::splat(span.step),

@@ -1,4 +1,4 @@
-//! What tells one embedded pair from another.
+//! An embedded pair: its table, its control and its estimate.
 
 use super::stages::{RightHandSide, StepStages};
 use crate::integrate::control::ControlConstants;
@@ -32,8 +32,8 @@ pub trait Pair: Copy + core::fmt::Debug + Send + Sync + 'static {
     fn error<W: Scalar, S: RightHandSide<W>>(stages: &StepStages<W>, system: &S, size: W) -> W;
 }
 
-/// How a dense output is made of the stages: some of its coefficients h (sum of
-/// row), and three others.
+/// The form of a dense output: most of its coefficients are h (sum of row), three
+/// come from the ends of the step.
 #[derive(Clone, Copy, Debug)]
 pub enum DenseForm {
     /// y + s (Δy + r (d₁ + s (d₂ + r (d₃ + …)))), r = 1 − s, with d₁ = h k₁ − Δy and

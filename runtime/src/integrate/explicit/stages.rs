@@ -256,30 +256,18 @@ impl<W: Scalar> StepStages<W> {
     pub(super) fn norm<S: RightHandSide<W>>(&self, system: &S, vector: &[W]) -> W {
         let mut squares = W::from_f64(0.0);
         for (i, &value) in vector.iter().enumerate() {
-            let [ratio] = system.scaled([value], self.tolerance::<S>(i, self.start[i]));
+            let size = S::larger_size(self.start[i], self.start[i]);
+            let tolerance = self.relative[i].mul_add(size, self.absolute[i]);
+            let [ratio] = system.scaled([value], tolerance);
             squares = ratio.mul_add(ratio, squares);
         }
         squares.sqrt()
-    }
-
-    /// Tolerance of component i for an error of the step, `other` being its value
-    /// at the other end.
-    #[inline(always)]
-    fn tolerance<S: RightHandSide<W>>(&self, i: usize, other: W) -> W {
-        let size = S::larger_size(self.start[i], other);
-        self.relative[i].mul_add(size, self.absolute[i])
     }
 
     /// Rates at the start of the step.
     #[inline(always)]
     pub(super) fn start_rates(&self) -> &[W] {
         &self.rates[..self.start.len()]
-    }
-
-    /// Number of components.
-    #[inline(always)]
-    pub(super) fn count(&self) -> W {
-        W::from_f64(self.start.len() as f64)
     }
 
     /// Sums over the components of the squares of (sum of row)/tolerance, for each
@@ -290,16 +278,23 @@ impl<W: Scalar> StepStages<W> {
         system: &S,
         rows: [&'static [(usize, f64)]; N],
     ) -> [W; N] {
-        let n = self.start.len();
+        let n = system.dimension();
+        let (start, end) = (&self.start[..n], &self.end[..n]);
+        let (relative, absolute) = (&self.relative[..n], &self.absolute[..n]);
+        let mut all_terms: [[&[W]; MOST_STAGES]; N] = [[&[]; MOST_STAGES]; N];
+        for (row_terms, row) in all_terms.iter_mut().zip(rows) {
+            *row_terms = terms(row, &self.rates, n);
+        }
         let mut squares = [W::from_f64(0.0); N];
-        let mut values = squares;
         for i in 0..n {
-            for (value, row) in values.iter_mut().zip(rows) {
-                *value = sum(row, &terms(row, &self.rates, n), i);
+            let mut values = squares;
+            for j in 0..N {
+                values[j] = sum(rows[j], &all_terms[j], i);
             }
-            let ratios = system.scaled(values, self.tolerance::<S>(i, self.end[i]));
-            for (squares, ratio) in squares.iter_mut().zip(ratios) {
-                *squares = ratio.mul_add(ratio, *squares);
+            let tolerance = relative[i].mul_add(S::larger_size(start[i], end[i]), absolute[i]);
+            let ratios = system.scaled(values, tolerance);
+            for j in 0..N {
+                squares[j] = ratios[j].mul_add(ratios[j], squares[j]);
             }
         }
         squares
@@ -316,7 +311,7 @@ impl<W: Scalar> StepStages<W> {
         size: W,
     ) -> W {
         let [squares] = self.squares(system, [row]);
-        size * (squares / self.count()).sqrt()
+        size * (squares / count(system)).sqrt()
     }
 
     /// Makes the end of the step the start of the next one, where it is accepted.
@@ -344,6 +339,12 @@ impl<W: Scalar> StepStages<W> {
     }
 }
 
+/// Number of components.
+#[inline(always)]
+pub(super) fn count<W: Scalar, S: RightHandSide<W>>(system: &S) -> W {
+    W::from_f64(system.dimension() as f64)
+}
+
 /// The rates of the stages of a row, in its order; what is left of the array is
 /// empty. Slices of one known length: no bounds check is left inside the loops.
 #[inline(always)]
@@ -352,6 +353,9 @@ pub(super) fn terms<'a, W>(
     rates: &'a [W],
     n: usize,
 ) -> [&'a [W]; MOST_STAGES] {
+    // One check of the length, for the last stage, spares those of the others.
+    let count = row.last().map_or(0, |&(stage, _)| stage * n);
+    let rates = &rates[..count];
     let mut terms: [&[W]; MOST_STAGES] = [&[]; MOST_STAGES];
     for (term, &(stage, _)) in terms.iter_mut().zip(row) {
         *term = &rates[(stage - 1) * n..][..n];

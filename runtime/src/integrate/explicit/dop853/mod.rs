@@ -6,7 +6,7 @@ use self::tables::{
     A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, A14, A15, A16, B, B_THIRD, C, D, E_FIFTH,
 };
 use super::pair::{DenseForm, Pair, Row, difference};
-use super::stages::{RightHandSide, StepStages};
+use super::stages::{RightHandSide, StepStages, count};
 use crate::integrate::control::ControlConstants;
 use crate::scalar::Scalar;
 
@@ -40,7 +40,7 @@ impl Pair for DormandPrince8 {
     fn error<W: Scalar, S: RightHandSide<W>>(stages: &StepStages<W>, system: &S, size: W) -> W {
         let [fifth, third] = stages.squares(system, [&E_FIFTH, &B_MINUS_THIRD]);
         let mixed = W::from_f64(0.01).mul_add(third, fifth);
-        let [error] = system.scaled([size * fifth], (stages.count() * mixed).sqrt());
+        let [error] = system.scaled([size * fifth], (count(system) * mixed).sqrt());
         error
     }
 }
