@@ -4,6 +4,7 @@
 //! Hairer's estimate of the first step. Errors are scaled: one is the largest
 //! that the tolerances allow.
 
+use super::options::Options;
 use crate::scalar::Real;
 
 /// The constants of a method's step-size control.
@@ -29,25 +30,45 @@ pub struct ControlConstants {
 pub(crate) struct StepControl<T> {
     constants: ControlConstants,
     beta: T,
+    longest: Option<T>,
     previous_error: T,
     after_rejection: bool,
 }
 
 impl<T: Real> StepControl<T> {
-    /// A controller without memory of earlier steps; `beta` of zero makes it
-    /// the elementary one.
-    pub(crate) fn new(constants: ControlConstants, beta: T) -> Self {
+    /// A controller without memory of earlier steps; [`Options::beta`] of zero
+    /// makes it the elementary one.
+    pub(crate) fn new(constants: ControlConstants, options: &Options<T>) -> Self {
         Self {
             constants,
-            beta,
+            beta: options.beta,
+            longest: options.max_step,
             previous_error: T::from_f64(SMALLEST_REMEMBERED_ERROR),
             after_rejection: false,
         }
     }
 
+    /// Judges a step by its scaled error: it was `made` long and `planned` to be,
+    /// unless it is the `last` one, which the end of the run cuts short.
+    #[inline(always)]
+    pub(crate) fn judge(&mut self, error: T, made: T, (planned, last): (T, bool)) -> Verdict<T> {
+        // An error that is NaN must not pass either.
+        if !matches!(error.partial_cmp(&T::ONE), Some(order) if order.is_le()) {
+            return Verdict::Rejected(made * self.reject(error));
+        }
+        let proposed = made * self.accept(error);
+        // A step cut short by the end says nothing against the planned one.
+        let next = if last {
+            proposed.max(planned)
+        } else {
+            proposed
+        };
+        Verdict::Accepted(self.longest.map_or(next, |longest| next.min(longest)))
+    }
+
     /// Factor from a step that was accepted with scaled error `error` <= 1 to
     /// the next one.
-    pub(crate) fn accept(&mut self, error: T) -> T {
+    fn accept(&mut self, error: T) -> T {
         let largest = if self.after_rejection {
             // The error model failed a moment ago: do not trust it to grow.
             T::ONE
@@ -68,7 +89,7 @@ impl<T: Real> StepControl<T> {
 
     /// Factor from a step that was rejected to the one that is tried in its
     /// place. An error that is not finite calls for the smallest factor.
-    pub(crate) fn reject(&mut self, error: T) -> T {
+    fn reject(&mut self, error: T) -> T {
         self.after_rejection = true;
         let smallest = T::from_f64(self.constants.smallest_factor);
         if !error.is_finite() {
@@ -89,6 +110,13 @@ impl<T: Real> StepControl<T> {
     }
 }
 
+/// The judgement on a step, with the length of the one to try next.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Verdict<T> {
+    Accepted(T),
+    Rejected(T),
+}
+
 /// Below this the memory of the controller does not reach: a step that was far
 /// too short says little about the next.
 const SMALLEST_REMEMBERED_ERROR: f64 = 1e-4;
@@ -103,8 +131,8 @@ fn root<T: Real>(value: T, order: u32) -> T {
     }
 }
 
-/// What the estimate of the first step knows of the problem, all norms being
-/// Euclidean norms of components divided by their tolerance.
+/// The problem as the estimate of the first step sees it. All norms are Euclidean
+/// norms of components divided by their tolerance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FirstStep<T> {
     /// Norm of the state.
@@ -143,7 +171,7 @@ impl<T: Real> FirstStep<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ControlConstants, StepControl, root};
+    use super::{ControlConstants, Options, StepControl, root};
 
     const CONSTANTS: ControlConstants = ControlConstants {
         order: 8,
@@ -152,6 +180,11 @@ mod tests {
         largest_factor: 6.0,
         beta_share: 0.2,
     };
+
+    fn control(beta: f64) -> StepControl<f64> {
+        let options = Options::with_tolerance(1e-9);
+        StepControl::new(CONSTANTS, &Options { beta, ..options })
+    }
 
     #[test]
     fn roots_by_square_roots_equal_powers() {
@@ -165,7 +198,7 @@ mod tests {
 
     #[test]
     fn an_error_at_the_limit_shrinks_by_the_safety_factor() {
-        let mut control = StepControl::new(CONSTANTS, 0.0_f64);
+        let mut control = control(0.0);
         assert_eq!(control.accept(1.0), 0.9);
         // 2^8 times too large: half of it, and the safety factor.
         assert_eq!(control.reject(256.0), 0.45);
@@ -173,7 +206,7 @@ mod tests {
 
     #[test]
     fn factors_stay_between_their_limits() {
-        let mut control = StepControl::new(CONSTANTS, 0.0_f64);
+        let mut control = control(0.0);
         assert_eq!(control.accept(0.0), 6.0);
         assert_eq!(control.reject(1e30), 1.0 / 3.0);
         assert_eq!(control.reject(f64::NAN), 1.0 / 3.0);
@@ -182,7 +215,7 @@ mod tests {
 
     #[test]
     fn no_growth_directly_after_a_rejection() {
-        let mut control = StepControl::new(CONSTANTS, 0.0_f64);
+        let mut control = control(0.0);
         control.reject(2.0);
         assert_eq!(control.accept(1e-6), 1.0);
         assert!(control.accept(1e-6) > 1.0);
@@ -190,8 +223,8 @@ mod tests {
 
     #[test]
     fn the_integral_part_damps_a_growing_error() {
-        let mut damped = StepControl::new(CONSTANTS, 0.04_f64);
-        let mut plain = StepControl::new(CONSTANTS, 0.0_f64);
+        let mut damped = control(0.04);
+        let mut plain = control(0.0);
         for control in [&mut damped, &mut plain] {
             control.accept(0.9);
         }

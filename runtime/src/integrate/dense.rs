@@ -6,7 +6,7 @@ use core::fmt;
 use super::report::Report;
 use crate::scalar::Real;
 
-/// What a method knows of a step that it has made.
+/// A step that a method has made.
 pub(crate) trait Interpolant<T> {
     /// State at the start of the step.
     fn start(&self) -> &[T];
@@ -77,7 +77,7 @@ impl<'a, T: Real> DenseStep<'a, T> {
         self.report
     }
 
-    /// Whether `time` lies within the step, its ends included.
+    /// Returns true if `time` lies within the step, its ends included.
     pub fn contains(&self, time: T) -> bool {
         let (start, end) = (self.start_time, self.end_time);
         (start <= time && time <= end) || (end <= time && time <= start)

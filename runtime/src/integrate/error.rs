@@ -66,7 +66,7 @@ pub enum IntegrationError<T> {
         step: T,
         /// Newton iterations made for its end.
         iterations: u32,
-        /// What is left: value of the integral minus its level.
+        /// Value of the integral minus its level, after the last iteration.
         deviation: T,
         /// The last accepted state.
         last: State<T>,

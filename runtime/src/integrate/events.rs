@@ -76,7 +76,7 @@ pub struct Occurrence<'a, T> {
     pub time: T,
     /// State at that time, by the dense output.
     pub state: &'a [T],
-    /// Whether the function rises.
+    /// True where the function rises.
     pub rising: bool,
 }
 
@@ -108,7 +108,7 @@ pub(super) struct Search<'a, T> {
     /// Last value of each function; zero has no side, so that nothing is
     /// reported where a run starts on a zero.
     values: Vec<T>,
-    /// Whether `values` are set.
+    /// True once `values` are set.
     begun: bool,
     /// Crossings of the current step, in their order along the run.
     pub(super) found: Vec<Found<T>>,

@@ -1,4 +1,4 @@
-//! What all methods have in common.
+//! The trait that all methods have in common.
 
 use core::ops::ControlFlow;
 

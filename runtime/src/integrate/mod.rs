@@ -23,6 +23,7 @@
 mod control;
 mod dense;
 mod error;
+mod evaluator;
 mod events;
 mod explicit;
 mod fixed;

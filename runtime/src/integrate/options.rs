@@ -1,4 +1,4 @@
-//! What a user asks of an integration.
+//! Options of a run: tolerances and limits.
 
 use alloc::vec::Vec;
 
@@ -9,7 +9,7 @@ use crate::scalar::Real;
 /// for each.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tolerance<T> {
-    /// The same for all components.
+    /// One for all components.
     Uniform(T),
     /// One for each component of the state, in order.
     PerComponent(Vec<T>),
@@ -69,8 +69,8 @@ pub struct Options<T> {
     /// Weight of the error before the last in the choice of the next step (PI
     /// control): 0 by default, up to 0.04 where steps are rejected often.
     pub beta: T,
-    /// Whether to carry the rounding errors of the sums y + Δy along
-    /// (Kahan, Babuška): the error of a long run then grows with the method's
+    /// True to carry the rounding errors of the sums y + Δy along (Kahan,
+    /// Babuška): the error of a long run then grows with the method's
     /// error alone. Costs a few additions a step.
     pub compensated: bool,
 }
@@ -95,6 +95,11 @@ impl<T: Real> Options<T> {
             beta: T::ZERO,
             compensated: false,
         }
+    }
+
+    /// The step, or the longest one allowed.
+    pub(crate) fn limit(&self, step: T) -> T {
+        self.max_step.map_or(step, |longest| step.min(longest))
     }
 
     /// Checks the options for a state of `dimension` components.

@@ -42,7 +42,7 @@ impl fmt::Display for StopReason {
     }
 }
 
-/// What a run did, and why it stopped.
+/// The account of a run: its steps, its evaluations, and why it stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report<T> {
     /// Steps accepted.

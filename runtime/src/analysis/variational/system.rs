@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::fmt;
 
 use crate::scalar::{Dual, Scalar};
-use crate::system::Ode;
+use crate::system::{Ode, Workspace};
 
 /// A system that knows how its rates change with the state.
 pub trait Linearised<T>: Ode<T> {
@@ -50,16 +50,26 @@ impl<T: Scalar> Tangent<T> for Dual<T, 1> {
 /// makes its own.
 pub struct ByTangents<'a, O: ?Sized, D> {
     ode: &'a O,
-    /// State and rates.
-    workspace: RefCell<[Vec<D>; 2]>,
+    tangents: RefCell<Tangents<D>>,
 }
 
-impl<'a, O: ?Sized, D> ByTangents<'a, O, D> {
+/// Memory for one evaluation.
+struct Tangents<D> {
+    state: Vec<D>,
+    rates: Vec<D>,
+    workspace: Workspace<D>,
+}
+
+impl<'a, O: ?Sized, D: Scalar> ByTangents<'a, O, D> {
     /// Linearises `ode`.
     pub fn new(ode: &'a O) -> Self {
         Self {
             ode,
-            workspace: RefCell::default(),
+            tangents: RefCell::new(Tangents {
+                state: Vec::new(),
+                rates: Vec::new(),
+                workspace: Workspace::new(),
+            }),
         }
     }
 }
@@ -68,7 +78,7 @@ impl<O: ?Sized, D> fmt::Debug for ByTangents<'_, O, D> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             ode: _,
-            workspace: _,
+            tangents: _,
         } = self;
         formatter.debug_struct("ByTangents").finish_non_exhaustive()
     }
@@ -81,6 +91,10 @@ impl<T, O: Ode<T> + ?Sized, D> Ode<T> for ByTangents<'_, O, D> {
 
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         self.ode.rates(time, state, rates);
+    }
+
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        self.ode.rates_with(workspace, time, state, rates);
     }
 }
 
@@ -99,16 +113,17 @@ where
         deviation_rates: &mut [T],
     ) {
         let zero = T::from_f64(0.0);
-        let mut workspace = self.workspace.borrow_mut();
-        let [tangents, tangent_rates] = &mut *workspace;
-        tangents.clear();
+        let mut tangents = self.tangents.borrow_mut();
+        let own = &mut *tangents;
+        own.state.clear();
         let both = state.iter().zip(deviation);
-        tangents.extend(both.map(|(&y, &v)| D::with_tangent(y, v)));
-        tangent_rates.resize(state.len(), D::with_tangent(zero, zero));
+        own.state.extend(both.map(|(&y, &v)| D::with_tangent(y, v)));
+        own.rates.resize(state.len(), D::with_tangent(zero, zero));
+        let time = D::with_tangent(time, zero);
         self.ode
-            .rates(D::with_tangent(time, zero), tangents, tangent_rates);
+            .rates_with(&mut own.workspace, time, &own.state, &mut own.rates);
         let out = rates.iter_mut().zip(deviation_rates);
-        for ((rate, deviation_rate), tangent) in out.zip(tangent_rates.iter()) {
+        for ((rate, deviation_rate), tangent) in out.zip(own.rates.iter()) {
             (*rate, *deviation_rate) = tangent.value_and_tangent();
         }
     }
@@ -153,6 +168,10 @@ impl<T, O: Ode<T>, F> Ode<T> for WithDerivative<O, F> {
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         self.ode.rates(time, state, rates);
     }
+
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        self.ode.rates_with(workspace, time, state, rates);
+    }
 }
 
 impl<T: Copy, O: Ode<T>, F: Fn(T, &[T], &[T], &mut [T])> Linearised<T> for WithDerivative<O, F> {
@@ -190,6 +209,10 @@ impl<T: Scalar, L: Linearised<T> + ?Sized> Ode<T> for Variational<'_, L> {
     }
 
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        self.rates_with(&mut Workspace::new(), time, state, rates);
+    }
+
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
         let n = self.system.dimension();
         let expected = n * (1 + self.deviations);
         if n == 0 || state.len() != expected || rates.len() != expected {
@@ -199,7 +222,8 @@ impl<T: Scalar, L: Linearised<T> + ?Sized> Ode<T> for Variational<'_, L> {
         let (motion, deviations) = state.split_at(n);
         let (motion_rates, deviation_rates) = rates.split_at_mut(n);
         if self.deviations == 0 {
-            self.system.rates(time, motion, motion_rates);
+            self.system
+                .rates_with(workspace, time, motion, motion_rates);
         }
         let pairs = deviations.chunks(n).zip(deviation_rates.chunks_mut(n));
         for (deviation, own_rates) in pairs {

@@ -127,7 +127,7 @@ pub enum InputError<T> {
     },
 }
 
-/// What keeps a Hamiltonian from being T(p) + U(q).
+/// The rates that keep a Hamiltonian from being T(p) + U(q).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inseparable {
     /// Velocities depend on the coordinates, as those of links that hang from

@@ -1,32 +1,31 @@
 //! Explicit Runge–Kutta pairs: one driver, one file of coefficients each.
 
-mod arithmetic;
+mod dense_output;
 mod dop853;
 mod dopri5;
 mod driver;
 #[cfg(feature = "std")]
 mod lanes;
-mod memory;
 #[cfg(test)]
 mod order_conditions;
 mod pair;
-mod run;
+mod stages;
 mod verner98;
 
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use self::arithmetic::NonFiniteRates;
-pub(crate) use self::arithmetic::Span;
+use self::driver::Run;
 use self::pair::Pair;
-use self::run::Run;
-#[cfg(feature = "std")]
-pub(crate) use self::run::check_step;
+pub(crate) use self::stages::Span;
 use super::dense::DenseStep;
 use super::error::{InputError, IntegrationError};
+use super::evaluator::NonFinite;
 use super::integrator::Integrator;
 use super::options::Options;
 use super::report::Solution;
+#[cfg(feature = "std")]
+pub(crate) use super::request::check_step;
 use super::request::{all_finite, check_start};
 use crate::scalar::Real;
 use crate::system::{Ode, State};
@@ -199,25 +198,20 @@ impl<M: Pair, T: Real> ExplicitRungeKutta<M, T> {
         if !step.is_finite() {
             return Err(InputError::FixedStep { value: step }.into());
         }
-        let mut run = Run::new::<M>(ode, &self.options, start);
+        let mut run = Run::<M, T, O>::new(ode, &self.options, start);
         let span = Span {
             time: start.time,
             step,
         };
         let end_time = start.time + step;
-        run.report.evaluations = M::STAGES as u64;
-        run.memory
-            .evaluate_start(ode, start.time)
-            .and_then(|()| M::stages(&mut run.memory, ode, span))
-            .map_err(|rates| run.non_finite(rates))?;
-        M::finish(&mut run.memory, span, false);
-        if !all_finite(&run.memory.end) {
-            run.memory.stage.copy_from_slice(&run.memory.end);
-            return Err(run.non_finite(NonFiniteRates { time: end_time }));
+        run.evaluate_start()?;
+        run.make(span)?;
+        if !all_finite(&run.stages.end) {
+            return Err(run.non_finite(NonFinite::new(end_time, &run.stages.end)));
         }
         Ok(State {
             time: end_time,
-            values: run.memory.end,
+            values: run.stages.end,
         })
     }
 }

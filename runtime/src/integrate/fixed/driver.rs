@@ -1,10 +1,10 @@
 //! The step loop of all methods with steps of a given length.
 
-use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
 use crate::integrate::dense::{DenseStep, Interpolant};
 use crate::integrate::error::{InputError, IntegrationError};
+use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::report::{Report, Solution, StopReason};
 use crate::integrate::request::{check_start, check_times};
 use crate::scalar::Real;
@@ -13,22 +13,38 @@ use crate::system::{Ode, State};
 /// A step that could not be made.
 pub(super) enum Failure<T> {
     /// Rates or state were not finite.
-    NonFinite { time: T, values: Vec<T> },
+    NonFinite(NonFinite<T>),
     /// The equations of the step were not solved.
     NotSolved { iterations: u32, change: T },
     /// The end of the step was not projected onto the level of the integral.
     NotProjected { iterations: u32, deviation: T },
 }
 
-/// The memory of a method, which makes its steps.
-pub(super) trait Stepper<T: Real, O: ?Sized> {
+impl<T> From<NonFinite<T>> for Failure<T> {
+    fn from(place: NonFinite<T>) -> Self {
+        Self::NonFinite(place)
+    }
+}
+
+/// A method with fixed steps at work: its memory, and how it makes a step.
+pub(super) trait FixedStepper<T: Real, O: ?Sized> {
     /// Evaluates what the first step needs; `time` is that of the start.
-    fn begin(&mut self, ode: &O, time: T, report: &mut Report<T>) -> Result<(), Failure<T>>;
+    fn begin(
+        &mut self,
+        system: &mut Evaluator<'_, T, O>,
+        time: T,
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>>;
 
     /// Makes a step of length `step` (negative: backwards) from `time` and
     /// counts its evaluations.
-    fn make(&mut self, ode: &O, time: T, step: T, report: &mut Report<T>)
-    -> Result<(), Failure<T>>;
+    fn make(
+        &mut self,
+        system: &mut Evaluator<'_, T, O>,
+        time: T,
+        step: T,
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>>;
 
     /// The step that was made, as a polynomial.
     fn interpolant(&mut self) -> &mut dyn Interpolant<T>;
@@ -42,7 +58,7 @@ pub(super) trait Stepper<T: Real, O: ?Sized> {
 pub(super) struct Grid<T> {
     /// Length of the steps.
     pub(super) step: T,
-    /// How often a step that is not solved may be halved.
+    /// Number of times that a step that is not solved may be halved.
     pub(super) halvings: u32,
     /// Number of steps, made and failed together, after which a run ends.
     pub(super) step_limit: u64,
@@ -50,7 +66,7 @@ pub(super) struct Grid<T> {
 
 impl<T: Real> Grid<T> {
     /// Runs the method whose memory `new` makes.
-    pub(super) fn run<O: Ode<T> + ?Sized, S: Stepper<T, O>>(
+    pub(super) fn run<O: Ode<T> + ?Sized, S: FixedStepper<T, O>>(
         &self,
         ode: &O,
         start: &State<T>,
@@ -78,6 +94,7 @@ impl<T: Real> Grid<T> {
         let lost = T::from_f64(10.0) * T::EPSILON * start.time.abs().max(end.abs());
         let mut time = start.time;
         let mut stepper = new();
+        let mut system = Evaluator::new(ode, start.values.len());
         report.next_step = self.step;
         if self.step <= lost {
             return Err(IntegrationError::StepTooSmall {
@@ -87,13 +104,13 @@ impl<T: Real> Grid<T> {
                 report: ended(report, StopReason::StepTooSmall),
             });
         }
-        if let Err(failure) = stepper.begin(ode, time, &mut report) {
+        if let Err(failure) = stepper.begin(&mut system, time, &mut report) {
             return Err(self.failed(failure, start.clone(), report, self.step));
         }
         // The end of step k of the grid is start + k step: rounding does not
         // add up over the steps.
         let (mut number, mut halved, mut length) = (0.0, 0_u32, self.step);
-        // What is left to the next place of the grid. Steps get this length, not
+        // Length that is left to the next place of the grid. Steps get this length, not
         // the difference of two rounded times: lengths that tremble would cost
         // the symplectic property, in `f32` visibly.
         let mut left = self.step;
@@ -127,7 +144,7 @@ impl<T: Real> Grid<T> {
                     report: ended(report, StopReason::StepLimit),
                 });
             }
-            match stepper.make(ode, time, direction * made, &mut report) {
+            match stepper.make(&mut system, time, direction * made, &mut report) {
                 Ok(()) => {}
                 // Rates that are not finite may be those of an iterate far off.
                 Err(_) if halved < self.halvings && T::from_f64(0.5) * length > lost => {
@@ -185,12 +202,7 @@ impl<T: Real> Grid<T> {
         step: T,
     ) -> IntegrationError<T> {
         match failure {
-            Failure::NonFinite { time, values } => IntegrationError::NonFinite {
-                time,
-                values,
-                last,
-                report: ended(report, StopReason::NonFinite),
-            },
+            Failure::NonFinite(place) => place.error(last, report),
             Failure::NotSolved { iterations, change } => IntegrationError::NotSolved {
                 step,
                 iterations,

@@ -4,10 +4,13 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
-use super::driver::{Failure, Grid, Stepper};
-use super::{Gauss, Rk4, gauss, rk4};
+use super::driver::{Failure, FixedStepper, Grid};
+use super::gauss::GaussStepper;
+use super::rk4::Rk4Stepper;
+use super::{Gauss, Rk4};
 use crate::integrate::dense::{DenseError, DenseStep, Interpolant};
 use crate::integrate::error::{InputError, IntegrationError};
+use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
 use crate::integrate::report::{Report, Solution};
 use crate::scalar::Real;
@@ -71,7 +74,7 @@ use crate::system::{FirstIntegral, Ode, State};
 pub struct Projected<M, I, T = f64> {
     /// The method.
     pub method: M,
-    /// What is kept.
+    /// The integral that is kept.
     pub integral: I,
     /// Largest deviation from the level that counts as none, relative to the
     /// larger of |level| and Σ |g_i y_i|, by which rounding of the state alone
@@ -117,7 +120,7 @@ impl<M, I, T: Real> Projected<M, I, T> {
             .into());
         }
         let n = start.values.len();
-        let new = || Memory {
+        let new = || ProjectedStepper {
             steps: new(),
             follows: S::FOLLOWS,
             projection: Projection {
@@ -145,7 +148,7 @@ impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T>> Integrator<T, O>
         end: T,
         observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
     ) -> Result<Solution<T>, IntegrationError<T>> {
-        let new = || gauss::Memory::new(&self.method, &start.values);
+        let new = || GaussStepper::new(&self.method, &start.values);
         self.run(self.method.grid(), ode, start, end, new, observer)
     }
 }
@@ -160,20 +163,20 @@ impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T>> Integrator<T, O>
         end: T,
         observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
     ) -> Result<Solution<T>, IntegrationError<T>> {
-        let new = || rk4::Memory::new(&start.values);
+        let new = || Rk4Stepper::new(&start.values);
         self.run(self.method.grid(), ode, start, end, new, observer)
     }
 }
 
 /// A method whose end of a step may be moved.
-pub(super) trait Corrected<T: Real, O: ?Sized>: Stepper<T, O> + Interpolant<T> {
-    /// Whether the values inside a step follow its end when that is moved.
+pub(super) trait Corrected<T: Real, O: ?Sized>: FixedStepper<T, O> + Interpolant<T> {
+    /// True if the values inside a step follow its end when that is moved.
     const FOLLOWS: bool;
 
     /// Adds `correction` to the end of the step, at the time `time`.
     fn correct(
         &mut self,
-        ode: &O,
+        system: &mut Evaluator<'_, T, O>,
         time: T,
         correction: &[T],
         report: &mut Report<T>,
@@ -181,10 +184,10 @@ pub(super) trait Corrected<T: Real, O: ?Sized>: Stepper<T, O> + Interpolant<T> {
 }
 
 /// The method's memory, and what the projection needs beside it.
-struct Memory<'i, T, S, I> {
+struct ProjectedStepper<'i, T, S, I> {
     steps: S,
     projection: Projection<'i, T, I>,
-    /// Whether a correction is to be added inside the step.
+    /// False if a correction is to be added inside the step.
     follows: bool,
 }
 
@@ -211,10 +214,7 @@ impl<T: Real, I: FirstIntegral<T>> Projection<'_, T, I> {
             size += (slope * value).abs();
         }
         if !(deviation.is_finite() && square.is_finite()) {
-            return Err(Failure::NonFinite {
-                time,
-                values: end.to_vec(),
-            });
+            return Err(NonFinite::new(time, end).into());
         }
         let tolerated = self.tolerance * size.max(self.level.abs());
         let mut part = T::ZERO;
@@ -247,10 +247,15 @@ impl<T: Real, I: FirstIntegral<T>> Projection<'_, T, I> {
     }
 }
 
-impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> Stepper<T, O>
-    for Memory<'_, T, S, I>
+impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> FixedStepper<T, O>
+    for ProjectedStepper<'_, T, S, I>
 {
-    fn begin(&mut self, ode: &O, time: T, report: &mut Report<T>) -> Result<(), Failure<T>> {
+    fn begin(
+        &mut self,
+        system: &mut Evaluator<'_, T, O>,
+        time: T,
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>> {
         let Projection {
             integral,
             level,
@@ -260,26 +265,23 @@ impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> Stepper<T, O>
         let start = self.steps.start();
         *level = integral.evaluate(start, gradient);
         if !level.is_finite() {
-            return Err(Failure::NonFinite {
-                time,
-                values: start.to_vec(),
-            });
+            return Err(NonFinite::new(time, start).into());
         }
-        self.steps.begin(ode, time, report)
+        self.steps.begin(system, time, report)
     }
 
     fn make(
         &mut self,
-        ode: &O,
+        system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
         report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
-        self.steps.make(ode, time, step, report)?;
+        self.steps.make(system, time, step, report)?;
         let end_time = time + step;
         self.projection.project(end_time, self.steps.end())?;
         let correction = &self.projection.correction;
-        self.steps.correct(ode, end_time, correction, report)
+        self.steps.correct(system, end_time, correction, report)
     }
 
     fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
@@ -291,7 +293,7 @@ impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> Stepper<T, O>
     }
 }
 
-impl<T: Real, S: Interpolant<T>, I> Interpolant<T> for Memory<'_, T, S, I> {
+impl<T: Real, S: Interpolant<T>, I> Interpolant<T> for ProjectedStepper<'_, T, S, I> {
     fn start(&self) -> &[T] {
         self.steps.start()
     }

@@ -4,10 +4,11 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
-use super::driver::{Failure, Grid, Stepper};
+use super::driver::{Failure, FixedStepper, Grid};
 use super::projected::Corrected;
 use crate::integrate::dense::{DenseError, DenseStep, Interpolant};
 use crate::integrate::error::IntegrationError;
+use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
 use crate::integrate::report::{Report, Solution};
 use crate::integrate::request::all_finite;
@@ -73,13 +74,13 @@ impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Rk4<T> {
         end: T,
         observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
     ) -> Result<Solution<T>, IntegrationError<T>> {
-        let new = || Memory::new(&start.values);
+        let new = || Rk4Stepper::new(&start.values);
         self.grid().run(ode, start, end, new, observer)
     }
 }
 
 /// The vectors that a run works on.
-pub(super) struct Memory<T> {
+pub(super) struct Rk4Stepper<T> {
     start: Vec<T>,
     end: Vec<T>,
     stage: Vec<T>,
@@ -90,7 +91,7 @@ pub(super) struct Memory<T> {
     step: T,
 }
 
-impl<T: Real> Memory<T> {
+impl<T: Real> Rk4Stepper<T> {
     pub(super) fn new(start: &[T]) -> Self {
         let zeros = || vec![T::ZERO; start.len()];
         Self {
@@ -106,26 +107,20 @@ impl<T: Real> Memory<T> {
     }
 }
 
-fn finite<T: Real>(time: T, values: &[T], rates: &[T]) -> Result<(), Failure<T>> {
-    if all_finite(rates) {
-        return Ok(());
-    }
-    Err(Failure::NonFinite {
-        time,
-        values: values.to_vec(),
-    })
-}
-
-impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
-    fn begin(&mut self, ode: &O, time: T, report: &mut Report<T>) -> Result<(), Failure<T>> {
+impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for Rk4Stepper<T> {
+    fn begin(
+        &mut self,
+        system: &mut Evaluator<'_, T, O>,
+        time: T,
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>> {
         report.evaluations += 1;
-        ode.rates(time, &self.start, &mut self.start_rates);
-        finite(time, &self.start, &self.start_rates)
+        Ok(system.evaluate(time, &self.start, &mut self.start_rates)?)
     }
 
     fn make(
         &mut self,
-        ode: &O,
+        system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
         report: &mut Report<T>,
@@ -145,8 +140,7 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
                 *value = self.start[i] + length * self.rates[i];
             }
             report.evaluations += 1;
-            ode.rates(at, &self.stage, &mut self.rates);
-            finite(at, &self.stage, &self.rates)?;
+            system.evaluate(at, &self.stage, &mut self.rates)?;
             for (sum, &rate) in self.sum.iter_mut().zip(&self.rates) {
                 *sum += weight * rate;
             }
@@ -155,10 +149,11 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
         for (i, end) in self.end.iter_mut().enumerate() {
             *end = self.start[i] + sixth * self.sum[i];
         }
-        finite(end_time, &self.end, &self.end)?;
+        if !all_finite(&self.end) {
+            return Err(NonFinite::new(end_time, &self.end).into());
+        }
         report.evaluations += 1;
-        ode.rates(end_time, &self.end, &mut self.end_rates);
-        finite(end_time, &self.end, &self.end_rates)
+        Ok(system.evaluate(end_time, &self.end, &mut self.end_rates)?)
     }
 
     fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
@@ -171,12 +166,12 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
     }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Memory<T> {
+impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Rk4Stepper<T> {
     const FOLLOWS: bool = true;
 
     fn correct(
         &mut self,
-        ode: &O,
+        system: &mut Evaluator<'_, T, O>,
         time: T,
         correction: &[T],
         report: &mut Report<T>,
@@ -185,12 +180,11 @@ impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Memory<T> {
             *end += correction;
         }
         report.evaluations += 1;
-        ode.rates(time, &self.end, &mut self.end_rates);
-        finite(time, &self.end, &self.end_rates)
+        Ok(system.evaluate(time, &self.end, &mut self.end_rates)?)
     }
 }
 
-impl<T: Real> Interpolant<T> for Memory<T> {
+impl<T: Real> Interpolant<T> for Rk4Stepper<T> {
     fn start(&self) -> &[T] {
         &self.start
     }

@@ -4,9 +4,10 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
-use super::driver::{Failure, Grid, Stepper};
+use super::driver::{Failure, FixedStepper, Grid};
 use crate::integrate::dense::{DenseError, DenseStep, Interpolant};
 use crate::integrate::error::{InputError, Inseparable, IntegrationError};
+use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
 use crate::integrate::report::{Report, Solution};
 use crate::integrate::request::{all_finite, check_start};
@@ -108,7 +109,13 @@ impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<'_, C>> for Stoe
             halvings: 0,
             step_limit: self.step_limit,
         };
-        grid.run(ode, start, end, || Memory::new(&start.values), observer)
+        grid.run(
+            ode,
+            start,
+            end,
+            || VerletStepper::new(&start.values),
+            observer,
+        )
     }
 }
 
@@ -135,9 +142,10 @@ fn check_separable<T: Real, C: Canonical<T>>(
         });
         values.collect()
     };
-    let rates = |state: Vec<T>| {
+    let mut system = Evaluator::new(ode, 2 * n);
+    let mut rates = |state: Vec<T>| {
         let mut rates = vec![T::ZERO; 2 * n];
-        ode.rates(start.time, &state, &mut rates);
+        system.write(start.time, &state, &mut rates);
         rates
     };
     let reference = rates(state(false, false));
@@ -163,7 +171,7 @@ fn check_separable<T: Real, C: Canonical<T>>(
 }
 
 /// The vectors that a run works on.
-struct Memory<T> {
+struct VerletStepper<T> {
     start: Vec<T>,
     end: Vec<T>,
     /// Coordinates with the momenta of the middle of the step.
@@ -174,7 +182,7 @@ struct Memory<T> {
     end_rates: Vec<T>,
 }
 
-impl<T: Real> Memory<T> {
+impl<T: Real> VerletStepper<T> {
     fn new(start: &[T]) -> Self {
         let zeros = || vec![T::ZERO; start.len()];
         Self {
@@ -188,26 +196,20 @@ impl<T: Real> Memory<T> {
     }
 }
 
-fn finite<T: Real>(time: T, values: &[T], rates: &[T]) -> Result<(), Failure<T>> {
-    if all_finite(values) && all_finite(rates) {
-        return Ok(());
-    }
-    Err(Failure::NonFinite {
-        time,
-        values: values.to_vec(),
-    })
-}
-
-impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
-    fn begin(&mut self, ode: &O, time: T, report: &mut Report<T>) -> Result<(), Failure<T>> {
+impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for VerletStepper<T> {
+    fn begin(
+        &mut self,
+        system: &mut Evaluator<'_, T, O>,
+        time: T,
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>> {
         report.evaluations += 1;
-        ode.rates(time, &self.start, &mut self.start_rates);
-        finite(time, &self.start, &self.start_rates)
+        Ok(system.evaluate(time, &self.start, &mut self.start_rates)?)
     }
 
     fn make(
         &mut self,
-        ode: &O,
+        system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
         report: &mut Report<T>,
@@ -221,19 +223,21 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
         }
         // q at h = q + h v(p at h/2)
         report.evaluations += 1;
-        ode.rates(time + half, &self.stage, &mut self.rates);
-        finite(time + half, &self.stage, &self.rates)?;
+        system.evaluate(time + half, &self.stage, &mut self.rates)?;
         for k in 0..n {
             self.stage[k] = self.start[k] + step * self.rates[k];
         }
         // p at h = p at h/2 + h/2 F(q at h)
         report.evaluations += 1;
-        ode.rates(time + step, &self.stage, &mut self.end_rates);
+        system.write(time + step, &self.stage, &mut self.end_rates);
         self.end.copy_from_slice(&self.stage);
         for k in n..2 * n {
             self.end[k] = self.stage[k] + half * self.end_rates[k];
         }
-        finite(time + step, &self.end, &self.end_rates)
+        if all_finite(&self.end) && all_finite(&self.end_rates) {
+            return Ok(());
+        }
+        Err(NonFinite::new(time + step, &self.end).into())
     }
 
     fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
@@ -246,7 +250,7 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
     }
 }
 
-impl<T: Real> Interpolant<T> for Memory<T> {
+impl<T: Real> Interpolant<T> for VerletStepper<T> {
     fn start(&self) -> &[T] {
         &self.start
     }

@@ -1,4 +1,4 @@
-//! What is integrated: starts of one pendulum, or of one each.
+//! Trajectories to integrate: starts of one pendulum, or of one each.
 
 use crate::system::State;
 
@@ -12,7 +12,7 @@ pub(crate) enum Cases<'a, P, T> {
 }
 
 impl<'a, P, T> Cases<'a, P, T> {
-    /// How many.
+    /// Number of trajectories.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::Starts(_, starts) => starts.len(),
@@ -28,7 +28,7 @@ impl<'a, P, T> Cases<'a, P, T> {
         }
     }
 
-    /// Whether their pendulums may differ.
+    /// Returns true if their pendulums may differ.
     pub(super) fn models_differ(&self) -> bool {
         matches!(self, Self::Pairs(_))
     }

@@ -1,4 +1,4 @@
-//! What a method does that works in lanes.
+//! The traits of methods that work in lanes.
 
 // A user names the trait of the methods as a bound, and nothing it is made of.
 #![allow(unreachable_pub)]
@@ -36,7 +36,7 @@ pub trait LaneMethod<P: Cast<T>, T: Lane>: Sync {
     #[doc(hidden)]
     fn options(&self) -> &Options<T>;
 
-    /// What is wrong with it beside the options.
+    /// Checks all of it but the options.
     #[doc(hidden)]
     fn check(&self) -> Result<(), InputError<T>> {
         Ok(())

@@ -34,7 +34,7 @@ use crate::scalar::register::Register;
 use crate::scalar::{InstructionSet, Lane};
 use crate::system::{AbsoluteAngles, Cast, State};
 
-/// What is asked of all trajectories.
+/// A request for all trajectories.
 pub(crate) struct Task<'a, M, P, T> {
     pub(crate) instructions: InstructionSet,
     pub(crate) method: &'a M,
@@ -129,7 +129,7 @@ where
 {
     fn refuse_all(&mut self, error: &InputError<T>) {
         while let Some(index) = (self.next)() {
-            // What is wrong with the start comes first, as in the plain method.
+            // A fault of the start comes first, as in the plain method.
             let case = self.task.cases.get(index);
             let error = match case.map(|(pendulum, start)| self.check(pendulum, start)) {
                 Some(Err(error)) => error,
@@ -227,7 +227,8 @@ where
     }
 
     /// Puts a pendulum that is in motion into a lane whose trajectory has failed.
-    /// What failed in motion might at rest too, and slow down the other lanes.
+    /// One that failed in motion might fail at rest too, and slow down the other
+    /// lanes.
     #[cold]
     fn replace_model<R: Register<Lane = T>>(
         &self,

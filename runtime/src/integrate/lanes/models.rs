@@ -26,7 +26,7 @@ pub struct Models<P: Cast<R::Lane>, R: Register> {
 }
 
 impl<P: Cast<R::Lane>, R: Register> Models<P, R> {
-    /// The same pendulum in every lane.
+    /// Puts one pendulum into every lane.
     pub(crate) fn splat(pendulum: &P) -> Self {
         let mut constants = vec![R::from_f64(0.0); count(pendulum)];
         let registers = convert(pendulum, &mut constants, |_, constant| R::splat(constant));
@@ -53,7 +53,7 @@ impl<P: Cast<R::Lane>, R: Register> Models<P, R> {
     }
 }
 
-/// How many constants a pendulum has.
+/// Number of constants of a pendulum.
 fn count<T: Scalar, P: Cast<T>>(pendulum: &P) -> usize {
     let count = Cell::new(0);
     pendulum.cast(|constant| {

@@ -17,10 +17,10 @@ use crate::system::State;
 /// One yes or no a lane.
 pub(crate) type Flags = [bool; WIDEST];
 
-/// What became of a trajectory.
+/// The end of a trajectory, good or bad.
 #[derive(Clone, Debug)]
 pub(crate) struct Outcome<T> {
-    /// Its end.
+    /// Its last state and its account, or why it failed.
     pub(crate) end: Result<Solution<T>, IntegrationError<T>>,
     /// The states at the times asked for, one after the other, as far as it came.
     pub(crate) samples: Vec<T>,
@@ -46,7 +46,7 @@ pub struct Runs<T> {
     pub(crate) step: Numbers<T>,
     /// End of the step that is tried.
     pub(crate) end_time: Numbers<T>,
-    /// Whether that is the end.
+    /// True where that is the end of the trajectory.
     pub(crate) last: Flags,
     pub(crate) accepted: [u64; WIDEST],
     pub(crate) rejected: [u64; WIDEST],
@@ -55,7 +55,7 @@ pub struct Runs<T> {
     longest: Numbers<T>,
     pub(crate) next_step: Numbers<T>,
     samples: [Vec<T>; WIDEST],
-    /// How many times these belong to.
+    /// Number of times that these belong to.
     sampled: [usize; WIDEST],
     /// Trajectories that have failed since one last looked, with their lanes.
     failed: Vec<(usize, usize, Outcome<T>)>,
@@ -246,8 +246,8 @@ impl<T: Real> Runs<T> {
         self.failed.push((lane, index, Outcome { end, samples }));
     }
 
-    /// The same for rates or a state that are not finite at this place; `last`
-    /// is the last good state.
+    /// The trajectory in a lane ends because rates or a state are not finite at this
+    /// place; `last` is the last good state.
     #[cold]
     pub(crate) fn non_finite(&mut self, lane: usize, (time, values): (T, Vec<T>), last: State<T>) {
         let error = IntegrationError::NonFinite {

@@ -11,7 +11,7 @@
 // The source gives 30 digits; keeping them makes the comparison by eye exact.
 #![allow(clippy::excessive_precision)]
 
-use crate::integrate::explicit::arithmetic::Row;
+use crate::integrate::explicit::pair::Row;
 
 /// Order of the solution that is continued.
 pub(super) const ORDER: u32 = 8;

@@ -1,16 +1,12 @@
 //! Dormand and Prince's pair of order 5(4).
 
-#[cfg(feature = "std")]
-mod lanes;
 mod tables;
 
 use self::tables::{A2, A3, A4, A5, A6, B, C, D, E};
-use super::arithmetic::{NonFiniteRates, Span, for_each_sum};
-use super::memory::Memory;
-use super::pair::Pair;
+use super::pair::{DenseForm, Pair};
+use super::stages::{RightHandSide, StepStages};
 use crate::integrate::control::ControlConstants;
-use crate::scalar::Real;
-use crate::system::Ode;
+use crate::scalar::Scalar;
 
 /// The pair of [`Dopri5`](super::Dopri5).
 #[derive(Clone, Copy, Debug)]
@@ -31,64 +27,15 @@ impl Pair for DormandPrince5 {
         largest_factor: 10.0,
         beta_share: 0.75,
     };
-    const ORDER: u32 = tables::ORDER;
     const STAGES: usize = tables::STAGES;
-    const STAGES_DENSE: usize = tables::STAGES_DENSE;
-    const DENSE_TERMS: usize = 4;
+    const NODES: &'static [f64] = &C;
+    const ROWS: &'static [&'static [(usize, f64)]] = &[&A2, &A3, &A4, &A5, &A6, &B];
+    const DENSE: DenseForm = DenseForm::Alternating(&[&D]);
     const ERROR_USES_END: bool = true;
 
-    fn stages<T: Real, O: Ode<T> + ?Sized>(
-        memory: &mut Memory<T>,
-        ode: &O,
-        span: Span<T>,
-    ) -> Result<(), NonFiniteRates<T>> {
-        memory.stage(ode, span, (2, C[1]), &A2)?;
-        memory.stage(ode, span, (3, C[2]), &A3)?;
-        memory.stage(ode, span, (4, C[3]), &A4)?;
-        memory.stage(ode, span, (5, C[4]), &A5)?;
-        memory.stage(ode, span, (6, C[5]), &A6)
-    }
-
-    fn finish<T: Real>(memory: &mut Memory<T>, span: Span<T>, compensated: bool) {
-        memory.finish(span, &B, compensated);
-    }
-
-    fn error<T: Real>(memory: &Memory<T>, span: Span<T>) -> T {
-        T::from_f64(ESTIMATE_WEIGHT) * memory.mean_square_error(span, &E)
-    }
-
-    fn prepare_dense<T: Real, O: Ode<T> + ?Sized>(
-        memory: &mut Memory<T>,
-        _ode: &O,
-        span: Span<T>,
-    ) -> Result<(), NonFiniteRates<T>> {
-        let Memory {
-            start,
-            end,
-            rates,
-            dense,
-            ..
-        } = memory;
-        if let [increment, left, right, high] = dense.as_mut_slice() {
-            for i in 0..start.len() {
-                increment[i] = end[i] - start[i];
-                left[i] = span.step * rates[0][i] - increment[i];
-                right[i] = increment[i] - span.step * rates[6][i] - left[i];
-            }
-            for_each_sum(&D, rates, start.len(), |i, sum| high[i] = span.step * sum);
-        }
-        Ok(())
-    }
-
-    /// y + s (Δy + r (d₁ + s (d₂ + r d₃))), r = 1 − s.
-    fn dense_output<T: Real>(memory: &Memory<T>, s: T, out: &mut [T]) {
-        let r = T::ONE - s;
-        if let [increment, d1, d2, d3] = memory.dense.as_slice() {
-            for (i, out) in out.iter_mut().enumerate() {
-                let tail = d1[i] + s * (d2[i] + r * d3[i]);
-                *out = memory.start[i] + s * (increment[i] + r * tail);
-            }
-        }
+    #[inline(always)]
+    fn error<W: Scalar, S: RightHandSide<W>>(stages: &StepStages<W>, system: &S, size: W) -> W {
+        W::from_f64(ESTIMATE_WEIGHT) * stages.mean_square_error(system, &E, size)
     }
 }
 

@@ -5,7 +5,7 @@
 //! authors' program `dopri5.f`. Stages count from 1; entries that are not
 //! listed are zero. The tests check every order condition.
 
-use crate::integrate::explicit::arithmetic::Row;
+use crate::integrate::explicit::pair::Row;
 
 /// Order of the solution that is continued.
 pub(super) const ORDER: u32 = 5;

@@ -8,7 +8,7 @@
 //! 1; entries that are not listed are zero. The tests check every order
 //! condition of both formulas and of the interpolant.
 
-use crate::integrate::explicit::arithmetic::Row;
+use crate::integrate::explicit::pair::Row;
 
 /// Order of the solution that is continued.
 pub(super) const ORDER: u32 = 9;

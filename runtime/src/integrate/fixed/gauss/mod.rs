@@ -1,12 +1,12 @@
 //! The symplectic, symmetric Gauss–Legendre methods.
 
-mod memory;
 mod solve;
+mod stepper;
 mod tables;
 
 use core::ops::ControlFlow;
 
-pub(super) use self::memory::Memory;
+pub(super) use self::stepper::GaussStepper;
 use self::tables::Table;
 use super::driver::Grid;
 use crate::integrate::dense::DenseStep;
@@ -40,7 +40,7 @@ impl GaussOrder {
     }
 }
 
-/// How the equations of a step are solved.
+/// The iteration that solves the equations of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
     /// Fixed-point iteration: no derivatives, cheap, and converges where the
@@ -120,7 +120,7 @@ pub struct Gauss<T> {
     /// Length of the steps, positive whatever the direction. The last one is
     /// shorter where the span is no multiple of it.
     pub step: T,
-    /// How the equations of a step are solved.
+    /// The iteration that solves the equations of a step.
     pub solver: Solver,
     /// Largest change in an iteration, relative to the size of its component,
     /// with which a step counts as solved. Zero iterates until rounding, as the
@@ -128,7 +128,7 @@ pub struct Gauss<T> {
     pub tolerance: T,
     /// Iterations after which a step counts as not solved.
     pub iteration_limit: u32,
-    /// How often a step may be halved before the run ends with an error.
+    /// Number of times that a step may be halved before the run ends with an error.
     pub halvings: u32,
     /// Number of steps, made and failed together, after which a run ends with
     /// an error.
@@ -187,7 +187,7 @@ impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Gauss<T> {
         end: T,
         observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
     ) -> Result<Solution<T>, IntegrationError<T>> {
-        let new = || Memory::new(self, &start.values);
+        let new = || GaussStepper::new(self, &start.values);
         self.grid().run(ode, start, end, new, observer)
     }
 }

@@ -1,10 +1,10 @@
 //! Solving for the rates of the stages: K_i = f(t + c_i h, y + h Σ_j a_ij K_j).
 
 use super::Solver;
-use super::memory::Memory;
+use super::stepper::GaussStepper;
+use crate::integrate::evaluator::Evaluator;
 use crate::integrate::fixed::driver::Failure;
 use crate::integrate::report::Report;
-use crate::integrate::request::all_finite;
 use crate::scalar::{Real, Scalar};
 use crate::system::Ode;
 
@@ -24,21 +24,21 @@ const RUNAWAY: f64 = 1e-3;
 /// A matrix of derivatives that took more rounds than this is made anew.
 const STALE: u32 = 8;
 
-impl<T: Real> Memory<T> {
+impl<T: Real> GaussStepper<T> {
     /// Iterates the rates of the stages, from their increments in place, until
     /// the change is zero or rounding.
     pub(super) fn solve<O: Ode<T> + ?Sized>(
         &mut self,
-        ode: &O,
+        system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
         report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
-        self.evaluate(ode, time, step, report)?;
+        self.evaluate(system, time, step, report)?;
         core::mem::swap(&mut self.rates, &mut self.change);
         if self.solver == Solver::Newton && self.newton_step != step {
             self.newton_step = T::ZERO;
-            self.differentiate(ode, time, step, report)?;
+            self.differentiate(system, time, step, report)?;
         }
         let rounding = T::from_f64(ROUNDING) * T::EPSILON;
         let noise = T::from_f64(NOISE) * T::EPSILON;
@@ -46,7 +46,7 @@ impl<T: Real> Memory<T> {
         let (mut without_progress, mut last) = (0, best);
         for round in 1..=self.iteration_limit {
             self.increments(step);
-            if let Err(failure) = self.evaluate(ode, time, step, report) {
+            if let Err(failure) = self.evaluate(system, time, step, report) {
                 // An iterate that ran away says nothing about the equations.
                 if last > T::from_f64(RUNAWAY) {
                     return self.give_up(round, last);
@@ -102,7 +102,7 @@ impl<T: Real> Memory<T> {
     /// Rates at the stages' states, into `change`.
     fn evaluate<O: Ode<T> + ?Sized>(
         &mut self,
-        ode: &O,
+        system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
         report: &mut Report<T>,
@@ -115,13 +115,9 @@ impl<T: Real> Memory<T> {
             let rates = &mut self.change[i * n..(i + 1) * n];
             let at = time + T::from_f64(node) * step;
             report.evaluations += 1;
-            ode.rates(at, &self.stage, rates);
-            if !all_finite(rates) {
+            if let Err(place) = system.evaluate(at, &self.stage, rates) {
                 self.newton_step = T::ZERO;
-                return Err(Failure::NonFinite {
-                    time: at,
-                    values: self.stage.clone(),
-                });
+                return Err(place.into());
             }
         }
         Ok(())
@@ -153,7 +149,7 @@ impl<T: Real> Memory<T> {
     /// the matrix 1 − h a ⊗ ∂f/∂y of Newton's method.
     fn differentiate<O: Ode<T> + ?Sized>(
         &mut self,
-        ode: &O,
+        system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
         report: &mut Report<T>,
@@ -162,7 +158,7 @@ impl<T: Real> Memory<T> {
         let middle = time + T::from_f64(0.5) * step;
         self.stage.copy_from_slice(&self.start);
         report.evaluations += n as u64 + 1;
-        ode.rates(middle, &self.stage, &mut self.other);
+        system.write(middle, &self.stage, &mut self.other);
         let root = Scalar::sqrt(T::EPSILON);
         for column in 0..n {
             let value = self.stage[column];
@@ -171,7 +167,7 @@ impl<T: Real> Memory<T> {
             self.stage[column] = shifted;
             // Into the first rows of `increments`, which are made anew later.
             let rates = &mut self.increments[..n];
-            ode.rates(middle, &self.stage, rates);
+            system.write(middle, &self.stage, rates);
             for (row, (&rate, &other)) in rates.iter().zip(&self.other).enumerate() {
                 self.derivatives[row * n + column] = (rate - other) / difference;
             }

@@ -1,4 +1,4 @@
-//! What all methods are tested on.
+//! Methods in lanes, tested on one small pendulum.
 
 mod agreement;
 mod bits;
@@ -34,7 +34,7 @@ fn with_each<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
     work.each(&Taylor::new(options.clone()));
 }
 
-/// The same without the Taylor series.
+/// Does it with all methods but the Taylor series.
 fn with_pairs<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
     work.each(&Dopri5::new(options.clone()));
     work.each(&Dop853::new(options.clone()));

@@ -98,7 +98,7 @@ impl Each<f64> for ThePlainMethodIsMet {
     }
 }
 
-/// What has no answer fails alone, and as the plain method fails.
+/// A trajectory without an answer fails alone, and as the plain method fails.
 #[test]
 fn the_plain_methods_are_met_one_by_one() {
     let mut stops = ThePlainMethodIsMet(Vec::new());

@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use super::tables::Table;
 use super::{Gauss, Solver};
 use crate::integrate::dense::{DenseError, Interpolant};
-use crate::integrate::fixed::driver::{Failure, Stepper};
+use crate::integrate::evaluator::{Evaluator, NonFinite};
+use crate::integrate::fixed::driver::{Failure, FixedStepper};
 use crate::integrate::fixed::linear::Factored;
 use crate::integrate::fixed::projected::Corrected;
 use crate::integrate::report::Report;
@@ -16,7 +17,7 @@ use crate::scalar::Real;
 use crate::system::Ode;
 
 /// Workspace of a run.
-pub(in crate::integrate::fixed) struct Memory<T> {
+pub(in crate::integrate::fixed) struct GaussStepper<T> {
     pub(super) table: &'static Table,
     pub(super) solver: Solver,
     pub(super) tolerance: T,
@@ -49,7 +50,7 @@ pub(in crate::integrate::fixed) struct Memory<T> {
     pub(super) derivatives: Vec<T>,
 }
 
-impl<T: Real> Memory<T> {
+impl<T: Real> GaussStepper<T> {
     pub(in crate::integrate::fixed) fn new(method: &Gauss<T>, start: &[T]) -> Self {
         let table = method.order.table();
         let (n, s) = (start.len(), table.nodes.len());
@@ -134,31 +135,29 @@ fn integral<T: Real>(table: &Table, j: usize, x: T) -> T {
         .fold(T::ZERO, |sum, &c| (sum + T::from_f64(c)) * x)
 }
 
-impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
-    fn begin(&mut self, ode: &O, time: T, report: &mut Report<T>) -> Result<(), Failure<T>> {
+impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for GaussStepper<T> {
+    fn begin(
+        &mut self,
+        system: &mut Evaluator<'_, T, O>,
+        time: T,
+        report: &mut Report<T>,
+    ) -> Result<(), Failure<T>> {
         report.evaluations += 1;
-        ode.rates(time, &self.start, &mut self.other);
-        if all_finite(&self.other) {
-            return Ok(());
-        }
-        Err(Failure::NonFinite {
-            time,
-            values: self.start.clone(),
-        })
+        Ok(system.evaluate(time, &self.start, &mut self.other)?)
     }
 
     fn make(
         &mut self,
-        ode: &O,
+        system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
         report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
         self.guess(step);
-        if let Err(failure) = self.solve(ode, time, step, report) {
+        if let Err(failure) = self.solve(system, time, step, report) {
             // The rates of a failed step say nothing: begin anew.
             self.step = T::ZERO;
-            Stepper::<T, O>::begin(self, ode, time, report)?;
+            FixedStepper::<T, O>::begin(self, system, time, report)?;
             return Err(failure);
         }
         self.step = step;
@@ -166,10 +165,7 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
         if all_finite(&self.end) {
             return Ok(());
         }
-        Err(Failure::NonFinite {
-            time: time + step,
-            values: self.end.clone(),
-        })
+        Err(NonFinite::new(time + step, &self.end).into())
     }
 
     fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
@@ -182,12 +178,12 @@ impl<T: Real, O: Ode<T> + ?Sized> Stepper<T, O> for Memory<T> {
     }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Memory<T> {
+impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for GaussStepper<T> {
     const FOLLOWS: bool = false;
 
     fn correct(
         &mut self,
-        _ode: &O,
+        _system: &mut Evaluator<'_, T, O>,
         _time: T,
         correction: &[T],
         _report: &mut Report<T>,
@@ -200,7 +196,7 @@ impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Memory<T> {
     }
 }
 
-impl<T: Real> Interpolant<T> for Memory<T> {
+impl<T: Real> Interpolant<T> for GaussStepper<T> {
     fn start(&self) -> &[T] {
         &self.start
     }

@@ -1,0 +1,147 @@
+//! Values inside a step of an explicit pair.
+
+// One index into all components at once.
+#![allow(clippy::needless_range_loop)]
+
+use super::pair::{DenseForm, Pair};
+use super::stages::{RightHandSide, Span, StepStages, sum, terms};
+use crate::scalar::Scalar;
+
+/// Degree of [`DenseForm::Bernstein`].
+const DEGREE: usize = 8;
+
+impl<W: Scalar> StepStages<W> {
+    /// The stages and the coefficients of the dense output of a step.
+    #[inline(always)]
+    pub(super) fn prepare_dense<M: Pair, S: RightHandSide<W>>(
+        &mut self,
+        system: &mut S,
+        span: Span<W>,
+    ) -> Result<(), S::Failure> {
+        self.make_dense::<M, S>(system, span)?;
+        let n = system.dimension();
+        match M::DENSE {
+            DenseForm::Alternating(_) => self.hermite::<M>(n, span.step),
+            DenseForm::Bernstein(_) => self.end_terms::<M>(n, span.step),
+        }
+        self.row_terms::<M, 0>(n, span.step);
+        self.row_terms::<M, 1>(n, span.step);
+        self.row_terms::<M, 2>(n, span.step);
+        self.row_terms::<M, 3>(n, span.step);
+        self.row_terms::<M, 4>(n, span.step);
+        Ok(())
+    }
+
+    /// h (sum of row) for row `ROW` of the dense output, if there are so many.
+    #[inline(always)]
+    fn row_terms<M: Pair, const ROW: usize>(&mut self, n: usize, step: W) {
+        const { assert!(M::DENSE.rows().len() <= 5) }
+        let row = const {
+            let rows = M::DENSE.rows();
+            if ROW < rows.len() { rows[ROW] } else { &[] }
+        };
+        if row.is_empty() {
+            return;
+        }
+        let place = (M::DENSE.terms_before_rows() + ROW) * n;
+        let coefficients = &mut self.dense[place..][..n];
+        let terms = terms(row, &self.rates, n);
+        for i in 0..n {
+            coefficients[i] = step * sum(row, &terms, i);
+        }
+    }
+
+    /// The first three coefficients of [`DenseForm::Alternating`].
+    #[inline(always)]
+    fn hermite<M: Pair>(&mut self, n: usize, step: W) {
+        let (start, end) = (&self.start[..n], &self.end[..n]);
+        let (first, last) = (&self.rates[..n], &self.rates[M::STAGES * n..][..n]);
+        let dense = &mut self.dense[..3 * n];
+        for i in 0..n {
+            let increment = end[i] - start[i];
+            let left = step * first[i] - increment;
+            dense[i] = increment;
+            dense[n + i] = left;
+            dense[2 * n + i] = increment - step * last[i] - left;
+        }
+    }
+
+    /// The first and the last two coefficients of [`DenseForm::Bernstein`].
+    #[inline(always)]
+    fn end_terms<M: Pair>(&mut self, n: usize, step: W) {
+        let part = step / W::from_f64(DEGREE as f64);
+        let (start, end) = (&self.start[..n], &self.end[..n]);
+        let (first, last) = (&self.rates[..n], &self.rates[M::STAGES * n..][..n]);
+        let dense = &mut self.dense[..DEGREE * n];
+        for i in 0..n {
+            let increment = end[i] - start[i];
+            dense[i] = part * first[i];
+            dense[(DEGREE - 2) * n + i] = increment - part * last[i];
+            dense[(DEGREE - 1) * n + i] = increment;
+        }
+    }
+
+    /// Writes the solution at the fraction `s` of the step.
+    #[inline(always)]
+    pub(super) fn value<M: Pair>(&self, s: W, out: &mut [W]) {
+        match M::DENSE {
+            DenseForm::Alternating(_) => self.alternate(s, out),
+            DenseForm::Bernstein(_) => self.blend(s, out),
+        }
+    }
+
+    /// y + s (d₀ + r (d₁ + s (d₂ + …))), r = 1 − s.
+    #[inline(always)]
+    fn alternate(&self, s: W, out: &mut [W]) {
+        let n = self.start.len();
+        let r = W::from_f64(1.0) - s;
+        let count = self.dense.len() / n;
+        let (mut factor, mut other) = if count % 2 == 1 { (s, r) } else { (r, s) };
+        // From the highest term on, times s and r in turn.
+        let mut terms = self.dense.chunks_exact(n).rev();
+        if let Some(highest) = terms.next() {
+            out.copy_from_slice(highest);
+        }
+        for term in terms {
+            for (value, &term) in out.iter_mut().zip(term) {
+                *value = factor.mul_add(*value, term);
+            }
+            (factor, other) = (other, factor);
+        }
+        for (value, &start) in out.iter_mut().zip(&self.start) {
+            *value = factor.mul_add(*value, start);
+        }
+    }
+
+    /// y + Σ_k d_k b_k(s), b_k being Bernstein polynomials.
+    #[inline(always)]
+    fn blend(&self, s: W, out: &mut [W]) {
+        out.fill(W::from_f64(0.0));
+        for (term, weight) in self.dense.chunks_exact(self.start.len()).zip(bernstein(s)) {
+            for (value, &term) in out.iter_mut().zip(term) {
+                *value = weight.mul_add(term, *value);
+            }
+        }
+        for (value, &start) in out.iter_mut().zip(&self.start) {
+            *value = start + *value;
+        }
+    }
+}
+
+/// Bernstein polynomials 1 to 8 of degree 8.
+#[inline(always)]
+pub(super) fn bernstein<W: Scalar>(s: W) -> [W; DEGREE] {
+    let [zero, one] = [0.0, 1.0].map(W::from_f64);
+    let r = one - s;
+    let mut row = [zero; DEGREE + 1];
+    row[0] = one;
+    for degree in 1..=DEGREE {
+        for k in (1..=degree).rev() {
+            row[k] = r * row[k] + s * row[k - 1];
+        }
+        row[0] = r * row[0];
+    }
+    let mut inner = [zero; DEGREE];
+    inner.copy_from_slice(&row[1..]);
+    inner
+}

@@ -1,0 +1,386 @@
+//! Explicit Runge–Kutta pairs in the lanes of vector registers.
+
+// A sealed trait names the types.
+#![allow(unreachable_pub)]
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::convert::Infallible;
+use core::marker::PhantomData;
+
+use super::ExplicitRungeKutta;
+use super::pair::Pair;
+use super::stages::{MOST_STAGES, RightHandSide, Span, StepStages, sum, terms};
+use crate::integrate::control::{FirstStep, StepControl, Verdict};
+use crate::integrate::lanes::registers::{
+    Numbers, WIDEST, numbers, numbers_in, register, set_lane, smallest_divisor,
+};
+use crate::integrate::lanes::{Flags, LaneMethod, Models, Runs, Stepper};
+use crate::integrate::options::Options;
+use crate::model::Part;
+use crate::scalar::register::Register;
+use crate::scalar::{Lane, Real};
+use crate::system::cast::{at, put};
+use crate::system::{Cast, State};
+
+impl<M: Pair, P: Cast<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKutta<M, T> {
+    type Stepper<'a, R: Register<Lane = T>> = PairInLanes<'a, M, P, R>;
+
+    fn options(&self) -> &Options<T> {
+        &self.options
+    }
+
+    fn stepper<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> PairInLanes<'a, M, P, R> {
+        let zero = R::from_f64(0.0);
+        let start = vec![zero; 2 * P::LINKS];
+        let control = StepControl::new(M::CONTROL, &self.options);
+        PairInLanes {
+            system: Pendulums {
+                models: Models::splat(pendulum),
+                smallest: R::splat(smallest_divisor()),
+                checks: [zero; MOST_STAGES],
+            },
+            options: &self.options,
+            stages: StepStages::new::<M, T>(&self.options, start, R::splat),
+            controls: core::array::from_fn(|_| control.clone()),
+            errors: [T::ZERO; WIDEST],
+            finite_end: [T::ZERO; WIDEST],
+            pair: PhantomData,
+        }
+    }
+}
+
+/// The pendulums in the lanes, and what their evaluations have left.
+struct Pendulums<P: Cast<R::Lane>, R: Register> {
+    models: Models<P, R>,
+    /// A divisor for what may be zero over zero.
+    smallest: R,
+    /// Zero after a stage, NaN from the first stage on whose rates are not finite.
+    checks: [R; MOST_STAGES],
+}
+
+/// The right-hand sides of the pendulums: angles, then velocities.
+///
+/// In a function of its own, which all stages call: equations of large trees
+/// are long.
+impl<'a, P: Cast<R::Lane>, R: Register> Part<0, (R, &'a [R], &'a mut [R])> for Models<P, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn part(&self, (time, state, rates): (R, &'a [R], &'a mut [R])) {
+        // As many as the compiler knows them to be.
+        let (Some(state), Some(rates)) = (state.get(..2 * P::LINKS), rates.get_mut(..2 * P::LINKS))
+        else {
+            return;
+        };
+        let (theta, omega) = state.split_at(P::LINKS);
+        let (velocities, alpha) = rates.split_at_mut(P::LINKS);
+        for (rate, velocity) in velocities.iter_mut().zip(omega) {
+            *rate = *velocity;
+        }
+        self.registers.evaluate(
+            time,
+            |link| at(theta, link),
+            |link| at(omega, link),
+            |link, value| put(alpha, link, value),
+        );
+    }
+}
+
+/// Zero where all these numbers are finite and `check` is zero, NaN elsewhere.
+#[inline(always)]
+fn check_finite<R: Register>(mut check: R, values: &[R]) -> R {
+    for value in values {
+        // Infinity times zero is NaN.
+        check = value.mul_add(R::from_f64(0.0), check);
+    }
+    check
+}
+
+impl<P: Cast<R::Lane>, R: Register> RightHandSide<R> for Pendulums<P, R> {
+    type Failure = Infallible;
+    type Accepted = R::Mask;
+
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        2 * P::LINKS
+    }
+
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        stage: usize,
+        time: R,
+        state: &[R],
+        rates: &mut [R],
+    ) -> Result<(), Infallible> {
+        R::outlined::<0, _, _>(&self.models, (time, state, &mut *rates));
+        let before = if stage > 2 {
+            self.checks[stage - 2]
+        } else {
+            R::from_f64(0.0)
+        };
+        self.checks[stage - 1] = check_finite(before, rates);
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn larger_size(one: R, other: R) -> R {
+        one.larger_size(other)
+    }
+
+    #[inline(always)]
+    fn scaled<const N: usize>(&self, mut values: [R; N], tolerance: R) -> [R; N] {
+        let inverse = R::from_f64(1.0) / tolerance.larger_size(self.smallest);
+        for value in &mut values {
+            *value = *value * inverse;
+        }
+        values
+    }
+
+    #[inline(always)]
+    fn accept(new: R, old: R, accepted: R::Mask) -> R {
+        new.choose(old, accepted)
+    }
+}
+
+/// The method at work.
+pub struct PairInLanes<'a, M, P: Cast<R::Lane>, R: Register> {
+    system: Pendulums<P, R>,
+    options: &'a Options<R::Lane>,
+    stages: StepStages<R>,
+    controls: [StepControl<R::Lane>; WIDEST],
+    /// Scaled errors of the step.
+    errors: Numbers<R::Lane>,
+    /// Zero where the state at the end is finite, NaN elsewhere.
+    finite_end: Numbers<R::Lane>,
+    pair: PhantomData<M>,
+}
+
+impl<M: Pair, P: Cast<R::Lane>, R: Register> Stepper<R> for PairInLanes<'_, M, P, R> {
+    type Pendulum = P;
+
+    fn models(&mut self) -> &mut Models<P, R> {
+        &mut self.system.models
+    }
+
+    fn set(&mut self, lane: usize, values: Option<&[R::Lane]>) {
+        let stages = &mut self.stages;
+        for i in 0..stages.start.len() {
+            let value = values.map_or(R::Lane::ZERO, |values| values[i]);
+            set_lane(&mut stages.start[i], lane, value);
+            set_lane(&mut stages.start_residue[i], lane, R::Lane::ZERO);
+            set_lane(&mut stages.rates[i], lane, R::Lane::ZERO);
+        }
+        self.controls[lane] = StepControl::new(M::CONTROL, self.options);
+    }
+
+    fn start(&self) -> &[R] {
+        &self.stages.start
+    }
+
+    fn end(&self) -> &[R] {
+        &self.stages.end
+    }
+
+    #[inline(always)]
+    fn prepare(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags) {
+        if fresh.contains(&true) {
+            self.first_steps(runs, fresh);
+        }
+    }
+
+    #[inline(always)]
+    fn attempt(&mut self, span: Span<R>, size: R) {
+        let (system, stages) = (&mut self.system, &mut self.stages);
+        let Ok(()) = stages.make::<M, _>(system, span);
+        self.finite_end = numbers(check_finite(R::from_f64(0.0), &stages.end[..2 * P::LINKS]));
+        let Ok(()) = stages.evaluate_end::<M, _>(system, span.time + span.step);
+        self.errors = numbers(M::error(stages, system, size));
+    }
+
+    #[inline(always)]
+    fn judge(&mut self, runs: &mut Runs<R::Lane>) -> Flags {
+        let mut accepted = [false; WIDEST];
+        let checks = [M::STAGES, M::STAGES + 1].map(|stage| numbers(self.system.checks[stage - 1]));
+        for (lane, accepted) in accepted.iter_mut().enumerate().take(R::LANES) {
+            if runs.active[lane] {
+                *accepted = self.judge_lane(runs, lane, checks.map(|check| check[lane]));
+            }
+        }
+        runs.count(R::LANES, &accepted);
+        accepted
+    }
+
+    #[inline(always)]
+    fn prepare_dense(&mut self, span: Span<R>) {
+        let Ok(()) = self.stages.prepare_dense::<M, _>(&mut self.system, span);
+    }
+
+    fn judge_dense(
+        &self,
+        runs: &mut Runs<R::Lane>,
+        lane: usize,
+    ) -> Result<(), (R::Lane, Vec<R::Lane>)> {
+        let stages = M::NODES.len();
+        if numbers(self.system.checks[stages - 1])[lane].is_finite() {
+            runs.evaluations[lane] += (stages - M::STAGES - 1) as u64;
+            return Ok(());
+        }
+        Err(self.failed_stage(lane, runs.span(lane), stages))
+    }
+
+    #[inline(always)]
+    fn value(&self, fraction: R, out: &mut [R]) {
+        self.stages.value::<M>(fraction, out);
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, accepted: R::Mask) {
+        self.stages.advance::<M, _>(&self.system, accepted);
+    }
+}
+
+impl<M: Pair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
+    /// Judges the step of a lane, as the driver of the plain method does, and
+    /// chooses the next one. Returns true if it is accepted.
+    #[inline(always)]
+    fn judge_lane(
+        &mut self,
+        runs: &mut Runs<R::Lane>,
+        lane: usize,
+        [stages, end_rates]: [R::Lane; 2],
+    ) -> bool {
+        let span = runs.span(lane);
+        runs.next_step[lane] = runs.step[lane];
+        runs.evaluations[lane] += M::STAGES as u64 - 1;
+        if !stages.is_finite() {
+            let place = self.failed_stage(lane, span, M::STAGES);
+            self.fail(runs, lane, place);
+            return false;
+        }
+        let finite = self.finite_end[lane].is_finite();
+        if M::ERROR_USES_END && finite && !self.judge_end(runs, lane, end_rates) {
+            return false;
+        }
+        let error = if finite {
+            self.errors[lane]
+        } else {
+            R::Lane::NAN
+        };
+        let planned = (runs.step[lane], runs.last[lane]);
+        let next = match self.controls[lane].judge(error, span.step.abs(), planned) {
+            Verdict::Accepted(next) => next,
+            Verdict::Rejected(next) => {
+                runs.rejected[lane] += 1;
+                (runs.step[lane], runs.next_step[lane]) = (next, next);
+                return false;
+            }
+        };
+        if !M::ERROR_USES_END && !self.judge_end(runs, lane, end_rates) {
+            return false;
+        }
+        (runs.step[lane], runs.next_step[lane]) = (next, next);
+        true
+    }
+
+    /// Counts the rates at the end of a lane's step. Ends the trajectory and returns
+    /// false if they are not finite.
+    #[inline(always)]
+    fn judge_end(&self, runs: &mut Runs<R::Lane>, lane: usize, check: R::Lane) -> bool {
+        runs.evaluations[lane] += 1;
+        if !check.is_finite() {
+            let place = (runs.end_time[lane], numbers_in(&self.stages.end, lane));
+            self.fail(runs, lane, place);
+        }
+        check.is_finite()
+    }
+
+    /// Ends the trajectory of a lane at a place where something is not finite.
+    #[cold]
+    fn fail(&self, runs: &mut Runs<R::Lane>, lane: usize, place: (R::Lane, Vec<R::Lane>)) {
+        let last = State {
+            time: runs.time[lane],
+            values: numbers_in(&self.stages.start, lane),
+        };
+        runs.non_finite(lane, place, last);
+    }
+
+    /// Time and state of the first stage whose rates are not finite in a lane,
+    /// at the latest `last`.
+    #[cold]
+    fn failed_stage(
+        &self,
+        lane: usize,
+        span: Span<R::Lane>,
+        last: usize,
+    ) -> (R::Lane, Vec<R::Lane>) {
+        let (stages, n) = (&self.stages, 2 * P::LINKS);
+        let failed = |stage: &usize| !numbers(self.system.checks[stage - 1])[lane].is_finite();
+        let stage = (2..last).find(failed).unwrap_or(last);
+        // Operations as in the step, for equal bits.
+        let span = Span {
+            time: R::splat(span.time),
+            step: R::splat(span.step),
+        };
+        let row = M::ROWS[stage - 2];
+        let terms = terms(row, &stages.rates, n);
+        let value = |i| span.step.mul_add(sum(row, &terms, i), stages.start[i]);
+        let values: Vec<R> = (0..n).map(value).collect();
+        let time = numbers(span.node(M::NODES[stage - 1]))[lane];
+        (time, numbers_in(&values, lane))
+    }
+
+    /// The first stage and the first step of fresh trajectories. The other lanes
+    /// go through it too, and keep what they have.
+    fn first_steps(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags) {
+        let (system, stages) = (&mut self.system, &mut self.stages);
+        let others = stages.start_rates().to_vec();
+        let Ok(()) = stages.evaluate_start(system, register(&runs.time));
+        let mask = R::mask(|lane| fresh[lane]);
+        for (rate, other) in stages.rates.iter_mut().zip(others) {
+            *rate = rate.choose(other, mask);
+        }
+        let finite = numbers(system.checks[0]);
+        let state = numbers(stages.norm(system, &stages.start));
+        let rates = numbers(stages.norm(system, stages.start_rates()));
+        let first = |lane: usize, runs: &Runs<R::Lane>| FirstStep {
+            state: state[lane],
+            rates: rates[lane],
+            longest: self.options.limit((runs.end[lane] - runs.time[lane]).abs()),
+        };
+        let fresh = || (0..R::LANES).filter(|&lane| fresh[lane]);
+        let mut euler = [R::Lane::ZERO; WIDEST];
+        for lane in fresh() {
+            runs.evaluations[lane] += 1;
+            if !finite[lane].is_finite() {
+                let values = numbers_in(&self.stages.start, lane);
+                self.fail(runs, lane, (runs.time[lane], values));
+            } else if let Some(step) = self.options.initial_step {
+                runs.step[lane] = self.options.limit(step);
+            } else {
+                runs.evaluations[lane] += 1;
+                runs.step[lane] = first(lane, runs).euler();
+                euler[lane] = runs.direction[lane] * runs.step[lane];
+            }
+        }
+        let span = Span {
+            time: register(&runs.time),
+            step: register(&euler),
+        };
+        let Ok(change) = self.stages.euler_change(&mut self.system, span);
+        let (change, finite) = (numbers(change), numbers(self.system.checks[1]));
+        for lane in fresh() {
+            if !runs.active[lane] || self.options.initial_step.is_some() {
+                continue;
+            }
+            if finite[lane].is_finite() {
+                let first = first(lane, runs);
+                runs.step[lane] = first.refined(runs.step[lane], change[lane], M::CONTROL.order);
+            } else {
+                let values = numbers_in(&self.stages.stage, lane);
+                self.fail(runs, lane, (runs.time[lane] + euler[lane], values));
+            }
+        }
+    }
+}

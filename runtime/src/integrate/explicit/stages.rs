@@ -1,0 +1,377 @@
+//! The arithmetic of one step: stages, end, error norm.
+//!
+//! Written once for numbers `W` of any width: one, for the plain method, or a
+//! vector register with a state in each lane. [`RightHandSide`] is what tells one
+//! from the other.
+
+// Users name the pairs, and nothing that their trait is made of.
+#![allow(unreachable_pub)]
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::pair::Pair;
+use crate::integrate::options::{Options, Tolerance};
+use crate::integrate::sum::two_sum;
+use crate::scalar::{Real, Scalar};
+
+/// Stages of the pair that has most.
+pub(super) const MOST_STAGES: usize = 21;
+
+/// A step from `time` of length `step` (negative when running backwards).
+#[derive(Clone, Copy, Debug)]
+pub struct Span<W> {
+    pub(crate) time: W,
+    pub(crate) step: W,
+}
+
+impl<W: Scalar> Span<W> {
+    /// Time at the fraction `node` of the step.
+    #[inline(always)]
+    pub(super) fn node(&self, node: f64) -> W {
+        W::from_f64(node).mul_add(self.step, self.time)
+    }
+}
+
+/// The equations of one state, or of one state in each lane.
+pub trait RightHandSide<W: Scalar> {
+    /// Why no further stage is made. Lanes always go on, since the others may be
+    /// well.
+    type Failure;
+
+    /// Says of each lane whether its step is accepted.
+    type Accepted: Copy;
+
+    /// Number of components of a state.
+    fn dimension(&self) -> usize;
+
+    /// Writes the rates of stage `stage`, whose state is `state`.
+    fn evaluate(
+        &mut self,
+        stage: usize,
+        time: W,
+        state: &[W],
+        rates: &mut [W],
+    ) -> Result<(), Self::Failure>;
+
+    /// The larger size of two numbers.
+    fn larger_size(one: W, other: W) -> W;
+
+    /// Values over their common tolerance. A component that is exactly zero by
+    /// symmetry has no error, whatever its tolerance: not 0/0.
+    fn scaled<const N: usize>(&self, values: [W; N], tolerance: W) -> [W; N];
+
+    /// The number `new` where the step is accepted, `old` elsewhere.
+    fn accept(new: W, old: W, accepted: Self::Accepted) -> W;
+}
+
+/// The vectors that a run works on, allocated once.
+#[derive(Clone, Debug)]
+pub struct StepStages<W> {
+    /// Relative tolerance of each component.
+    relative: Vec<W>,
+    /// Absolute tolerance of each component.
+    absolute: Vec<W>,
+    /// State at the start of the step.
+    pub(super) start: Vec<W>,
+    /// State at the end of the step.
+    pub(super) end: Vec<W>,
+    /// State at which a stage is evaluated.
+    pub(super) stage: Vec<W>,
+    /// Rates of the stages, one after the other.
+    pub(super) rates: Vec<W>,
+    /// True if the sums y + Δy carry their rounding errors along.
+    compensated: bool,
+    /// Rounding error of `start`, to be added to it: zero unless compensated.
+    pub(super) start_residue: Vec<W>,
+    /// Rounding error of `end`.
+    end_residue: Vec<W>,
+    /// Coefficients of the dense output beyond the start value, one after the
+    /// other.
+    pub(super) dense: Vec<W>,
+}
+
+/// `make_stages!(self, system, span, first, last)` makes these stages of the pair `M`, each in code of its own: rows of tables are constants there, and their
+/// sums are written out.
+macro_rules! make_stages {
+    ($self:ident, $system:ident, $span:ident, $first:expr, $last:expr) => {
+        make_stages!($self, $system, $span, $first, $last;
+            2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21)
+    };
+    ($self:ident, $system:ident, $span:ident, $first:expr, $last:expr; $($stage:literal)+) => {
+        $(if const { $first <= $stage && $stage <= $last } {
+            $self.make_stage::<M, S, $stage>($system, $span)?;
+        })+
+    };
+}
+
+/// Row and node of a stage. The compiler asks for those of stages that the pair has
+/// not got, too, before it leaves out their code.
+const fn table_entry<M: Pair>(stage: usize) -> (&'static [(usize, f64)], f64) {
+    if stage <= M::NODES.len() {
+        (M::ROWS[stage - 2], M::NODES[stage - 1])
+    } else {
+        (&[], 0.0)
+    }
+}
+
+impl<W: Scalar> StepStages<W> {
+    /// Memory of the pair `M` for a run from `start`; `wide` makes numbers of
+    /// tolerances.
+    pub(super) fn new<M: Pair, T: Real>(
+        options: &Options<T>,
+        start: Vec<W>,
+        wide: impl Fn(T) -> W,
+    ) -> Self {
+        const { assert!(M::NODES.len() <= MOST_STAGES) }
+        let n = start.len();
+        let tolerances = |tolerance: &Tolerance<T>| {
+            let each = tolerance.expand(n).into_iter();
+            each.map(&wide).collect()
+        };
+        let zeros = |vectors: usize| vec![W::from_f64(0.0); vectors * n];
+        Self {
+            relative: tolerances(&options.relative),
+            absolute: tolerances(&options.absolute),
+            end: zeros(1),
+            stage: zeros(1),
+            rates: zeros(M::NODES.len()),
+            compensated: options.compensated,
+            start_residue: zeros(1),
+            end_residue: zeros(1),
+            dense: zeros(M::DENSE.terms()),
+            start,
+        }
+    }
+
+    /// Stages 2 to [`Pair::STAGES`], from stage 1 in place, and the end of the step.
+    #[inline(always)]
+    pub(super) fn make<M: Pair, S: RightHandSide<W>>(
+        &mut self,
+        system: &mut S,
+        span: Span<W>,
+    ) -> Result<(), S::Failure> {
+        make_stages!(self, system, span, 2, M::STAGES);
+        self.finish::<M, S>(system, span.step);
+        Ok(())
+    }
+
+    /// The stages beyond the end of the step.
+    #[inline(always)]
+    pub(super) fn make_dense<M: Pair, S: RightHandSide<W>>(
+        &mut self,
+        system: &mut S,
+        span: Span<W>,
+    ) -> Result<(), S::Failure> {
+        make_stages!(self, system, span, M::STAGES + 2, M::NODES.len());
+        Ok(())
+    }
+
+    /// Evaluates the rates of stage `STAGE` at y + h (sum of row).
+    #[inline(always)]
+    fn make_stage<M: Pair, S: RightHandSide<W>, const STAGE: usize>(
+        &mut self,
+        system: &mut S,
+        span: Span<W>,
+    ) -> Result<(), S::Failure> {
+        let (row, node) = const { table_entry::<M>(STAGE) };
+        let n = system.dimension();
+        let (before, rates) = self.rates.split_at_mut((STAGE - 1) * n);
+        let (start, stage) = (&self.start[..n], &mut self.stage[..n]);
+        let terms = terms(row, before, n);
+        for i in 0..n {
+            stage[i] = span.step.mul_add(sum(row, &terms, i), start[i]);
+        }
+        system.evaluate(STAGE, span.node(node), stage, &mut rates[..n])
+    }
+
+    /// The state at the end of the step: y + h (sum of row).
+    #[inline(always)]
+    fn finish<M: Pair, S: RightHandSide<W>>(&mut self, system: &S, step: W) {
+        let row = const { M::ROWS[M::STAGES - 1] };
+        let n = system.dimension();
+        let (start, end) = (&self.start[..n], &mut self.end[..n]);
+        let terms = terms(row, &self.rates, n);
+        if self.compensated {
+            let (residue, rest) = (&self.start_residue[..n], &mut self.end_residue[..n]);
+            for i in 0..n {
+                let change = step.mul_add(sum(row, &terms, i), residue[i]);
+                (end[i], rest[i]) = two_sum(start[i], change);
+            }
+        } else {
+            for i in 0..n {
+                end[i] = step.mul_add(sum(row, &terms, i), start[i]);
+            }
+        }
+    }
+
+    /// Rates at the start of the first step: stage 1.
+    #[inline(always)]
+    pub(super) fn evaluate_start<S: RightHandSide<W>>(
+        &mut self,
+        system: &mut S,
+        time: W,
+    ) -> Result<(), S::Failure> {
+        let n = system.dimension();
+        system.evaluate(1, time, &self.start[..n], &mut self.rates[..n])
+    }
+
+    /// Rates at the end of the step, at time `time`, which are stage 1 of the next
+    /// step.
+    #[inline(always)]
+    pub(super) fn evaluate_end<M: Pair, S: RightHandSide<W>>(
+        &mut self,
+        system: &mut S,
+        time: W,
+    ) -> Result<(), S::Failure> {
+        let n = system.dimension();
+        let rates = &mut self.rates[M::STAGES * n..][..n];
+        system.evaluate(M::STAGES + 1, time, &self.end[..n], rates)
+    }
+
+    /// Rates after an Euler step, into the place of stage 2; returns the norm of
+    /// their change.
+    #[inline(always)]
+    pub(super) fn euler_change<S: RightHandSide<W>>(
+        &mut self,
+        system: &mut S,
+        span: Span<W>,
+    ) -> Result<W, S::Failure> {
+        let n = system.dimension();
+        let (rates, after) = self.rates.split_at_mut(n);
+        let (start, stage) = (&self.start[..n], &mut self.stage[..n]);
+        for i in 0..n {
+            stage[i] = span.step.mul_add(rates[i], start[i]);
+        }
+        system.evaluate(2, span.time + span.step, stage, &mut after[..n])?;
+        for i in 0..n {
+            after[i] = after[i] - rates[i];
+        }
+        Ok(self.norm(system, &self.rates[n..2 * n]))
+    }
+
+    /// Euclidean norm of a vector whose components are divided by their
+    /// tolerances at the start of the step.
+    #[inline(always)]
+    pub(super) fn norm<S: RightHandSide<W>>(&self, system: &S, vector: &[W]) -> W {
+        let mut squares = W::from_f64(0.0);
+        for (i, &value) in vector.iter().enumerate() {
+            let size = S::larger_size(self.start[i], self.start[i]);
+            let tolerance = self.relative[i].mul_add(size, self.absolute[i]);
+            let [ratio] = system.scaled([value], tolerance);
+            squares = ratio.mul_add(ratio, squares);
+        }
+        squares.sqrt()
+    }
+
+    /// Rates at the start of the step.
+    #[inline(always)]
+    pub(super) fn start_rates(&self) -> &[W] {
+        &self.rates[..self.start.len()]
+    }
+
+    /// Sums over the components of the squares of (sum of row)/tolerance, for each
+    /// of the rows.
+    #[inline(always)]
+    pub(super) fn squares<S: RightHandSide<W>, const N: usize>(
+        &self,
+        system: &S,
+        rows: [&'static [(usize, f64)]; N],
+    ) -> [W; N] {
+        let n = system.dimension();
+        let (start, end) = (&self.start[..n], &self.end[..n]);
+        let (relative, absolute) = (&self.relative[..n], &self.absolute[..n]);
+        let mut all_terms: [[&[W]; MOST_STAGES]; N] = [[&[]; MOST_STAGES]; N];
+        for (row_terms, row) in all_terms.iter_mut().zip(rows) {
+            *row_terms = terms(row, &self.rates, n);
+        }
+        let mut squares = [W::from_f64(0.0); N];
+        for i in 0..n {
+            let mut values = squares;
+            for j in 0..N {
+                values[j] = sum(rows[j], &all_terms[j], i);
+            }
+            let tolerance = relative[i].mul_add(S::larger_size(start[i], end[i]), absolute[i]);
+            let ratios = system.scaled(values, tolerance);
+            for j in 0..N {
+                squares[j] = ratios[j].mul_add(ratios[j], squares[j]);
+            }
+        }
+        squares
+    }
+
+    /// Scaled error of a step of length `size` with one estimate h (sum of row):
+    /// its root mean square over the components (Solving ODEs I, section II.4, eq.
+    /// (4.11)).
+    #[inline(always)]
+    pub(super) fn mean_square_error<S: RightHandSide<W>>(
+        &self,
+        system: &S,
+        row: &'static [(usize, f64)],
+        size: W,
+    ) -> W {
+        let [squares] = self.squares(system, [row]);
+        size * (squares / count(system)).sqrt()
+    }
+
+    /// Makes the end of the step the start of the next one, where it is accepted.
+    /// The rates there become its first stage.
+    #[inline(always)]
+    pub(super) fn advance<M: Pair, S: RightHandSide<W>>(
+        &mut self,
+        system: &S,
+        accepted: S::Accepted,
+    ) {
+        let n = system.dimension();
+        let (first, rest) = self.rates.split_at_mut(n);
+        let last = &rest[(M::STAGES - 1) * n..][..n];
+        let (start, end) = (&mut self.start[..n], &self.end[..n]);
+        for i in 0..n {
+            start[i] = S::accept(end[i], start[i], accepted);
+            first[i] = S::accept(last[i], first[i], accepted);
+        }
+        if self.compensated {
+            let (residue, rest) = (&mut self.start_residue[..n], &self.end_residue[..n]);
+            for i in 0..n {
+                residue[i] = S::accept(rest[i], residue[i], accepted);
+            }
+        }
+    }
+}
+
+/// Number of components.
+#[inline(always)]
+pub(super) fn count<W: Scalar, S: RightHandSide<W>>(system: &S) -> W {
+    W::from_f64(system.dimension() as f64)
+}
+
+/// The rates of the stages of a row, in its order; what is left of the array is
+/// empty. Slices of one known length: no bounds check is left inside the loops.
+#[inline(always)]
+pub(super) fn terms<'a, W>(
+    row: &[(usize, f64)],
+    rates: &'a [W],
+    n: usize,
+) -> [&'a [W]; MOST_STAGES] {
+    // One check of the length, for the last stage, spares those of the others.
+    let count = row.last().map_or(0, |&(stage, _)| stage * n);
+    let rates = &rates[..count];
+    let mut terms: [&[W]; MOST_STAGES] = [&[]; MOST_STAGES];
+    for (term, &(stage, _)) in terms.iter_mut().zip(row) {
+        *term = &rates[(stage - 1) * n..][..n];
+    }
+    terms
+}
+
+/// Component i of the sum of a row over the stages.
+///
+/// No closure takes part: those are functions of their own, which the compiler
+/// may leave without the instructions of the registers.
+#[inline(always)]
+pub(super) fn sum<W: Scalar>(row: &[(usize, f64)], terms: &[&[W]; MOST_STAGES], i: usize) -> W {
+    let mut sum = W::from_f64(row[0].1) * terms[0][i];
+    for j in 1..row.len() {
+        sum = W::from_f64(row[j].1).mul_add(terms[j][i], sum);
+    }
+    sum
+}
