@@ -5,7 +5,7 @@ use std::process::{Command, Output};
 
 use branched_pendulum::TransferForms;
 use branched_pendulum::analysis::truncation::{
-    Background, Crossing, ErrorCurve, PhaseAverage, TruncationError, sector_frequencies,
+    Background, ErrorCurve, LevelCrossing, PhaseAverage, TruncationError, sector_frequencies,
 };
 use branched_pendulum::analysis::{Modes, SectorModes};
 use branched_pendulum::prelude::*;
@@ -88,7 +88,7 @@ fn the_relative_error_of_the_published_form_does_not_fall() {
 
 fn crossing(curve: &ErrorCurve, form: usize, level: f64) -> f64 {
     match curve.crossing(form, level) {
-        Some(Crossing::At(amplitude)) => amplitude,
+        Some(LevelCrossing::At(amplitude)) => amplitude,
         other => panic!("{other:?}"),
     }
 }

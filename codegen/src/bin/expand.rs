@@ -196,7 +196,7 @@ fn format_tokens(stages: &Stages) -> Result<String, String> {
 }
 
 /// An attributed struct: what the macro would receive, and where it stands.
-struct Found {
+struct AttributedStruct {
     attribute: TokenStream,
     item: TokenStream,
     range: Range<usize>,
@@ -204,7 +204,7 @@ struct Found {
 
 #[derive(Default)]
 struct Finder {
-    found: Vec<Found>,
+    found: Vec<AttributedStruct>,
     edits: Vec<(Range<usize>, String)>,
 }
 
@@ -224,7 +224,7 @@ impl<'ast> Visit<'ast> for Finder {
                 syn::Meta::List(list) => list.tokens,
                 _ => TokenStream::new(),
             };
-            self.found.push(Found {
+            self.found.push(AttributedStruct {
                 attribute,
                 item: item.into_token_stream(),
                 range,

@@ -5,7 +5,7 @@ use syn::ext::IdentExt as _;
 use syn::parse::ParseStream;
 use syn::{Token, token};
 
-use super::list::{Fault, expected, parse_all};
+use super::list::{ListFault, expected, parse_all};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Diagnostic, Message};
 
@@ -70,7 +70,7 @@ impl Expression {
     }
 
     /// Parses an expression and stops where it ends.
-    pub(super) fn parse(input: ParseStream<'_>) -> Result<Self, Fault> {
+    pub(super) fn parse(input: ParseStream<'_>) -> Result<Self, ListFault> {
         let start = input.span();
         let mut members = vec![Self::term(input)?];
         loop {
@@ -93,7 +93,7 @@ impl Expression {
     }
 
     /// Parses a product.
-    fn term(input: ParseStream<'_>) -> Result<Self, Fault> {
+    fn term(input: ParseStream<'_>) -> Result<Self, ListFault> {
         let start = input.span();
         let mut factors = vec![Self::factor(input)?];
         let mut divisors = Vec::new();
@@ -125,14 +125,14 @@ impl Expression {
     }
 
     /// Parses a power, or its opposite.
-    fn factor(input: ParseStream<'_>) -> Result<Self, Fault> {
+    fn factor(input: ParseStream<'_>) -> Result<Self, ListFault> {
         let sign = input.span();
         let negative = minus(input);
         Ok(Self::power(input)?.signed(negative, sign))
     }
 
     /// Parses a primary and its exponent.
-    fn power(input: ParseStream<'_>) -> Result<Self, Fault> {
+    fn power(input: ParseStream<'_>) -> Result<Self, ListFault> {
         let base = Self::primary(input)?;
         if !input.peek(Token![^]) {
             return Ok(base);
@@ -181,7 +181,7 @@ impl Expression {
 
     /// Parses a literal, a name, a function of an expression or an expression
     /// in parentheses.
-    fn primary(input: ParseStream<'_>) -> Result<Self, Fault> {
+    fn primary(input: ParseStream<'_>) -> Result<Self, ListFault> {
         let span = input.span();
         // A fragment that `macro_rules!` passed on keeps together as if it
         // stood in parentheses.
@@ -247,7 +247,7 @@ fn spanning(start: Span, members: &[Expression]) -> Span {
 }
 
 /// Takes a punctuation mark that was peeked at.
-fn punctuation<T: syn::parse::Parse>(input: ParseStream<'_>) -> Result<(), Fault> {
+fn punctuation<T: syn::parse::Parse>(input: ParseStream<'_>) -> Result<(), ListFault> {
     match input.parse::<T>() {
         Ok(_) => Ok(()),
         Err(_) => Err(expected(input, Expression::WHAT)),
@@ -260,7 +260,7 @@ fn minus(input: ParseStream<'_>) -> bool {
 }
 
 /// The tokens in parentheses and the place where they end.
-fn parenthesised(input: ParseStream<'_>) -> Result<(TokenStream, Span), Fault> {
+fn parenthesised(input: ParseStream<'_>) -> Result<(TokenStream, Span), ListFault> {
     input
         .step(|cursor| match cursor.group(Delimiter::Parenthesis) {
             Some((inside, span, rest)) => Ok(((inside.token_stream(), span.close()), rest)),
@@ -280,7 +280,7 @@ fn invisible_group(input: ParseStream<'_>) -> Option<TokenStream> {
 }
 
 /// Parses a decimal literal.
-pub(super) fn number(input: ParseStream<'_>) -> Result<Rational, Fault> {
+pub(super) fn number(input: ParseStream<'_>) -> Result<Rational, ListFault> {
     let span = input.span();
     let text = literal(input, Expression::WHAT)?;
     Rational::parse_decimal(&text).map_err(|error| {
@@ -294,7 +294,7 @@ pub(super) fn number(input: ParseStream<'_>) -> Result<Rational, Fault> {
 }
 
 /// The text of a literal.
-pub(super) fn literal(input: ParseStream<'_>, what: &'static str) -> Result<String, Fault> {
+pub(super) fn literal(input: ParseStream<'_>, what: &'static str) -> Result<String, ListFault> {
     // Takes `true` too, which is a literal to syn and a name to the compiler.
     input
         .parse::<Literal>()
@@ -303,10 +303,10 @@ pub(super) fn literal(input: ParseStream<'_>, what: &'static str) -> Result<Stri
 }
 
 /// Parses an exponent: a whole number with an optional minus.
-fn exponent(input: ParseStream<'_>) -> Result<i32, Fault> {
+fn exponent(input: ParseStream<'_>) -> Result<i32, ListFault> {
     let span = input.span();
     let negative = minus(input);
-    let fault = || Fault::from(Diagnostic::new(span, Message::Exponent));
+    let fault = || ListFault::from(Diagnostic::new(span, Message::Exponent));
     let text = literal(input, "a whole number").map_err(|_| fault())?;
     let magnitude: i32 = text.replace('_', "").parse().map_err(|_| fault())?;
     Ok(if negative { -magnitude } else { magnitude })

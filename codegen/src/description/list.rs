@@ -29,7 +29,7 @@ impl<T> Default for List<T> {
 pub(super) fn list<T>(
     (tokens, end): (TokenStream, Span),
     report: &mut Report,
-    mut member: impl FnMut(ParseStream<'_>, &mut Report) -> Result<T, Fault>,
+    mut member: impl FnMut(ParseStream<'_>, &mut Report) -> Result<T, ListFault>,
 ) -> List<T> {
     let mut found = List::default();
     let read = |input: ParseStream<'_>| {
@@ -67,8 +67,8 @@ pub(super) fn list<T>(
 /// Parses all of `tokens`, which end at `end`.
 pub(super) fn parse_all<T>(
     (tokens, end): (TokenStream, Span),
-    parse: impl FnOnce(ParseStream<'_>) -> Result<T, Fault>,
-) -> Result<T, Fault> {
+    parse: impl FnOnce(ParseStream<'_>) -> Result<T, ListFault>,
+) -> Result<T, ListFault> {
     let mut outcome = None;
     let read = |input: ParseStream<'_>| {
         let parsed = parse(input).and_then(|value| {
@@ -84,7 +84,7 @@ pub(super) fn parse_all<T>(
     };
     match (read.parse2(tokens), outcome) {
         (Ok(()), Some(outcome)) => outcome.map_err(|fault| fault.placed(end).into()),
-        _ => Err(Fault::AtEnd("a value").placed(end).into()),
+        _ => Err(ListFault::AtEnd("a value").placed(end).into()),
     }
 }
 
@@ -93,7 +93,7 @@ pub(super) fn group(
     input: ParseStream<'_>,
     delimiter: Delimiter,
     what: &'static str,
-) -> Result<(TokenStream, Span), Fault> {
+) -> Result<(TokenStream, Span), ListFault> {
     input
         .step(|cursor| match cursor.group(delimiter) {
             Some((inside, span, rest)) => Ok(((inside.token_stream(), span.close()), rest)),
@@ -103,7 +103,7 @@ pub(super) fn group(
 }
 
 /// A name; keywords are refused later, with a message of their own.
-pub(super) fn identifier(input: ParseStream<'_>, what: &'static str) -> Result<Ident, Fault> {
+pub(super) fn identifier(input: ParseStream<'_>, what: &'static str) -> Result<Ident, ListFault> {
     Ident::parse_any(input).map_err(|_| expected(input, what))
 }
 
@@ -111,7 +111,7 @@ pub(super) fn identifier(input: ParseStream<'_>, what: &'static str) -> Result<I
 pub(super) fn take<T: syn::parse::Parse>(
     input: ParseStream<'_>,
     what: &'static str,
-) -> Result<(), Fault> {
+) -> Result<(), ListFault> {
     match input.parse::<T>() {
         Ok(_) => Ok(()),
         Err(_) => Err(expected(input, what)),
@@ -119,16 +119,16 @@ pub(super) fn take<T: syn::parse::Parse>(
 }
 
 /// The next token is not `what` it should be.
-pub(super) fn expected(input: ParseStream<'_>, what: &'static str) -> Fault {
+pub(super) fn expected(input: ParseStream<'_>, what: &'static str) -> ListFault {
     if input.is_empty() {
-        Fault::AtEnd(what)
+        ListFault::AtEnd(what)
     } else {
         Diagnostic::new(input.span(), Message::Expected { what }).into()
     }
 }
 
 /// Why a member of a list could not be read.
-pub(super) enum Fault {
+pub(super) enum ListFault {
     /// The list ended where this should have followed. Only who opened the list
     /// knows the place.
     AtEnd(&'static str),
@@ -136,7 +136,7 @@ pub(super) enum Fault {
     Found(Diagnostic),
 }
 
-impl Fault {
+impl ListFault {
     /// The error, where the list ends at `end`.
     fn placed(self, end: Span) -> Diagnostic {
         match self {
@@ -146,7 +146,7 @@ impl Fault {
     }
 }
 
-impl From<Diagnostic> for Fault {
+impl From<Diagnostic> for ListFault {
     fn from(diagnostic: Diagnostic) -> Self {
         Self::Found(diagnostic)
     }

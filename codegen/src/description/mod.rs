@@ -63,13 +63,13 @@ pub struct Description {
     /// `code = ...`: the two names.
     pub code: Option<(Ident, Ident)>,
     /// `drive(...)`.
-    pub drive: Option<Drive>,
+    pub drive: Option<DriveClause>,
     /// The links at the top level; a right description has one.
     pub roots: Vec<Node>,
     /// Members of `emit(...)`.
     pub requests: Vec<Request>,
     /// Members of `observe(...)`.
-    pub observables: Vec<Observable>,
+    pub observables: Vec<ObservableClause>,
     /// True if part of it was unreadable, which is reported already: anything
     /// that is missing may have stood there.
     pub damaged: bool,
@@ -120,7 +120,7 @@ pub struct StructItem {
 
 /// The motion and the torque that are imposed from outside.
 #[derive(Debug, Clone)]
-pub struct Drive {
+pub struct DriveClause {
     /// The word `drive`.
     pub name: Ident,
     /// Members of the parentheses.
@@ -209,7 +209,7 @@ impl Value {
 
 /// A quantity of the user's own.
 #[derive(Debug, Clone)]
-pub struct Observable {
+pub struct ObservableClause {
     /// Its name.
     pub name: Ident,
     /// Its definition.
@@ -222,14 +222,14 @@ pub struct Request {
     /// Its name.
     pub name: Ident,
     /// Members of its parentheses; `None` without parentheses.
-    pub forms: Option<Vec<Form>>,
+    pub forms: Option<Vec<RequestForm>>,
     /// True if some of the forms were unreadable, which is reported already.
     pub damaged: bool,
 }
 
 /// A form of a requested output.
 #[derive(Debug, Clone)]
-pub struct Form {
+pub struct RequestForm {
     /// Its name.
     pub name: Ident,
     /// Number behind the `=`.

@@ -8,10 +8,10 @@ use syn::parse::ParseStream;
 use syn::{Token, token};
 
 use super::expression::literal;
-use super::list::{Fault, List, expected, group, identifier, list, parse_all, take};
+use super::list::{List, ListFault, expected, group, identifier, list, parse_all, take};
 use super::{
-    Description, Drive, Expression, Form, Multiplicity, Node, Observable, Property, Request,
-    StructItem, Value,
+    Description, DriveClause, Expression, Multiplicity, Node, ObservableClause, Property, Request,
+    RequestForm, StructItem, Value,
 };
 use crate::report::{Diagnostic, Message, Report};
 
@@ -57,31 +57,31 @@ pub fn parse(
     let (mut emits, mut observes) = (0, 0);
     for entry in entries.members {
         match entry {
-            Entry::Crate(name, path) => {
+            Member::Crate(name, path) => {
                 if description.crate_path.replace(path).is_some() {
                     report.error(name.span(), Message::duplicate_property(&name));
                 }
             }
-            Entry::Gravity(property) => {
+            Member::Gravity(property) => {
                 let span = property.name.span();
                 let message = Message::duplicate_property(&property.name);
                 if description.gravity.replace(property).is_some() {
                     report.error(span, message);
                 }
             }
-            Entry::Solve(name, value) => {
+            Member::Solve(name, value) => {
                 let (span, message) = (name.span(), Message::duplicate_property(&name));
                 if description.solve.replace((name, value)).is_some() {
                     report.error(span, message);
                 }
             }
-            Entry::Code(name, value) => {
+            Member::Code(name, value) => {
                 let (span, message) = (name.span(), Message::duplicate_property(&name));
                 if description.code.replace((name, value)).is_some() {
                     report.error(span, message);
                 }
             }
-            Entry::Drive(drive) => {
+            Member::Drive(drive) => {
                 let span = drive.name.span();
                 let message = Message::duplicate_property(&drive.name);
                 match &mut description.drive {
@@ -93,21 +93,21 @@ pub fn parse(
                     }
                 }
             }
-            Entry::Emit(name, requests) => {
+            Member::Emit(name, requests) => {
                 emits += 1;
                 if emits > 1 {
                     report.error(name.span(), Message::duplicate_property(&name));
                 }
                 description.requests.extend(requests);
             }
-            Entry::Observe(name, observables) => {
+            Member::Observe(name, observables) => {
                 observes += 1;
                 if observes > 1 {
                     report.error(name.span(), Message::duplicate_property(&name));
                 }
                 description.observables.extend(observables);
             }
-            Entry::Link(node) => description.roots.push(node),
+            Member::Link(node) => description.roots.push(node),
         }
     }
     Some(description)
@@ -170,18 +170,18 @@ fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
 }
 
 /// A member of the attribute.
-enum Entry {
+enum Member {
     Crate(Ident, syn::Path),
     Gravity(Property),
     Solve(Ident, Ident),
     Code(Ident, Ident),
-    Drive(Drive),
+    Drive(DriveClause),
     Emit(Ident, Vec<Request>),
-    Observe(Ident, Vec<Observable>),
+    Observe(Ident, Vec<ObservableClause>),
     Link(Node),
 }
 
-fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
+fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFault> {
     let name = identifier(
         input,
         "a link, `gravity`, `drive`, `emit`, `observe` or `crate`",
@@ -191,7 +191,7 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
     }
     if name == "emit" {
         let requests = group(input, Delimiter::Parenthesis, "`(` and what to emit")?;
-        return Ok(Entry::Emit(name, list(requests, report, request).members));
+        return Ok(Member::Emit(name, list(requests, report, request).members));
     }
     if name == "drive" && !input.peek(Token![:]) {
         let parts = group(
@@ -200,7 +200,7 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
             "`(` and what drives the tree",
         )?;
         let parts = list(parts, report, property);
-        return Ok(Entry::Drive(Drive {
+        return Ok(Member::Drive(DriveClause {
             name,
             parts: parts.members,
             damaged: parts.damaged,
@@ -209,42 +209,42 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Entry, Fault> {
     if name == "observe" {
         let observables = group(input, Delimiter::Parenthesis, "`(` and what to observe")?;
         let observables = list(observables, report, observable);
-        return Ok(Entry::Observe(name, observables.members));
+        return Ok(Member::Observe(name, observables.members));
     }
     if name == "gravity" || name == "crate" {
         return Err(expected(input, "`=` and a value"));
     }
-    node(name, input, report).map(Entry::Link)
+    node(name, input, report).map(Member::Link)
 }
 
 /// `crate = path`, `gravity = value`, `solve = name` or `code = name`, after the
 /// name.
-fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Entry, Fault> {
+fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Member, ListFault> {
     if name == "crate" {
         take::<Token![=]>(input, "`=`")?;
         let path = syn::Path::parse_mod_style(input)
             .map_err(|_| expected(input, "the path of a crate, as in `::branched_pendulum`"))?;
-        return Ok(Entry::Crate(name, path));
+        return Ok(Member::Crate(name, path));
     }
     if name == "gravity" {
-        return property_value(name, input).map(Entry::Gravity);
+        return property_value(name, input).map(Member::Gravity);
     }
     if name == "solve" {
         take::<Token![=]>(input, "`=`")?;
         let value = identifier(input, "`factorization` or `recursion`")?;
-        return Ok(Entry::Solve(name, value));
+        return Ok(Member::Solve(name, value));
     }
     if name == "code" {
         take::<Token![=]>(input, "`=`")?;
         let value = identifier(input, "`loops` or `unrolled`")?;
-        return Ok(Entry::Code(name, value));
+        return Ok(Member::Code(name, value));
     }
     let message = Message::unknown_entry(name.to_string());
     Err(Diagnostic::new(name.span(), message).into())
 }
 
 /// A link, after its name.
-fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node, Fault> {
+fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node, ListFault> {
     let shape = if input.peek(Token![:]) {
         take::<Token![:]>(input, "`:`")?;
         Some(identifier(input, "a shape, as in `rod`")?)
@@ -282,13 +282,13 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node
     })
 }
 
-fn property(input: ParseStream<'_>, _: &mut Report) -> Result<Property, Fault> {
+fn property(input: ParseStream<'_>, _: &mut Report) -> Result<Property, ListFault> {
     let name = identifier(input, "a property, as in `mass = 0.1`")?;
     property_value(name, input)
 }
 
 /// A property, after its name.
-fn property_value(name: Ident, input: ParseStream<'_>) -> Result<Property, Fault> {
+fn property_value(name: Ident, input: ParseStream<'_>) -> Result<Property, ListFault> {
     take::<Token![=]>(input, "`=` and a value")?;
     let value = match pair(input) {
         Some(pair) => parse_all(pair, |input| {
@@ -315,7 +315,7 @@ fn pair(input: ParseStream<'_>) -> Option<(TokenStream, Span)> {
         .ok()
 }
 
-fn request(input: ParseStream<'_>, report: &mut Report) -> Result<Request, Fault> {
+fn request(input: ParseStream<'_>, report: &mut Report) -> Result<Request, ListFault> {
     let name = identifier(input, "an output, as in `energies`")?;
     let forms = if input.peek(token::Paren) {
         let forms = group(input, Delimiter::Parenthesis, "`(`")?;
@@ -330,14 +330,14 @@ fn request(input: ParseStream<'_>, report: &mut Report) -> Result<Request, Fault
     })
 }
 
-fn observable(input: ParseStream<'_>, _: &mut Report) -> Result<Observable, Fault> {
+fn observable(input: ParseStream<'_>, _: &mut Report) -> Result<ObservableClause, ListFault> {
     let name = identifier(input, "an observable, as in `height = cos(theta_bob)`")?;
     take::<Token![=]>(input, "`=` and an expression")?;
     let value = Expression::parse(input)?;
-    Ok(Observable { name, value })
+    Ok(ObservableClause { name, value })
 }
 
-fn form(input: ParseStream<'_>, report: &mut Report) -> Result<Form, Fault> {
+fn form(input: ParseStream<'_>, report: &mut Report) -> Result<RequestForm, ListFault> {
     let name = identifier(input, "`angle = 1`, `amplitude = 2` or `exact`")?;
     let value = if input.peek(Token![=]) {
         take::<Token![=]>(input, "`=`")?;
@@ -352,7 +352,7 @@ fn form(input: ParseStream<'_>, report: &mut Report) -> Result<Form, Fault> {
     } else {
         None
     };
-    Ok(Form {
+    Ok(RequestForm {
         name,
         value,
         members,
@@ -360,7 +360,7 @@ fn form(input: ParseStream<'_>, report: &mut Report) -> Result<Form, Fault> {
 }
 
 /// A whole number; all beyond `u32` count as `u32::MAX`.
-fn whole_number(input: ParseStream<'_>, what: &'static str) -> Result<Multiplicity, Fault> {
+fn whole_number(input: ParseStream<'_>, what: &'static str) -> Result<Multiplicity, ListFault> {
     let span = input.span();
     let fault = || Diagnostic::new(span, Message::Expected { what }).into();
     let digits = literal(input, what)?.replace('_', "");

@@ -5,7 +5,8 @@ use std::fmt::{self, Display, Formatter};
 use quote::ToTokens as _;
 
 use super::{
-    Description, Expression, ExpressionKind, Form, Node, Observable, Property, Request, Value,
+    Description, Expression, ExpressionKind, Node, ObservableClause, Property, Request,
+    RequestForm, Value,
 };
 
 impl Display for Description {
@@ -79,7 +80,7 @@ impl Display for Property {
     }
 }
 
-impl Display for Observable {
+impl Display for ObservableClause {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{} = {}", self.name, self.value)
     }
@@ -97,7 +98,7 @@ impl Display for Request {
     }
 }
 
-impl Display for Form {
+impl Display for RequestForm {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.name)?;
         if let Some(value) = self.value {

@@ -3,7 +3,7 @@
 
 use super::Emission;
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Counting, Sectors};
+use crate::mechanics::{Counting, OrbitMechanics};
 use crate::program::EnergyDefinition;
 use crate::scene::LinkId;
 use proc_macro2::{Literal, TokenStream};
@@ -12,7 +12,7 @@ use quote::quote;
 impl Emission<'_> {
     /// `impl Sectors`: which coordinates form which sector, and how links
     /// weigh in them.
-    pub(super) fn sectors(&self, sectors: &Sectors) -> TokenStream {
+    pub(super) fn sectors(&self, sectors: &OrbitMechanics) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let list = sectors.sectors.iter().map(|sector| {
             let sector_name = &sector.name;

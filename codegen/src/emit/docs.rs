@@ -2,10 +2,10 @@
 
 use super::Emission;
 use super::doc_text::{broken, doc_lines};
-use super::formulas::Formula;
+use super::formulas::DocFormula;
 use crate::mechanics;
 use crate::mechanics::Counting;
-use crate::mechanics::coordinates::Kind;
+use crate::mechanics::coordinates::CoordinateKind;
 use crate::mechanics::expression::Expr;
 use crate::program::{Argument, Entry, Purpose};
 use crate::scene::Solve;
@@ -106,7 +106,9 @@ impl Emission<'_> {
     fn remainder(&self, transfer: usize) -> &'static str {
         let coordinate = self.mechanics.transfers[transfer].coordinate;
         match self.mechanics.coordinates[coordinate].kind {
-            Kind::Difference { group, .. } if self.scene.groups[group].copies.len() > 2 => {
+            CoordinateKind::Difference { group, .. }
+                if self.scene.groups[group].copies.len() > 2 =>
+            {
                 "Remainder O(ε³)."
             }
             _ => "Remainder O(ε⁴).",
@@ -260,7 +262,7 @@ impl Emission<'_> {
     }
 
     /// Formulas as a text block and, folded away, as LaTeX.
-    pub(super) fn show(&self, formulas: &[Formula], lines: &mut Vec<String>) {
+    pub(super) fn show(&self, formulas: &[DocFormula], lines: &mut Vec<String>) {
         let texts: Vec<String> = formulas
             .iter()
             .map(|f| format!("{} = {}", f.left, self.text(&f.right)))

@@ -1,9 +1,9 @@
 //! Docs of driven trees.
 
 use super::Emission;
-use super::formulas::Formula;
+use super::formulas::DocFormula;
 use crate::mechanics::expression::{Expr, SymbolId};
-use crate::mechanics::{Drive, PivotMotion, Temporal};
+use crate::mechanics::{DriveTerms, PivotMotion, Temporal};
 
 impl Emission<'_> {
     /// The drive in words, for the model's docs.
@@ -70,8 +70,8 @@ impl Emission<'_> {
 
     /// The functions of time, by definition: x and y as given, then τ and the
     /// accelerations that follow.
-    pub(super) fn drive_formulas(&self) -> Vec<Formula> {
-        let Some(Drive {
+    pub(super) fn drive_formulas(&self) -> Vec<DocFormula> {
+        let Some(DriveTerms {
             temporal, pivot, ..
         }) = &self.mechanics.drive
         else {
@@ -79,7 +79,7 @@ impl Emission<'_> {
         };
         let positions = pivot.iter().map(|PivotMotion { name, position, .. }| {
             let name = (*name).to_owned();
-            Formula {
+            DocFormula {
                 left: name.clone(),
                 left_latex: name,
                 right: position.clone(),
@@ -97,8 +97,8 @@ impl Emission<'_> {
     }
 
     /// The power of the drive, and the functions of time in it.
-    pub(super) fn power_formulas(&self, power: &Expr) -> Vec<Formula> {
-        let power = Formula {
+    pub(super) fn power_formulas(&self, power: &Expr) -> Vec<DocFormula> {
+        let power = DocFormula {
             left: "P".to_owned(),
             left_latex: "P".to_owned(),
             right: power.clone(),

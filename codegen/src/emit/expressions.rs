@@ -3,7 +3,7 @@
 use super::Emission;
 use super::names::Locals;
 use super::tokens::{Binding, ident, number_tokens};
-use crate::program::{Fused, Op, ValueId};
+use crate::program::{FusedSum, Op, ValueId};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -56,7 +56,7 @@ impl Emission<'_> {
     }
 
     /// `x.mul_add(y, z)`, which is x y + z.
-    fn fused(&self, fused: &Fused, locals: &Locals) -> TokenStream {
+    fn fused(&self, fused: &FusedSum, locals: &Locals) -> TokenStream {
         let place = match fused.minus_addend {
             true => Binding::Atom,
             false => Binding::Sum,
@@ -65,7 +65,7 @@ impl Emission<'_> {
         self.fused_with(fused, &addend, locals)
     }
 
-    fn fused_with(&self, fused: &Fused, addend: &TokenStream, locals: &Locals) -> TokenStream {
+    fn fused_with(&self, fused: &FusedSum, addend: &TokenStream, locals: &Locals) -> TokenStream {
         let Op::Mul(x, y) = *self.op(fused.product) else {
             unreachable!("products alone are fused");
         };

@@ -2,23 +2,23 @@
 
 use super::Emission;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
-use crate::mechanics::{Frame, Parts, Transfer, WrittenOut};
+use crate::mechanics::{Frame, TransferFormulas, TransferParts, WrittenOut};
 use crate::program::Purpose;
 
 /// A formula: left side and right side.
-pub(super) struct Formula {
+pub(super) struct DocFormula {
     pub(super) left: String,
     pub(super) left_latex: String,
     pub(super) right: Expr,
 }
 
 impl Emission<'_> {
-    pub(super) fn formulas(&self, purpose: Purpose) -> Vec<Formula> {
+    pub(super) fn formulas(&self, purpose: Purpose) -> Vec<DocFormula> {
         let mechanics = self.mechanics;
         let absolute = &mechanics.absolute;
         let symmetric = mechanics.symmetric.as_ref();
         let simple = |left: &str, right: &Expr| {
-            vec![Formula {
+            vec![DocFormula {
                 left: left.to_owned(),
                 left_latex: left.to_owned(),
                 right: right.clone(),
@@ -58,7 +58,7 @@ impl Emission<'_> {
                 Some(form) => ["a_pp", "a_pq", "a_qq"]
                     .iter()
                     .zip(form)
-                    .map(|(name, expr)| Formula {
+                    .map(|(name, expr)| DocFormula {
                         left: (*name).to_owned(),
                         left_latex: format!("a_{{{}}}", &name[2..]),
                         right: expr.clone(),
@@ -97,7 +97,7 @@ impl Emission<'_> {
         }
     }
 
-    fn momentum_rates(&self, frame: &Frame) -> Vec<Formula> {
+    fn momentum_rates(&self, frame: &Frame) -> Vec<DocFormula> {
         let rates = frame.momentum_rates.iter().flatten();
         frame
             .momenta
@@ -105,7 +105,7 @@ impl Emission<'_> {
             .zip(rates)
             .map(|(&id, rate)| {
                 let symbol = self.mechanics.symbols.get(id);
-                Formula {
+                DocFormula {
                     left: format!("d{}/dt", symbol.text),
                     left_latex: format!("\\dot {}", symbol.latex),
                     right: rate.clone(),
@@ -114,20 +114,20 @@ impl Emission<'_> {
             .collect()
     }
 
-    fn momenta(&self, frame: &Frame) -> Vec<Formula> {
+    fn momenta(&self, frame: &Frame) -> Vec<DocFormula> {
         match &frame.momentum {
             Some(momentum) => self.rows(&frame.momenta, momentum),
             None => Vec::new(),
         }
     }
 
-    pub(super) fn rows(&self, symbols: &[SymbolId], exprs: &[Expr]) -> Vec<Formula> {
+    pub(super) fn rows(&self, symbols: &[SymbolId], exprs: &[Expr]) -> Vec<DocFormula> {
         symbols
             .iter()
             .zip(exprs)
             .map(|(&id, expr)| {
                 let symbol = self.mechanics.symbols.get(id);
-                Formula {
+                DocFormula {
                     left: symbol.text.clone(),
                     left_latex: symbol.latex.clone(),
                     right: expr.clone(),
@@ -137,37 +137,47 @@ impl Emission<'_> {
     }
 
     /// Entries of M below the diagonal and on it, and the rows of b.
-    fn equations(&self, frame: &Frame) -> Vec<Formula> {
+    fn equations(&self, frame: &Frame) -> Vec<DocFormula> {
         let name = |index: usize| {
             let code = &self.mechanics.symbols.get(frame.coordinates[index]).code;
             code.strip_prefix("theta_").unwrap_or(code).to_owned()
         };
         let tex = |name: &str| name.replace('_', "\\_");
-        let mut formulas: Vec<Formula> = frame
+        let mut formulas: Vec<DocFormula> = frame
             .mass
             .iter()
             .map(|entry| {
                 let (row, column) = (name(entry.row), name(entry.column));
-                Formula {
+                DocFormula {
                     left: format!("M[{row}, {column}]"),
                     left_latex: format!("M_{{\\mathrm{{{},{}}}}}", tex(&row), tex(&column)),
                     right: entry.value.clone(),
                 }
             })
             .collect();
-        formulas.extend(frame.bias.iter().enumerate().map(|(index, bias)| Formula {
-            left: format!("b[{}]", name(index)),
-            left_latex: format!("b_{{\\mathrm{{{}}}}}", tex(&name(index))),
-            right: bias.clone(),
-        }));
+        formulas.extend(
+            frame
+                .bias
+                .iter()
+                .enumerate()
+                .map(|(index, bias)| DocFormula {
+                    left: format!("b[{}]", name(index)),
+                    left_latex: format!("b_{{\\mathrm{{{}}}}}", tex(&name(index))),
+                    right: bias.clone(),
+                }),
+        );
         formulas
     }
 
-    fn transfer(&self, transfer: &Transfer, form: fn(&Transfer) -> &Option<Parts>) -> Vec<Formula> {
+    fn transfer(
+        &self,
+        transfer: &TransferFormulas,
+        form: fn(&TransferFormulas) -> &Option<TransferParts>,
+    ) -> Vec<DocFormula> {
         let Some(parts) = form(transfer) else {
             return Vec::new();
         };
-        let named = |name: &str, expr: &Expr| Formula {
+        let named = |name: &str, expr: &Expr| DocFormula {
             left: name.to_owned(),
             left_latex: format!("W_{{{}}}", &name[2..]),
             right: expr.clone(),
@@ -184,7 +194,7 @@ impl Emission<'_> {
     }
 
     /// w and D, where they are written out.
-    fn written_out(&self) -> Vec<Formula> {
+    fn written_out(&self) -> Vec<DocFormula> {
         let Some(expansion) = &self.mechanics.expansion else {
             return Vec::new();
         };

@@ -1,7 +1,7 @@
 //! Names of the local values of an emitted function.
 
 use super::Emission;
-use crate::program::{Argument, Entry, Fused, Op, ValueId, constant_names};
+use crate::program::{Argument, Entry, FusedSum, Op, ValueId, constant_names};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longer generated names say less than a number.
@@ -18,7 +18,7 @@ const RESERVED: [&str; 2] = ["turns", "alpha"];
 pub(super) struct Locals {
     pub(super) names: BTreeMap<ValueId, String>,
     /// Sums that are written with a product in them.
-    pub(super) fused: BTreeMap<ValueId, Fused>,
+    pub(super) fused: BTreeMap<ValueId, FusedSum>,
     used: BTreeSet<String>,
     /// The number after the last one given to each wanted name; no lower one is
     /// free.

@@ -1,8 +1,8 @@
 //! Docs of observables: what they mean and their formulas.
 
 use super::Emission;
-use super::formulas::Formula;
-use crate::mechanics::Observable;
+use super::formulas::DocFormula;
+use crate::mechanics::ObservableFormulas;
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::program::ObservableForm;
 
@@ -67,10 +67,14 @@ impl Emission<'_> {
         }
     }
 
-    pub(super) fn observable_formulas(&self, number: usize, form: ObservableForm) -> Vec<Formula> {
+    pub(super) fn observable_formulas(
+        &self,
+        number: usize,
+        form: ObservableForm,
+    ) -> Vec<DocFormula> {
         let observable = &self.mechanics.observables.list[number];
         let named = |left: &str, left_latex: &str, right: &Expr| {
-            let mut formulas = vec![Formula {
+            let mut formulas = vec![DocFormula {
                 left: left.to_owned(),
                 left_latex: left_latex.to_owned(),
                 right: right.clone(),
@@ -94,7 +98,7 @@ impl Emission<'_> {
     }
 
     /// The forces and the like that a rate refers to.
-    fn definitions(&self, observable: &Observable, rate: &Expr) -> Vec<Formula> {
+    fn definitions(&self, observable: &ObservableFormulas, rate: &Expr) -> Vec<DocFormula> {
         let observables = &self.mechanics.observables;
         let used = match observable.symmetric {
             true => &observables.symmetric,

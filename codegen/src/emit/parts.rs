@@ -2,7 +2,7 @@
 //! function take longer than in proportion to its length.
 //!
 //! Parts hand their values to each other in one array, which the function
-//! holds. A place in it serves another value as soon as no later part reads the
+//! holds. A slot in it serves another value as soon as no later part reads the
 //! one that it held.
 
 mod cut;
@@ -68,7 +68,7 @@ fn height(lines: &[Line]) -> usize {
 }
 
 /// Some lines of a function, with what goes in and out.
-pub(super) struct Part {
+pub(super) struct FunctionPart {
     pub(super) number: usize,
     /// Arguments of the function that are handed on.
     arguments: Vec<Argument>,
@@ -80,46 +80,42 @@ pub(super) struct Part {
 }
 
 /// A long function in parts.
-pub(super) struct Parts {
-    pub(super) parts: Vec<Part>,
-    /// Places of values in the array.
-    places: BTreeMap<ValueId, usize>,
+pub(super) struct FunctionParts {
+    pub(super) parts: Vec<FunctionPart>,
+    /// Slots of values in the array.
+    slots: BTreeMap<ValueId, usize>,
     /// Length of the array.
     pub(super) size: usize,
 }
 
-impl Parts {
-    /// Gives every value that parts return a place, free ones first. Outputs
+impl FunctionParts {
+    /// Gives every value that parts return a slot, free ones first. Outputs
     /// keep theirs to the end.
-    fn new(parts: Vec<Part>, outputs: &BTreeSet<ValueId>) -> Self {
+    fn new(parts: Vec<FunctionPart>, outputs: &BTreeSet<ValueId>) -> Self {
         let mut last_read = BTreeMap::new();
         for part in &parts {
             last_read.extend(part.receives.iter().map(|&id| (id, part.number)));
         }
-        let (mut places, mut size, mut free) = (BTreeMap::new(), 0, Vec::new());
+        let (mut slots, mut size, mut free) = (BTreeMap::new(), 0, Vec::new());
         for part in &parts {
             // Received values are read before any is returned.
             let done = part.receives.iter();
             let done = done.filter(|id| last_read[id] == part.number && !outputs.contains(id));
-            free.extend(done.map(|id| places[id]));
+            free.extend(done.map(|id| slots[id]));
             for &id in &part.returns {
-                let place = free.pop().unwrap_or_else(|| {
+                let slot = free.pop().unwrap_or_else(|| {
                     size += 1;
                     size - 1
                 });
-                places.insert(id, place);
+                slots.insert(id, slot);
             }
         }
-        Self {
-            parts,
-            places,
-            size,
-        }
+        Self { parts, slots, size }
     }
 
-    fn place(&self, id: ValueId) -> TokenStream {
-        let (shared, place) = (ident(SHARED), Literal::usize_unsuffixed(self.places[&id]));
-        quote!(#shared[#place])
+    fn slot(&self, id: ValueId) -> TokenStream {
+        let (shared, slot) = (ident(SHARED), Literal::usize_unsuffixed(self.slots[&id]));
+        quote!(#shared[#slot])
     }
 }
 
@@ -174,7 +170,7 @@ impl Emission<'_> {
             }
             Op::Number(ref number) => number_tokens(number),
             Op::Constant(_) => self.bound(id, locals, Binding::Sum),
-            _ => parts.place(id),
+            _ => parts.slot(id),
         });
         let outputs = self.shaped(entry, values.collect());
         let body = quote! {
@@ -249,7 +245,12 @@ impl Emission<'_> {
         implementations.collect()
     }
 
-    fn part_body(&self, part: &Part, parts: &Parts, locals: &Locals) -> TokenStream {
+    fn part_body(
+        &self,
+        part: &FunctionPart,
+        parts: &FunctionParts,
+        locals: &Locals,
+    ) -> TokenStream {
         let elements = part.arguments.iter();
         let elements = elements.filter(|argument| self.reads(**argument, &part.inputs));
         let elements = elements.map(|&argument| self.take_apart(argument, &part.inputs, locals));
@@ -259,16 +260,16 @@ impl Emission<'_> {
     /// The lines of a part behind those that read its inputs.
     pub(super) fn part_lines(
         &self,
-        part: &Part,
-        parts: &Parts,
+        part: &FunctionPart,
+        parts: &FunctionParts,
         locals: &Locals,
         elements: Vec<TokenStream>,
     ) -> TokenStream {
-        let named = |id: &ValueId| (ident(&locals.names[id]), parts.place(*id));
+        let named = |id: &ValueId| (ident(&locals.names[id]), parts.slot(*id));
         let taken = part.receives.iter().map(named);
-        let taken = taken.map(|(name, place)| quote!(let #name = #place;));
+        let taken = taken.map(|(name, slot)| quote!(let #name = #slot;));
         let given = part.returns.iter().map(named);
-        let given = given.map(|(name, place)| quote!(#place = #name;));
+        let given = given.map(|(name, slot)| quote!(#slot = #name;));
         let lines = &part.lines;
         quote! {
             #(#elements)*
@@ -303,7 +304,7 @@ fn together(parts: Vec<TokenStream>) -> TokenStream {
     }
 }
 
-impl Part {
+impl FunctionPart {
     pub(super) fn name(&self, entry: &Entry) -> Ident {
         format_ident!("{}_part_{}", entry.name, self.number)
     }

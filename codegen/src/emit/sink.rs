@@ -7,7 +7,7 @@
 use super::Emission;
 use super::function::Written;
 use super::names::Locals;
-use super::parts::{self, Line, Part, SHARED};
+use super::parts::{self, FunctionPart, Line, SHARED};
 use super::tokens::{Binding, ident};
 use crate::program::{Argument, Entry, Op, Pass, Purpose, ValueId};
 use proc_macro2::{Literal, TokenStream};
@@ -151,7 +151,7 @@ impl Emission<'_> {
     }
 
     /// Inputs that an earlier part has read too.
-    fn read_again(&self, part: &Part, locals: &Locals) -> Vec<TokenStream> {
+    fn read_again(&self, part: &FunctionPart, locals: &Locals) -> Vec<TokenStream> {
         let inputs = part.inputs.iter();
         inputs.filter_map(|&id| self.input(id, locals)).collect()
     }

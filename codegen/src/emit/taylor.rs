@@ -7,13 +7,13 @@ use super::doc_text::doc_lines;
 use super::taylor_order::Recurrences;
 use super::tokens::{Binding, ident};
 use crate::exact::Rational;
-use crate::program::{Argument, Entry, Expansion, Op, ValueId};
+use crate::program::{Argument, Entry, Op, TaylorOutputs, ValueId};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
     pub(super) fn taylor_coefficients(&self, entry: &Entry) -> TokenStream {
-        let expansion = Expansion::of_outputs(&entry.outputs, &self.mechanics.absolute);
+        let expansion = TaylorOutputs::of_outputs(&entry.outputs, &self.mechanics.absolute);
         let recurrences = Recurrences::new(self, entry, &expansion.bias);
         let locals = &recurrences.locals;
         let start = recurrences.start(&expansion);
@@ -125,7 +125,7 @@ impl Emission<'_> {
         Literal::usize_unsuffixed(self.scene.links.len().div_ceil(4))
     }
 
-    fn taylor_docs(&self, entry: &Entry, expansion: &Expansion, sums: usize) -> TokenStream {
+    fn taylor_docs(&self, entry: &Entry, expansion: &TaylorOutputs, sums: usize) -> TokenStream {
         let mut lines = self.meaning(entry.purpose);
         let start = [&expansion.sines, &expansion.cosines, &expansion.bias];
         let operations = self
@@ -149,7 +149,7 @@ impl Emission<'_> {
         let Some(entry) = entry else {
             unreachable!("the request makes the entry");
         };
-        let expansion = Expansion::of_outputs(&entry.outputs, &self.mechanics.absolute);
+        let expansion = TaylorOutputs::of_outputs(&entry.outputs, &self.mechanics.absolute);
         let links = self.links();
         let rows = Recurrences::new(self, entry, &expansion.bias).room();
         let time = self.time_name();

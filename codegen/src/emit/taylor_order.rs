@@ -12,7 +12,7 @@ mod closure;
 use super::Emission;
 use super::names::Locals;
 use super::tokens::{Binding, ident};
-use crate::program::{Argument, Entry, Expansion, Op, ValueId};
+use crate::program::{Argument, Entry, Op, TaylorOutputs, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ enum Factor {
 }
 
 /// The sum of products that an operation needs in each order.
-struct Sum {
+struct ProductSum {
     of: Op,
     name: Ident,
     factors: [Factor; 2],
@@ -47,7 +47,7 @@ pub(super) struct Recurrences<'e> {
     names: BTreeMap<ValueId, Ident>,
     /// True for values that depend on the state or the time.
     pub(super) varies: BTreeMap<ValueId, bool>,
-    sums: Vec<Sum>,
+    sums: Vec<ProductSum>,
     /// Names of k and of the structure that holds the coefficients of the
     /// state.
     order: Ident,
@@ -61,7 +61,7 @@ impl<'e> Recurrences<'e> {
     pub(super) fn new(emission: &'e Emission<'e>, entry: &'e Entry, bias: &'e [ValueId]) -> Self {
         let links = emission.scene.links.len();
         let needed = with_partners(emission, bias);
-        let expansion = Expansion::of_outputs(&entry.outputs, &emission.mechanics.absolute);
+        let expansion = TaylorOutputs::of_outputs(&entry.outputs, &emission.mechanics.absolute);
         let mut outputs = roots(&expansion);
         let number = |id: &ValueId| matches!(emission.op(*id), Op::Number(_));
         outputs.extend(bias.iter().filter(|id| !number(id)));
@@ -115,7 +115,7 @@ impl<'e> Recurrences<'e> {
 
     /// The entry for order 0: what starts the expansion, and what is read again
     /// in order k.
-    pub(super) fn start(&self, expansion: &Expansion) -> Entry {
+    pub(super) fn start(&self, expansion: &TaylorOutputs) -> Entry {
         let mut outputs = roots(expansion);
         outputs.extend(&expansion.bias);
         for &id in &self.needed {
@@ -242,7 +242,7 @@ impl<'e> Recurrences<'e> {
             let known = known.or_else(|| self.emission.describe(id, &self.locals));
             let wanted = known.map_or_else(|| "sum".to_owned(), |name| format!("sum_{name}"));
             let name = ident(&self.locals.fresh(wanted));
-            self.sums.push(Sum {
+            self.sums.push(ProductSum {
                 of: op,
                 name,
                 factors,
@@ -307,7 +307,7 @@ fn with_partners(emission: &Emission<'_>, bias: &[ValueId]) -> Vec<ValueId> {
 }
 
 /// Values from which an expansion starts.
-fn roots(expansion: &Expansion) -> Vec<ValueId> {
+fn roots(expansion: &TaylorOutputs) -> Vec<ValueId> {
     let lists = [&expansion.sines, &expansion.cosines];
     lists.into_iter().flatten().copied().collect()
 }

@@ -3,7 +3,7 @@
 
 use super::Emission;
 use crate::mechanics::Counting;
-use crate::mechanics::sectors::{Sector, sectors};
+use crate::mechanics::sectors::{SectorVariables, sectors};
 use crate::program::{Argument, Entry, Purpose};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -11,14 +11,14 @@ use std::collections::BTreeMap;
 
 /// A form, in the order in which forms are listed.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Form {
+enum ListedForm {
     Angle(u32),
     Amplitude(u32),
     Exact,
 }
 
 /// The forms in their order, each as an array of transfers.
-type Calls = Vec<(Form, TokenStream)>;
+type Calls = Vec<(ListedForm, TokenStream)>;
 
 impl Emission<'_> {
     pub(super) fn transfer_forms(&self) -> Option<TokenStream> {
@@ -52,7 +52,7 @@ impl Emission<'_> {
                         let rates = self.symmetric_velocities(coordinates, momenta);
                         self.#name(coordinates, &rates)
                     }};
-                    forms.insert(Form::Exact, exact);
+                    forms.insert(ListedForm::Exact, exact);
                 }
                 _ => {}
             }
@@ -62,7 +62,7 @@ impl Emission<'_> {
 
     /// Names of the differences of leaves and calls for W into all of them.
     fn leaf_forms(&self) -> Option<(Vec<String>, Calls)> {
-        let mut forms: BTreeMap<Form, Vec<TokenStream>> = BTreeMap::new();
+        let mut forms: BTreeMap<ListedForm, Vec<TokenStream>> = BTreeMap::new();
         for entry in &self.program.entries {
             let form = match entry.purpose {
                 Purpose::AngleTransfer(_) => truncated(Counting::Angle, 1),
@@ -71,7 +71,7 @@ impl Emission<'_> {
                     let form = &self.mechanics.transfers[transfer].higher[form];
                     truncated(form.counting, form.order)
                 }
-                Purpose::ExactTransfer(_) => Form::Exact,
+                Purpose::ExactTransfer(_) => ListedForm::Exact,
                 _ => continue,
             };
             // Entries stand in the order of the transfers.
@@ -89,13 +89,13 @@ impl Emission<'_> {
     }
 
     /// The sectors that count as small: all differences, unless some are named.
-    fn small_sectors(&self, all: &[Sector]) -> Vec<Sector> {
+    fn small_sectors(&self, all: &[SectorVariables]) -> Vec<SectorVariables> {
         let request = self.scene.requests.budget.as_ref();
         let named = request.map_or(&[][..], |budget| budget.small.as_slice());
-        let small = |sector: &&Sector| {
+        let small = |sector: &&SectorVariables| {
             sector
-                .place
-                .is_some_and(|place| named.is_empty() || named.contains(&place))
+                .difference
+                .is_some_and(|difference| named.is_empty() || named.contains(&difference))
         };
         all.iter().filter(small).cloned().collect()
     }
@@ -103,20 +103,20 @@ impl Emission<'_> {
     fn implementation(
         &self,
         receivers: &[String],
-        forms: &[(Form, TokenStream)],
-        small: &[Sector],
+        forms: &[(ListedForm, TokenStream)],
+        small: &[SectorVariables],
     ) -> TokenStream {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let names = forms.iter().map(|&(form, _)| match form {
-            Form::Angle(order) => {
+            ListedForm::Angle(order) => {
                 let order = Literal::u32_unsuffixed(order);
                 quote!(#runtime::TransferForm::Angle(#order))
             }
-            Form::Amplitude(order) => {
+            ListedForm::Amplitude(order) => {
                 let order = Literal::u32_unsuffixed(order);
                 quote!(#runtime::TransferForm::Amplitude(#order))
             }
-            Form::Exact => quote!(#runtime::TransferForm::Exact),
+            ListedForm::Exact => quote!(#runtime::TransferForm::Exact),
         });
         let small = small.iter().map(|sector| {
             let name = &sector.name;
@@ -194,10 +194,10 @@ impl Emission<'_> {
     }
 }
 
-fn truncated(counting: Counting, order: u32) -> Form {
+fn truncated(counting: Counting, order: u32) -> ListedForm {
     match counting {
-        Counting::Angle => Form::Angle(order),
-        Counting::Amplitude => Form::Amplitude(order),
+        Counting::Angle => ListedForm::Angle(order),
+        Counting::Amplitude => ListedForm::Amplitude(order),
     }
 }
 
@@ -207,7 +207,7 @@ fn call(entry: &Entry) -> TokenStream {
 }
 
 /// The forms in their order; none unless the exact one is there with others.
-fn complete(forms: BTreeMap<Form, TokenStream>) -> Option<Calls> {
-    let compared = forms.len() > 1 && forms.contains_key(&Form::Exact);
+fn complete(forms: BTreeMap<ListedForm, TokenStream>) -> Option<Calls> {
+    let compared = forms.len() > 1 && forms.contains_key(&ListedForm::Exact);
     compared.then(|| forms.into_iter().collect())
 }

@@ -4,7 +4,7 @@
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::Expr;
-use super::frame::Frame;
+use super::frame::DerivedFrame;
 use crate::scene::LinkId;
 
 /// Constants of the links of one orbit; each is an expression in named
@@ -37,7 +37,7 @@ pub struct Articulation {
 }
 
 impl Derivation<'_> {
-    pub(super) fn articulation(&self, frame: &Frame) -> Articulation {
+    pub(super) fn articulation(&self, frame: &DerivedFrame) -> Articulation {
         let scene = self.scene;
         let expr = |formula: Formula| formula.to_expr(&self.symbols);
         // Σ m_l (height of l) = Σ e_i sin θ_i − h_i cos θ_i.

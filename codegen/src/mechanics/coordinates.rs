@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// Place of a symmetric coordinate in the tree.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum CoordinateKind {
     /// Mean angle of all links of an orbit; the link's own angle where the
     /// orbit has one link.
     Mean {
@@ -28,10 +28,10 @@ pub enum Kind {
     },
 }
 
-impl Kind {
+impl CoordinateKind {
     /// Index of the orbit, and which of its coordinates: `None` for the mean,
     /// group and number for a difference.
-    pub fn place(&self) -> (usize, Option<(usize, usize)>) {
+    pub fn orbit_and_difference(&self) -> (usize, Option<(usize, usize)>) {
         match *self {
             Self::Mean { orbit } => (orbit.0, None),
             Self::Difference {
@@ -50,7 +50,7 @@ pub struct Coordinate {
     /// Short name; `theta_` and `p_` stand before it in code.
     pub name: String,
     /// Mean or difference.
-    pub kind: Kind,
+    pub kind: CoordinateKind,
     /// Weight of this coordinate in the angle of each link; links without it
     /// are left out. Columns of different coordinates are orthogonal.
     pub weights: Vec<(LinkId, i64)>,
@@ -81,7 +81,7 @@ pub fn symmetric_coordinates(scene: &Scene) -> Vec<Coordinate> {
         .into_iter()
         .map(|strand| Coordinate {
             name: String::new(),
-            kind: Kind::Mean {
+            kind: CoordinateKind::Mean {
                 orbit: strand.orbit,
             },
             weights: strand.links.into_iter().map(|link| (link, 1)).collect(),
@@ -89,8 +89,8 @@ pub fn symmetric_coordinates(scene: &Scene) -> Vec<Coordinate> {
         .collect();
     means.sort_by_key(|c| c.weights[0].0);
     differences.sort_by_key(|c: &Coordinate| match c.kind {
-        Kind::Difference { group, index, .. } => (group, index, c.weights[0].0),
-        Kind::Mean { .. } => (0, 0, c.weights[0].0),
+        CoordinateKind::Difference { group, index, .. } => (group, index, c.weights[0].0),
+        CoordinateKind::Mean { .. } => (0, 0, c.weights[0].0),
     });
     let mut all = means;
     all.append(&mut differences);
@@ -163,7 +163,7 @@ fn combine(
             }
             differences.push(Coordinate {
                 name: String::new(),
-                kind: Kind::Difference {
+                kind: CoordinateKind::Difference {
                     group,
                     index,
                     orbit: joined[position].orbit,
@@ -189,7 +189,7 @@ fn name_coordinates(scene: &Scene, coordinates: &mut [Coordinate]) {
     let link_names: Vec<&String> = scene.links.iter().map(|l| &l.name).collect();
     for coordinate in coordinates.iter_mut() {
         coordinate.name = match &coordinate.kind {
-            Kind::Mean { orbit } => {
+            CoordinateKind::Mean { orbit } => {
                 let orbit = &scene.orbits[orbit.0];
                 match (orbit.links.len(), one_strand) {
                     (1, _) => scene.links[orbit.links[0].0].name.clone(),
@@ -197,7 +197,7 @@ fn name_coordinates(scene: &Scene, coordinates: &mut [Coordinate]) {
                     _ => format!("{}_m", orbit.name),
                 }
             }
-            Kind::Difference {
+            CoordinateKind::Difference {
                 group,
                 index,
                 orbit,

@@ -9,7 +9,7 @@
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
-use super::frame::Frame;
+use super::frame::DerivedFrame;
 use super::print::{latex, latex_name, text};
 use crate::scene::{Signal, TimeFunction};
 use std::collections::BTreeMap;
@@ -40,7 +40,7 @@ pub struct PivotMotion {
 
 /// The torque and the forces that act on the tree from outside.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Drive {
+pub struct DriveTerms {
     /// Meaning of the symbols that depend on time alone, each in terms of
     /// earlier ones.
     pub temporal: BTreeMap<SymbolId, Temporal>,
@@ -56,7 +56,7 @@ pub struct Drive {
     pub friction_power: Option<Expr>,
 }
 
-impl Drive {
+impl DriveTerms {
     /// The symbol of time, if anything depends on it.
     pub fn time(&self) -> Option<SymbolId> {
         let mut symbols = self.temporal.iter();
@@ -276,7 +276,7 @@ impl Derivation<'_> {
     }
 
     /// The drive as plain data.
-    pub(super) fn plain_drive(&self, frame: &Frame) -> Option<Drive> {
+    pub(super) fn plain_drive(&self, frame: &DerivedFrame) -> Option<DriveTerms> {
         self.scene.drive.as_ref()?;
         let DerivedDrive {
             temporal,
@@ -298,7 +298,7 @@ impl Derivation<'_> {
             let terms = forces.iter().zip(&frame.velocities);
             expr(&terms.map(|(force, &v)| force * &Formula::symbol(v)).sum())
         };
-        Some(Drive {
+        Some(DriveTerms {
             temporal: temporal.iter().map(|(&s, m)| (s, plain(m))).collect(),
             torque: *torque,
             pivot: pivot

@@ -4,13 +4,13 @@ use super::algebra::{AlgebraError, Formula};
 use super::coordinates::{self, Coordinate};
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, Symbols};
-use super::frame::{Frame as DerivedFrame, MassMatrix};
-use super::inverse_mass::{Counting, Expansion as DerivedExpansion};
-use super::series::Series;
+use super::frame::{DerivedFrame, MassMatrix};
+use super::inverse_mass::{Counting, DerivedExpansion};
+use super::series::VelocitySeries;
 use super::transfer::{self, SubHamiltonian};
 use super::{
-    Constant, Correction, Energies, Entry, Expansion, Frame, Mechanics, Observables, Parts,
-    Transfer, Truncated, WrittenOut,
+    Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics, Observables,
+    TransferFormulas, TransferParts, Truncated, WrittenOut,
 };
 use crate::scene::{OrbitId, TransferRequest};
 use std::collections::BTreeMap;
@@ -118,11 +118,11 @@ impl Derivation<'_> {
         formulas.iter().map(|f| self.expr(f)).collect()
     }
 
-    fn entries(&self, matrix: &MassMatrix) -> Vec<Entry> {
+    fn entries(&self, matrix: &MassMatrix) -> Vec<MatrixEntry> {
         matrix
             .iter()
             .filter(|(_, _, value)| !value.is_zero())
-            .map(|(row, column, value)| Entry {
+            .map(|(row, column, value)| MatrixEntry {
                 row,
                 column,
                 value: self.expr(value),
@@ -168,7 +168,7 @@ impl Derivation<'_> {
         matrix
     }
 
-    fn expansion(&self, frame: &DerivedFrame, expansion: &DerivedExpansion) -> Expansion {
+    fn expansion(&self, frame: &DerivedFrame, expansion: &DerivedExpansion) -> MassExpansion {
         let mut leading = MassMatrix::default();
         for (row, &i) in expansion.in_phase.iter().enumerate() {
             for (column, &j) in expansion.in_phase[..=row].iter().enumerate() {
@@ -191,7 +191,7 @@ impl Derivation<'_> {
             }),
             _ => None,
         };
-        Expansion {
+        MassExpansion {
             in_phase: expansion.in_phase.clone(),
             velocities: expansion.velocity_symbols.clone(),
             leading: self.entries(&leading),
@@ -206,8 +206,8 @@ impl Derivation<'_> {
         coordinates: &[Coordinate],
         expansion: &DerivedExpansion,
         request: &TransferRequest,
-        plain: &mut Expansion,
-    ) -> Vec<Transfer> {
+        plain: &mut MassExpansion,
+    ) -> Vec<TransferFormulas> {
         let series = self.series(frame, coordinates, expansion, request);
         plain.corrections = series
             .iter()
@@ -239,8 +239,8 @@ impl Derivation<'_> {
         expansion: &DerivedExpansion,
         energy: &SubHamiltonian,
         request: &TransferRequest,
-        series: &[Series],
-    ) -> Transfer {
+        series: &[VelocitySeries],
+    ) -> TransferFormulas {
         let coordinate = energy.coordinate;
         let angle = request
             .angle_orders
@@ -267,9 +267,9 @@ impl Derivation<'_> {
         let exact = request
             .exact
             .then(|| self.exact_transfer(frame, expansion, energy));
-        Transfer {
+        TransferFormulas {
             coordinate,
-            energy: Parts {
+            energy: TransferParts {
                 kinetic: self.expr(&energy.kinetic),
                 potential: self.expr(&energy.potential),
             },
@@ -283,8 +283,8 @@ impl Derivation<'_> {
         }
     }
 
-    fn parts(&self, parts: &transfer::Parts) -> Parts {
-        Parts {
+    fn parts(&self, parts: &transfer::DerivedParts) -> TransferParts {
+        TransferParts {
             kinetic: self.expr(&parts.kinetic),
             potential: self.expr(&parts.potential),
         }
@@ -298,7 +298,7 @@ impl Derivation<'_> {
         coordinates: &[Coordinate],
         expansion: &DerivedExpansion,
         request: &TransferRequest,
-    ) -> Vec<Series> {
+    ) -> Vec<VelocitySeries> {
         [Counting::Angle, Counting::Amplitude]
             .into_iter()
             .filter_map(|counting| {
@@ -315,7 +315,7 @@ impl Derivation<'_> {
         frame: &DerivedFrame,
         expansion: &DerivedExpansion,
         coordinate: usize,
-        parts: &transfer::Parts,
+        parts: &transfer::DerivedParts,
     ) -> Option<[Expr; 3]> {
         let (q, p) = (frame.coordinates[coordinate], frame.momenta[coordinate]);
         let whole = &parts.kinetic + &parts.potential;

@@ -43,7 +43,7 @@ impl MassMatrix {
 }
 
 /// A Lagrangian in one set of generalized coordinates.
-pub(super) struct Frame {
+pub(super) struct DerivedFrame {
     pub(super) coordinates: Vec<SymbolId>,
     pub(super) velocities: Vec<SymbolId>,
     pub(super) momenta: Vec<SymbolId>,
@@ -57,7 +57,7 @@ pub(super) struct Frame {
     pub(super) drive: Formula,
 }
 
-impl Frame {
+impl DerivedFrame {
     /// The symbols of a frame of which nothing else is derived: the program
     /// forms its mechanics on means and differences.
     pub(super) fn of_symbols(frame: &super::Frame) -> Self {

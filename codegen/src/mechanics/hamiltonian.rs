@@ -4,9 +4,9 @@
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
-use super::frame::Frame;
+use super::frame::DerivedFrame;
 
-impl Frame {
+impl DerivedFrame {
     /// ∂L/∂q_i at fixed velocities.
     pub(super) fn forces(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
         self.kinetic_gradient(derivation)

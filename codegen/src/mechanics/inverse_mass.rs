@@ -3,10 +3,10 @@
 //! the kinetic energy order by order, without an inverse written out.
 
 use super::algebra::Formula;
-use super::coordinates::{Coordinate, Kind};
+use super::coordinates::{Coordinate, CoordinateKind};
 use super::derivation::{Derivation, Trigonometric};
 use super::expression::{Role, SymbolId};
-use super::frame::{Frame, MassMatrix};
+use super::frame::{DerivedFrame, MassMatrix};
 use super::print::latex_name;
 
 /// The largest in-phase block whose inverse is also written out, for formulas
@@ -23,7 +23,7 @@ pub enum Counting {
 }
 
 /// M̃ and its inverse about the in-phase motion.
-pub(super) struct Expansion {
+pub(super) struct DerivedExpansion {
     /// Indices of the means among the coordinates.
     pub(super) in_phase: Vec<usize>,
     /// Indices of the differences.
@@ -35,11 +35,11 @@ pub(super) struct Expansion {
     /// The symbols of the means' w, in the order of `in_phase`.
     pub(super) velocity_symbols: Vec<SymbolId>,
     /// The inverse of the in-phase block written out, where it is small.
-    pub(super) written_out: Option<WrittenOut>,
+    pub(super) written_out: Option<DerivedInverse>,
 }
 
 /// The inverse of the in-phase block as adjugate over determinant.
-pub(super) struct WrittenOut {
+pub(super) struct DerivedInverse {
     /// The symbol D.
     pub(super) determinant: SymbolId,
     /// D as a formula.
@@ -116,13 +116,13 @@ impl Derivation<'_> {
     /// Expands M̃ about the in-phase motion, through `order`, at least 2.
     pub(super) fn expand_mass(
         &mut self,
-        frame: &Frame,
+        frame: &DerivedFrame,
         coordinates: &[Coordinate],
         order: u32,
-    ) -> Expansion {
+    ) -> DerivedExpansion {
         let order = order.max(2);
         let (differences, in_phase): (Vec<usize>, Vec<usize>) = (0..coordinates.len())
-            .partition(|&i| matches!(coordinates[i].kind, Kind::Difference { .. }));
+            .partition(|&i| matches!(coordinates[i].kind, CoordinateKind::Difference { .. }));
         let pairs: Vec<_> = differences
             .iter()
             .map(|&d| (frame.coordinates[d], frame.momenta[d]))
@@ -150,7 +150,7 @@ impl Derivation<'_> {
             velocities[i] = Formula::symbol(id);
         }
         let written_out = self.write_out(&orders[0], &in_phase);
-        Expansion {
+        DerivedExpansion {
             in_phase,
             differences,
             orders,
@@ -160,7 +160,7 @@ impl Derivation<'_> {
         }
     }
 
-    fn write_out(&mut self, leading: &MassMatrix, in_phase: &[usize]) -> Option<WrittenOut> {
+    fn write_out(&mut self, leading: &MassMatrix, in_phase: &[usize]) -> Option<DerivedInverse> {
         if in_phase.is_empty() || in_phase.len() > WRITTEN_OUT {
             return None;
         }
@@ -174,7 +174,7 @@ impl Derivation<'_> {
             (adjugate, value.expand())
         };
         let determinant = self.symbols.intern(Role::Derived, "determinant", "D", "D");
-        Some(WrittenOut {
+        Some(DerivedInverse {
             determinant,
             determinant_value,
             adjugate,
@@ -202,7 +202,7 @@ fn series(x: &Formula, order: u32) -> (Formula, Formula) {
     (cos, sin)
 }
 
-impl Expansion {
+impl DerivedExpansion {
     /// M⁽ⁿ⁾ w.
     fn apply(&self, order: usize) -> Vec<Formula> {
         let n = self.velocities.len();
@@ -280,7 +280,10 @@ impl Expansion {
     }
 
     /// The in-phase velocities w written out, one for each mean.
-    pub(super) fn written_velocities(&self, frame: &Frame) -> Option<Vec<(SymbolId, Formula)>> {
+    pub(super) fn written_velocities(
+        &self,
+        frame: &DerivedFrame,
+    ) -> Option<Vec<(SymbolId, Formula)>> {
         let written = self.written_out.as_ref()?;
         let over_determinant = Formula::symbol(written.determinant).pow(-1);
         let rows = written.adjugate.iter().map(|row| {

@@ -4,7 +4,7 @@
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
-use super::frame::{Frame, MassMatrix};
+use super::frame::{DerivedFrame, MassMatrix};
 use super::print::latex_name;
 use crate::scene::{Link, LinkId, Offset, Quantity};
 
@@ -20,7 +20,7 @@ impl Derivation<'_> {
     /// The Lagrangian in absolute angles: the mass matrix from the velocities
     /// of the centres of mass, the potential energy from their heights, the
     /// dissipation function from the joints.
-    pub(super) fn absolute_frame(&mut self) -> Frame {
+    pub(super) fn absolute_frame(&mut self) -> DerivedFrame {
         let names: Vec<String> = self.scene.links.iter().map(|l| l.name.clone()).collect();
         let coordinates: Vec<SymbolId> = names.iter().map(|n| self.coordinate(n)).collect();
         let velocities: Vec<SymbolId> = names.iter().map(|n| self.velocity(n)).collect();
@@ -31,7 +31,7 @@ impl Derivation<'_> {
         let dissipation = self.dissipation(&velocities);
         self.drive.note_friction(&dissipation);
         let drive = self.drive_work(&coordinates);
-        Frame {
+        DerivedFrame {
             coordinates,
             velocities,
             momenta,

@@ -32,15 +32,15 @@ pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
 pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
-pub use drive::{Drive, PivotMotion, Temporal};
+pub use drive::{DriveTerms, PivotMotion, Temporal};
 pub use inverse_mass::Counting;
 pub use lock::LockError;
 pub use observables::{
-    Canonical, EnergySymbols, FunctionOf, NestedSymbols, Observable, ObservableFrame, Observables,
-    System,
+    CanonicalRate, EnergySymbols, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame,
+    Observables, System,
 };
 pub use print::{latex, text};
-pub use sectors::{Coupling, OrbitConstants, Sector, Sectors};
+pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics, SectorVariables};
 
 use crate::scene::Scene;
 use derivation::Derivation;
@@ -62,7 +62,7 @@ pub struct Constant {
 
 /// One entry of the lower triangle of a symmetric matrix.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct MatrixEntry {
     /// Row, at least `column`.
     pub row: usize,
     /// Column.
@@ -91,10 +91,10 @@ pub struct Frame {
     /// Generalized momenta.
     pub momenta: Vec<SymbolId>,
     /// Mass matrix, lower triangle without zeros, by row.
-    pub mass: Vec<Entry>,
+    pub mass: Vec<MatrixEntry>,
     /// Second derivatives of the potential energy, likewise, if modes are asked
     /// for.
-    pub stiffness: Option<Vec<Entry>>,
+    pub stiffness: Option<Vec<MatrixEntry>>,
     /// Kinetic energy in coordinates and velocities and potential energy, zero
     /// where all coordinates are zero; if energies are asked for.
     pub energies: Option<Energies>,
@@ -117,7 +117,7 @@ pub struct Frame {
 /// W split into the parts that the kinetic and the potential energy of the
 /// rest of the tree contribute.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Parts {
+pub struct TransferParts {
     /// {H_d, K − T}.
     pub kinetic: Expr,
     /// {H_d, U − V}.
@@ -128,22 +128,22 @@ pub struct Parts {
 /// coordinates and their momenta; in-phase velocities w in the truncated
 /// forms, generalized velocities in the exact one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Transfer {
+pub struct TransferFormulas {
     /// Index of the difference among the symmetric coordinates.
     pub coordinate: usize,
     /// H_d, its kinetic and its potential part.
-    pub energy: Parts,
+    pub energy: TransferParts,
     /// W to first order in the difference angles (the paper's W_K, W_P).
-    pub angle: Option<Parts>,
+    pub angle: Option<TransferParts>,
     /// W to second order in the amplitude.
-    pub amplitude: Option<Parts>,
+    pub amplitude: Option<TransferParts>,
     /// The coefficients of p_d², p_d θ_d, θ_d² in `amplitude`, if it is a
     /// quadratic form in this difference alone.
     pub quadratic_form: Option<[Expr; 3]>,
     /// W to other orders, in the order asked for.
     pub higher: Vec<Truncated>,
     /// W without truncation.
-    pub exact: Option<Parts>,
+    pub exact: Option<TransferParts>,
     /// The power of friction and drag on H_d; zero without both.
     pub friction: Expr,
     /// The power of the drive on H_d; zero without a moving pivot.
@@ -158,7 +158,7 @@ pub struct Truncated {
     /// The highest order kept.
     pub order: u32,
     /// W, in the symbols of the expansion's corrections.
-    pub parts: Parts,
+    pub parts: TransferParts,
 }
 
 /// Velocities of one order of their series.
@@ -174,13 +174,13 @@ pub struct Correction {
 
 /// The inverse mass matrix about the in-phase motion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Expansion {
+pub struct MassExpansion {
     /// Indices of the in-phase coordinates (means).
     pub in_phase: Vec<usize>,
     /// Symbols of w = M⁽⁰⁾⁻¹ p for the in-phase coordinates.
     pub velocities: Vec<SymbolId>,
     /// In-phase block of M⁽⁰⁾; rows and columns count in `in_phase`.
-    pub leading: Vec<Entry>,
+    pub leading: Vec<MatrixEntry>,
     /// Velocities of higher orders, each in terms of earlier ones.
     pub corrections: Vec<Correction>,
     /// w and the inverse mass matrix solved and written out, for small blocks.
@@ -217,7 +217,7 @@ pub struct Mechanics {
     /// Constants of the model, in the order of their symbols.
     pub constants: Vec<Constant>,
     /// The drive, if the scene has one.
-    pub drive: Option<Drive>,
+    pub drive: Option<DriveTerms>,
     /// The mechanics in absolute angles.
     pub absolute: Frame,
     /// The joints, from which their accelerations can be formed as well.
@@ -229,11 +229,11 @@ pub struct Mechanics {
     pub symmetric: Option<Frame>,
     /// The mechanics by orbits and sectors, if a budget is asked for, or
     /// symmetric coordinates of a nested tree.
-    pub sectors: Option<Sectors>,
+    pub sectors: Option<OrbitMechanics>,
     /// Expansion about the in-phase motion, if a transfer is asked for.
-    pub expansion: Option<Expansion>,
+    pub expansion: Option<MassExpansion>,
     /// Energy transfers, one for each difference, if asked for.
-    pub transfers: Vec<Transfer>,
+    pub transfers: Vec<TransferFormulas>,
     /// Quantities of the user's own with their rates.
     pub observables: Observables,
 }

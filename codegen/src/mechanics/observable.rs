@@ -4,9 +4,9 @@ use super::algebra::{AlgebraError, Formula};
 use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
-use super::frame::Frame;
+use super::frame::DerivedFrame;
 use super::print;
-use crate::scene::{Function, LinkId, Observed, Place, Variable, VariableKind};
+use crate::scene::{CoordinateIndex, Function, LinkId, Observed, Variable, VariableKind};
 
 /// Meaning of a symbol that stands for a function of an expression.
 pub(super) struct Composite {
@@ -20,7 +20,7 @@ pub(super) struct Composite {
 /// The frame in which an observable is written: the variables are those of one
 /// frame.
 pub(super) struct Setting<'a> {
-    pub(super) frame: &'a Frame,
+    pub(super) frame: &'a DerivedFrame,
     /// The symmetric coordinates, if the frame's variables are those.
     pub(super) coordinates: Option<&'a [Coordinate]>,
     /// Name of the observable.
@@ -45,9 +45,9 @@ impl Setting<'_> {
             VariableKind::Velocity => &self.frame.velocities,
             VariableKind::Momentum => &self.frame.momenta,
         };
-        let (link, coordinates) = match (variable.place, self.coordinates) {
-            (Place::Absolute(link), Some(coordinates)) => (link, coordinates),
-            (Place::Absolute(index) | Place::Symmetric(index), _) => {
+        let (link, coordinates) = match (variable.coordinate, self.coordinates) {
+            (CoordinateIndex::Absolute(link), Some(coordinates)) => (link, coordinates),
+            (CoordinateIndex::Absolute(index) | CoordinateIndex::Symmetric(index), _) => {
                 return Formula::symbol(symbols[index]);
             }
         };

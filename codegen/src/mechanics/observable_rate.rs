@@ -26,10 +26,11 @@ use super::algebra::{AlgebraError, Formula};
 use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
-use super::frame::Frame;
+use super::frame::DerivedFrame;
 use super::observable::Setting;
 use super::observables::{
-    Canonical, FunctionOf, NestedSymbols, Observable, ObservableFrame, Observables, System,
+    CanonicalRate, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame, Observables,
+    System,
 };
 use super::print::latex_name;
 use super::rate_symbols::RateSymbols;
@@ -49,8 +50,8 @@ impl Derivation<'_> {
     /// [`AlgebraError::DivisionByZero`].
     pub(super) fn observables(
         &mut self,
-        absolute: &Frame,
-        symmetric: Option<(&Frame, &[Coordinate])>,
+        absolute: &DerivedFrame,
+        symmetric: Option<(&DerivedFrame, &[Coordinate])>,
     ) -> Result<Observables, AlgebraError> {
         let scene = self.scene;
         let mut observables = Observables::default();
@@ -107,7 +108,7 @@ impl Derivation<'_> {
         setting: &Setting<'_>,
         symbols: &RateSymbols,
         value: &Formula,
-    ) -> Observable {
+    ) -> ObservableFormulas {
         let frame = setting.frame;
         let along = |derivation: &Self, symbols: &[SymbolId]| -> Vec<Formula> {
             symbols
@@ -129,7 +130,7 @@ impl Derivation<'_> {
             true => &torque + &dot(&gradients.velocities, &symbols.friction_accelerations),
             false => torque,
         };
-        Observable {
+        ObservableFormulas {
             name: setting.name.to_owned(),
             symmetric: setting.coordinates.is_some(),
             value: self.expr(value),
@@ -149,7 +150,7 @@ impl Derivation<'_> {
         setting: &Setting<'_>,
         symbols: &RateSymbols,
         gradients: &Gradients,
-    ) -> Canonical {
+    ) -> CanonicalRate {
         let frame = setting.frame;
         let moving = gradients.velocities.iter().any(|slope| !slope.is_zero());
         let adjoint: Vec<SymbolId> = match moving {
@@ -173,7 +174,7 @@ impl Derivation<'_> {
             dot(&opposite(&unknowns), &symbols.changes),
             symbols.torque(&momenta),
         ];
-        Canonical {
+        CanonicalRate {
             rate: self.expr(&rate.into_iter().sum()),
             adjoint: moving.then(|| System {
                 unknowns: adjoint,
@@ -185,9 +186,9 @@ impl Derivation<'_> {
     /// Symbols and definitions that the observables of a frame refer to.
     fn observable_frame(
         &self,
-        frame: &Frame,
+        frame: &DerivedFrame,
         symbols: &RateSymbols,
-        list: &[Observable],
+        list: &[ObservableFormulas],
     ) -> ObservableFrame {
         let mut used = BTreeSet::new();
         let mut note = |symbol| {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observables {
     /// In the order of the description.
-    pub list: Vec<Observable>,
+    pub list: Vec<ObservableFormulas>,
     /// Functions of whole expressions; arguments hold earlier ones only.
     pub functions: BTreeMap<SymbolId, FunctionOf>,
     /// Quantities that the observables in absolute angles use.
@@ -28,7 +28,7 @@ pub struct FunctionOf {
 
 /// An observable with its rates of change.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Observable {
+pub struct ObservableFormulas {
     /// Its name.
     pub name: String,
     /// True if its variables are the symmetric ones.
@@ -40,12 +40,12 @@ pub struct Observable {
     /// The part of it that is friction and drag.
     pub friction: Expr,
     /// dF/dt by the Poisson bracket, if momenta are asked for.
-    pub canonical: Option<Canonical>,
+    pub canonical: Option<CanonicalRate>,
 }
 
 /// A rate from coordinates and momenta.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Canonical {
+pub struct CanonicalRate {
     /// {F, H} and the part of friction, with the unknowns y of `adjoint`.
     pub rate: Expr,
     /// M y = ∂F/∂v, if velocities occur in F.

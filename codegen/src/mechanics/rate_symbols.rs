@@ -4,7 +4,7 @@ use super::algebra::Formula;
 use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
-use super::frame::Frame;
+use super::frame::DerivedFrame;
 use super::observables::EnergySymbols;
 use super::print::latex_name;
 use crate::scene::LinkId;
@@ -28,7 +28,7 @@ pub(super) struct RateSymbols {
 impl Derivation<'_> {
     /// K and U of a frame of which symbols alone are derived, with their
     /// derivatives.
-    pub(super) fn energies(&mut self, frame: &Frame) -> EnergySymbols {
+    pub(super) fn energies(&mut self, frame: &DerivedFrame) -> EnergySymbols {
         if let Some(known) = &self.energies {
             return known.clone();
         }
@@ -66,11 +66,11 @@ impl Derivation<'_> {
 
     pub(super) fn rate_symbols(
         &mut self,
-        absolute: &Frame,
-        frame: &Frame,
+        absolute: &DerivedFrame,
+        frame: &DerivedFrame,
         coordinates: Option<&[Coordinate]>,
     ) -> RateSymbols {
-        let resisted = |frame: &Frame, index: usize| {
+        let resisted = |frame: &DerivedFrame, index: usize| {
             let velocity = frame.velocities[index];
             !frame.dissipation.derivative(velocity).expand().is_zero()
         };
@@ -134,7 +134,7 @@ impl Derivation<'_> {
     /// One symbol for each coordinate of a frame.
     pub(super) fn indexed_symbols(
         &mut self,
-        frame: &Frame,
+        frame: &DerivedFrame,
         role: Role,
         code: &str,
         text: impl Fn(&str) -> String,

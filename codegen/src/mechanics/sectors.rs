@@ -10,7 +10,7 @@ use super::algebra::Formula;
 use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::Expr;
-use super::frame::Frame;
+use super::frame::DerivedFrame;
 use crate::scene::{LinkId, Offset};
 
 /// Constants of the links of one orbit; each is an expression in named
@@ -45,7 +45,7 @@ pub struct OrbitConstants {
 /// Entry of the mass matrix between the links of an orbit and those of an
 /// ancestor's: cosine · cos(θ_row − θ_column) + sine · sin(θ_row − θ_column).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coupling {
+pub struct OrbitCoupling {
     /// Orbit of the descendants.
     pub row: usize,
     /// Orbit of the ancestors.
@@ -59,40 +59,43 @@ pub struct Coupling {
 /// A sector: the variables that block of the mass matrix couples which belongs
 /// to one branching and one difference, or to all means.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Sector {
+pub struct SectorVariables {
     /// `in_phase`, or the name of its uppermost coordinate.
     pub name: String,
     /// Group and number of the difference; `None` for the means.
-    pub place: Option<(usize, usize)>,
+    pub difference: Option<(usize, usize)>,
     /// Indices of its symmetric coordinates, from the root outwards.
     pub coordinates: Vec<usize>,
 }
 
 /// The mechanics of a scene by orbits.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sectors {
+pub struct OrbitMechanics {
     /// Constants of each orbit of the scene, in its order.
     pub orbits: Vec<OrbitConstants>,
     /// Couplings of orbits to those above them, none of them zero.
-    pub couplings: Vec<Coupling>,
+    pub couplings: Vec<OrbitCoupling>,
     /// The sectors: the in-phase one, then the differences, outer branchings
     /// first.
-    pub sectors: Vec<Sector>,
+    pub sectors: Vec<SectorVariables>,
 }
 
 /// The sectors of a set of symmetric coordinates.
-pub fn sectors(coordinates: &[Coordinate]) -> Vec<Sector> {
-    let mut sectors: Vec<Sector> = Vec::new();
+pub fn sectors(coordinates: &[Coordinate]) -> Vec<SectorVariables> {
+    let mut sectors: Vec<SectorVariables> = Vec::new();
     for (index, coordinate) in coordinates.iter().enumerate() {
-        let (_, place) = coordinate.kind.place();
-        match sectors.iter_mut().find(|sector| sector.place == place) {
+        let (_, difference) = coordinate.kind.orbit_and_difference();
+        match sectors
+            .iter_mut()
+            .find(|sector| sector.difference == difference)
+        {
             Some(sector) => sector.coordinates.push(index),
-            None => sectors.push(Sector {
-                name: match place {
+            None => sectors.push(SectorVariables {
+                name: match difference {
                     None => "in_phase".to_owned(),
                     Some(_) => coordinate.name.clone(),
                 },
-                place,
+                difference,
                 coordinates: vec![index],
             }),
         }
@@ -103,7 +106,11 @@ pub fn sectors(coordinates: &[Coordinate]) -> Vec<Sector> {
 impl Derivation<'_> {
     /// Reads the constants of each orbit out of the Lagrangian of the absolute
     /// angles; one link stands for all of its orbit.
-    pub(super) fn sectors(&self, frame: &Frame, coordinates: &[Coordinate]) -> Sectors {
+    pub(super) fn sectors(
+        &self,
+        frame: &DerivedFrame,
+        coordinates: &[Coordinate],
+    ) -> OrbitMechanics {
         let scene = self.scene;
         let mut orbits = Vec::new();
         let mut couplings = Vec::new();
@@ -145,7 +152,7 @@ impl Derivation<'_> {
                 let entry = frame.mass.get(index, ancestor);
                 if !entry.is_zero() {
                     let (cos, sin) = self.known_between(angle, frame.coordinates[ancestor]);
-                    couplings.push(Coupling {
+                    couplings.push(OrbitCoupling {
                         row,
                         column: scene.links[ancestor].orbit.0,
                         cosine: expr(entry.derivative(cos)),
@@ -155,7 +162,7 @@ impl Derivation<'_> {
                 above = scene.links[ancestor].parent;
             }
         }
-        Sectors {
+        OrbitMechanics {
             orbits,
             couplings,
             sectors: sectors(coordinates),

@@ -10,13 +10,13 @@ use super::algebra::Formula;
 use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
-use super::frame::Frame;
-use super::inverse_mass::{Counting, Expansion};
+use super::frame::DerivedFrame;
+use super::inverse_mass::{Counting, DerivedExpansion};
 use super::print::latex_name;
-use super::transfer::{Parts, SubHamiltonian};
+use super::transfer::{DerivedParts, SubHamiltonian};
 
 /// Velocities of one order as symbols, and what defines them.
-pub(super) struct Correction {
+pub(super) struct DerivedCorrection {
     /// In-phase velocities, in the order of the means.
     pub(super) in_phase: Vec<SymbolId>,
     /// M⁽⁰⁾ x = right defines them.
@@ -26,9 +26,9 @@ pub(super) struct Correction {
 }
 
 /// The velocities as a series in ε, in the symbols of `corrections`.
-pub(super) struct Series {
+pub(super) struct VelocitySeries {
     pub(super) counting: Counting,
-    pub(super) corrections: Vec<Correction>,
+    pub(super) corrections: Vec<DerivedCorrection>,
     /// q̇⁽ⁿ⁾ by order and coordinate.
     orders: Vec<Vec<Formula>>,
 }
@@ -37,14 +37,14 @@ impl Derivation<'_> {
     /// The series of the velocities through `order`.
     pub(super) fn velocity_series(
         &mut self,
-        frame: &Frame,
+        frame: &DerivedFrame,
         coordinates: &[Coordinate],
-        expansion: &Expansion,
+        expansion: &DerivedExpansion,
         counting: Counting,
         order: u32,
-    ) -> Series {
+    ) -> VelocitySeries {
         let n = coordinates.len();
-        let mut series = Series {
+        let mut series = VelocitySeries {
             counting,
             corrections: Vec::new(),
             orders: Vec::new(),
@@ -73,13 +73,13 @@ impl Derivation<'_> {
     fn solve_order(
         &mut self,
         coordinates: &[Coordinate],
-        expansion: &Expansion,
-        series: &mut Series,
+        expansion: &DerivedExpansion,
+        series: &mut VelocitySeries,
         level: usize,
         right: Vec<Formula>,
     ) -> Vec<Formula> {
         let mut velocities = vec![Formula::zero(); coordinates.len()];
-        let mut correction = Correction {
+        let mut correction = DerivedCorrection {
             in_phase: Vec::new(),
             right: Vec::new(),
             differences: Vec::new(),
@@ -134,12 +134,12 @@ impl Derivation<'_> {
     /// then, so that ∂K/∂q counts one order less.
     pub(super) fn series_transfer(
         &mut self,
-        frame: &Frame,
-        expansion: &Expansion,
+        frame: &DerivedFrame,
+        expansion: &DerivedExpansion,
         energy: &SubHamiltonian,
-        series: &Series,
+        series: &VelocitySeries,
         order: u32,
-    ) -> Parts {
+    ) -> DerivedParts {
         let pairs = Self::difference_pairs(frame, expansion);
         let kinetic_gradient = frame.kinetic_gradient(self);
         let potential_gradient = frame.potential_gradient(self);
@@ -168,19 +168,19 @@ impl Derivation<'_> {
         };
         let kinetic = &cut(exchange.into_iter().sum(), order) + &cut(drive, before);
         let potential = cut(potential.into_iter().sum(), order);
-        Parts {
+        DerivedParts {
             kinetic: kinetic.expand(),
             potential,
         }
     }
 }
 
-impl Series {
+impl VelocitySeries {
     /// Velocity symbols → Σ εⁿ q̇⁽ⁿ⁾.
     fn replacements(
         &self,
         derivation: &mut Derivation<'_>,
-        frame: &Frame,
+        frame: &DerivedFrame,
         order: u32,
     ) -> Vec<(SymbolId, Formula)> {
         let epsilon = Formula::symbol(derivation.epsilon());

@@ -1,8 +1,11 @@
 //! A scene's mechanics as text, for `expand --stage mechanics`.
 
-use super::coordinates::Kind;
+use super::coordinates::CoordinateKind;
 use super::expression::{Expr, SymbolId};
-use super::{Counting, Drive, Entry, Frame, Mechanics, Parts, Sectors, Temporal, text};
+use super::{
+    Counting, DriveTerms, Frame, MatrixEntry, Mechanics, OrbitMechanics, Temporal, TransferParts,
+    text,
+};
 use std::fmt;
 
 impl fmt::Display for Mechanics {
@@ -100,7 +103,12 @@ impl Mechanics {
         writeln!(f, "  {left} = {}", self.text(right))
     }
 
-    fn matrix(&self, f: &mut fmt::Formatter<'_>, name: &str, entries: &[Entry]) -> fmt::Result {
+    fn matrix(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        name: &str,
+        entries: &[MatrixEntry],
+    ) -> fmt::Result {
         entries.iter().try_for_each(|entry| {
             let left = format!("{name}[{}, {}]", entry.row + 1, entry.column + 1);
             self.line(f, &left, &entry.value)
@@ -141,7 +149,7 @@ impl Mechanics {
         }
     }
 
-    fn drive(&self, f: &mut fmt::Formatter<'_>, drive: &Drive) -> fmt::Result {
+    fn drive(&self, f: &mut fmt::Formatter<'_>, drive: &DriveTerms) -> fmt::Result {
         writeln!(f, "drive")?;
         for motion in &drive.pivot {
             self.line(f, motion.name, &motion.position)?;
@@ -164,8 +172,8 @@ impl Mechanics {
     fn coordinates(&self, f: &mut fmt::Formatter<'_>, frame: &Frame) -> fmt::Result {
         for (&symbol, coordinate) in frame.coordinates.iter().zip(&self.coordinates) {
             let kind = match coordinate.kind {
-                Kind::Mean { .. } => "mean",
-                Kind::Difference { .. } => "difference",
+                CoordinateKind::Mean { .. } => "mean",
+                CoordinateKind::Difference { .. } => "difference",
             };
             let weights: Vec<String> = coordinate
                 .weights
@@ -221,7 +229,12 @@ impl Mechanics {
         Ok(())
     }
 
-    fn parts(&self, f: &mut fmt::Formatter<'_>, name: &str, parts: &Option<Parts>) -> fmt::Result {
+    fn parts(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        name: &str,
+        parts: &Option<TransferParts>,
+    ) -> fmt::Result {
         match parts {
             Some(parts) => {
                 self.line(f, &format!("W_K, {name}"), &parts.kinetic)?;
@@ -232,7 +245,7 @@ impl Mechanics {
     }
 
     /// The sectors, and their blocks of the mass matrix at the in-phase motion.
-    fn sectors(&self, f: &mut fmt::Formatter<'_>, sectors: &Sectors) -> fmt::Result {
+    fn sectors(&self, f: &mut fmt::Formatter<'_>, sectors: &OrbitMechanics) -> fmt::Result {
         for sector in &sectors.sectors {
             writeln!(
                 f,
@@ -240,10 +253,11 @@ impl Mechanics {
                 sector.name,
                 sector.coordinates.len()
             )?;
-            let orbit = |coordinate: usize| self.coordinates[coordinate].kind.place().0;
+            let orbit =
+                |coordinate: usize| self.coordinates[coordinate].kind.orbit_and_difference().0;
             let mean = |wanted: usize| {
                 let mut means = self.coordinates.iter();
-                let found = means.find(|c| c.kind.place() == (wanted, None));
+                let found = means.find(|c| c.kind.orbit_and_difference() == (wanted, None));
                 found.map_or("", |coordinate| coordinate.name.as_str())
             };
             for (place, &row) in sector.coordinates.iter().enumerate() {

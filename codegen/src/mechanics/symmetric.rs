@@ -2,10 +2,10 @@
 //! the absolute one.
 
 use super::algebra::Formula;
-use super::coordinates::{Coordinate, Kind};
+use super::coordinates::{Coordinate, CoordinateKind};
 use super::derivation::Derivation;
 use super::expression::SymbolId;
-use super::frame::{Frame, MassMatrix};
+use super::frame::{DerivedFrame, MassMatrix};
 use crate::scene::{Group, LinkId};
 use std::collections::BTreeMap;
 
@@ -44,9 +44,9 @@ impl Derivation<'_> {
     /// θ = J q into the absolute one: M̃ = Jᵀ M J.
     pub(super) fn symmetric_frame(
         &mut self,
-        absolute: &Frame,
+        absolute: &DerivedFrame,
         coordinates: &[Coordinate],
-    ) -> Frame {
+    ) -> DerivedFrame {
         let ids: Vec<SymbolId> = coordinates
             .iter()
             .map(|c| self.coordinate(&c.name))
@@ -62,7 +62,7 @@ impl Derivation<'_> {
             }
         }
         for (coordinate, &id) in coordinates.iter().zip(&ids) {
-            if let Kind::Difference { group, .. } = coordinate.kind {
+            if let CoordinateKind::Difference { group, .. } = coordinate.kind {
                 self.groups_of.insert(id, group);
             }
         }
@@ -104,7 +104,7 @@ impl Derivation<'_> {
             .iter()
             .map(|(angle, value)| &absolute.drive.derivative(*angle) * value)
             .sum();
-        Frame {
+        DerivedFrame {
             mass: mass.map(|_, _, sum| sum.expand()),
             potential: &gravity + &springs,
             springs,
@@ -123,7 +123,7 @@ impl Derivation<'_> {
     /// mass matrix holds, in the new coordinates.
     fn substitution(
         &mut self,
-        absolute: &Frame,
+        absolute: &DerivedFrame,
         ids: &[SymbolId],
         rows: &[Vec<(usize, i64)>],
     ) -> Vec<(SymbolId, Formula)> {
@@ -266,7 +266,7 @@ impl Derivation<'_> {
     /// stays one.
     fn symmetric_sum(
         &self,
-        absolute: &Frame,
+        absolute: &DerivedFrame,
         sum: &Formula,
         replacements: &[(SymbolId, Formula)],
     ) -> Formula {

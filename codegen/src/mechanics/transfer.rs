@@ -2,17 +2,17 @@
 //! (physics §5).
 
 use super::algebra::Formula;
-use super::coordinates::{Coordinate, Kind};
+use super::coordinates::{Coordinate, CoordinateKind};
 use super::derivation::Derivation;
 use super::expression::SymbolId;
-use super::frame::Frame;
-use super::inverse_mass::{Counting, Expansion};
+use super::frame::DerivedFrame;
+use super::inverse_mass::{Counting, DerivedExpansion};
 use crate::scene::LinkId;
 
 /// W split into what the kinetic and what the potential energy of the rest of
 /// the tree do.
 #[derive(Clone)]
-pub(super) struct Parts {
+pub(super) struct DerivedParts {
     pub(super) kinetic: Formula,
     pub(super) potential: Formula,
 }
@@ -33,12 +33,12 @@ impl Derivation<'_> {
     /// spring in the pivots adds its own ½ κ n θ_d².
     pub(super) fn sub_hamiltonian(
         &mut self,
-        frame: &Frame,
+        frame: &DerivedFrame,
         coordinates: &[Coordinate],
-        expansion: &Expansion,
+        expansion: &DerivedExpansion,
         coordinate: usize,
     ) -> SubHamiltonian {
-        let Kind::Difference { norm, orbit, .. } = coordinates[coordinate].kind else {
+        let CoordinateKind::Difference { norm, orbit, .. } = coordinates[coordinate].kind else {
             unreachable!("sub-Hamiltonians belong to differences");
         };
         let momentum = Formula::symbol(frame.momenta[coordinate]);
@@ -77,14 +77,14 @@ impl Derivation<'_> {
     /// cos and sin of θ_link − θ_mean: the differences' share of an angle.
     fn relative_rotation(
         &mut self,
-        frame: &Frame,
+        frame: &DerivedFrame,
         coordinates: &[Coordinate],
         link: LinkId,
     ) -> (Formula, Formula) {
         let share: Vec<(SymbolId, i64)> = coordinates
             .iter()
             .zip(&frame.coordinates)
-            .filter(|(coordinate, _)| matches!(coordinate.kind, Kind::Difference { .. }))
+            .filter(|(coordinate, _)| matches!(coordinate.kind, CoordinateKind::Difference { .. }))
             .filter_map(|(coordinate, &id)| {
                 let weight = coordinate.weights.iter().find(|(l, _)| *l == link)?.1;
                 Some((id, weight))
@@ -98,7 +98,7 @@ impl Derivation<'_> {
     pub(super) fn reduce(
         &self,
         formula: &Formula,
-        frame: &Frame,
+        frame: &DerivedFrame,
         coordinates: &[usize],
     ) -> Formula {
         let mut reduced = formula.expand();
@@ -121,8 +121,8 @@ impl Derivation<'_> {
 
     /// The canonical pairs of the differences.
     pub(super) fn difference_pairs(
-        frame: &Frame,
-        expansion: &Expansion,
+        frame: &DerivedFrame,
+        expansion: &DerivedExpansion,
     ) -> Vec<(SymbolId, SymbolId)> {
         expansion
             .differences
@@ -136,10 +136,10 @@ impl Derivation<'_> {
     /// cut off at that order.
     pub(super) fn angle_transfer(
         &mut self,
-        frame: &Frame,
-        expansion: &Expansion,
+        frame: &DerivedFrame,
+        expansion: &DerivedExpansion,
         energy: &SubHamiltonian,
-    ) -> Parts {
+    ) -> DerivedParts {
         let kinetic = expansion.first_order();
         self.truncated(frame, expansion, energy, &kinetic, Counting::Angle, 1)
     }
@@ -148,23 +148,23 @@ impl Derivation<'_> {
     /// differences and their momenta.
     pub(super) fn amplitude_transfer(
         &mut self,
-        frame: &Frame,
-        expansion: &Expansion,
+        frame: &DerivedFrame,
+        expansion: &DerivedExpansion,
         energy: &SubHamiltonian,
-    ) -> Parts {
+    ) -> DerivedParts {
         let kinetic = expansion.second_order_in_amplitude();
         self.truncated(frame, expansion, energy, &kinetic, Counting::Amplitude, 2)
     }
 
     fn truncated(
         &mut self,
-        frame: &Frame,
-        expansion: &Expansion,
+        frame: &DerivedFrame,
+        expansion: &DerivedExpansion,
         energy: &SubHamiltonian,
         kinetic: &Formula,
         counting: Counting,
         order: u32,
-    ) -> Parts {
+    ) -> DerivedParts {
         let pairs = Self::difference_pairs(frame, expansion);
         let whole = &energy.kinetic + &energy.potential;
         // K − T: the leading kinetic energy of the differences is Σ T, of
@@ -178,14 +178,19 @@ impl Derivation<'_> {
             let parts = self.orders(&formula, &pairs, counting, order);
             parts.into_iter().sum::<Formula>().expand()
         };
-        Parts {
+        DerivedParts {
             kinetic: cut(&from_kinetic + &from_others),
             potential: cut(from_potential),
         }
     }
 
     /// Σ p_s²/(2 M_ss) over the differences other than `coordinate`.
-    fn other_kinetic(&self, frame: &Frame, expansion: &Expansion, coordinate: usize) -> Formula {
+    fn other_kinetic(
+        &self,
+        frame: &DerivedFrame,
+        expansion: &DerivedExpansion,
+        coordinate: usize,
+    ) -> Formula {
         expansion
             .differences
             .iter()
@@ -203,10 +208,10 @@ impl Derivation<'_> {
     /// part: {H_d, U − V}. Conservative: what friction takes is separate.
     pub(super) fn exact_transfer(
         &mut self,
-        frame: &Frame,
-        expansion: &Expansion,
+        frame: &DerivedFrame,
+        expansion: &DerivedExpansion,
         energy: &SubHamiltonian,
-    ) -> Parts {
+    ) -> DerivedParts {
         let kinetic_gradient = frame.kinetic_gradient(self);
         let potential_gradient = frame.potential_gradient(self);
         let mut kinetic = Vec::new();
@@ -224,14 +229,14 @@ impl Derivation<'_> {
             let sum = terms.into_iter().sum::<Formula>();
             self.reduce(&sum, frame, &expansion.differences)
         };
-        Parts {
+        DerivedParts {
             kinetic: short(kinetic),
             potential: short(potential),
         }
     }
 
     /// The power of friction on H_d: Σ ∂H_d/∂p_s Q_s, Q = −∂R/∂q̇.
-    pub(super) fn friction_power(&self, frame: &Frame, energy: &SubHamiltonian) -> Formula {
+    pub(super) fn friction_power(&self, frame: &DerivedFrame, energy: &SubHamiltonian) -> Formula {
         let s = energy.coordinate;
         let velocity = energy.kinetic.derivative(frame.momenta[s]);
         let torque = -frame.dissipation.derivative(frame.velocities[s]);
@@ -240,7 +245,7 @@ impl Derivation<'_> {
 
     /// The power of the drive on H_d: Σ ∂H_d/∂p_s Q_s. A torque on the root
     /// acts on no difference.
-    pub(super) fn drive_power(&self, frame: &Frame, energy: &SubHamiltonian) -> Formula {
+    pub(super) fn drive_power(&self, frame: &DerivedFrame, energy: &SubHamiltonian) -> Formula {
         let s = energy.coordinate;
         let velocity = energy.kinetic.derivative(frame.momenta[s]);
         (&velocity * &frame.drive_forces(self)[s]).expand()

@@ -5,7 +5,7 @@
 //! cos(a − b) = cos a cos b + sin a sin b is accurate to two roundings of its terms, as
 //! large as one, so to some 10⁻¹⁶ absolutely; sin(a − b) as well, and it is exactly zero for
 //! a = b. Where differences of copies are small and matter, versines of half angles
-//! are formed instead (`turns.rs`).
+//! are formed instead (`rotations.rs`).
 //!
 //! # Cost
 //! One sine and cosine a link instead of one for each pair of related links; four products and

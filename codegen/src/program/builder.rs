@@ -1,7 +1,7 @@
 //! Builds a program value by value; [`RULES`] say what becomes of an operation.
 
 use super::rules::RULES;
-use super::rules::sharing::Known;
+use super::rules::sharing::KnownOperations;
 use super::{Choice, ConstantId, ConstantOp, Definition, Entry, Op, Pass, Program, Setup, ValueId};
 use crate::exact::Rational;
 use crate::scene::Scene;
@@ -10,7 +10,7 @@ use crate::scene::Scene;
 #[derive(Clone, Default)]
 pub(super) struct Builder {
     pub(super) definitions: Vec<Definition>,
-    known: Known,
+    known: KnownOperations,
     pub(super) setup: Setup,
     /// The pass that is left out, for comparison.
     pub(super) off: Option<Pass>,

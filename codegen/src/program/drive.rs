@@ -4,7 +4,7 @@ use super::entries::EntryList;
 use super::lower::{Door, Lowering};
 use super::{Argument, Purpose, Shape, ValueId};
 use crate::mechanics::expression::SymbolId;
-use crate::mechanics::{Drive, Mechanics, Temporal};
+use crate::mechanics::{DriveTerms, Mechanics, Temporal};
 
 impl Lowering<'_> {
     /// The value of a symbol that depends on time alone.
@@ -45,7 +45,7 @@ impl EntryList<'_, '_> {
 
     /// The drive as a function of time alone: acceleration of the root's pivot,
     /// torque on the root. What is not given is zero.
-    pub(super) fn drive(&mut self, mechanics: &Mechanics, drive: &Drive) {
+    pub(super) fn drive(&mut self, mechanics: &Mechanics, drive: &DriveTerms) {
         let mut door = Door::new(&mechanics.absolute, Argument::Theta, None, None);
         let along = |axis: &str| {
             let motion = drive.pivot.iter().find(|motion| motion.name == axis);
@@ -65,7 +65,7 @@ impl EntryList<'_, '_> {
     }
 
     /// The powers of drive and friction, which balance the energy.
-    pub(super) fn powers(&mut self, door: &mut Door<'_>, drive: &Drive) {
+    pub(super) fn powers(&mut self, door: &mut Door<'_>, drive: &DriveTerms) {
         use Argument::{Omega, Theta, Time};
         if let Some(power) = &drive.power {
             let power = self.lowering.expr(door, power);

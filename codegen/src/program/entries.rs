@@ -2,9 +2,9 @@
 
 use super::lower::{Door, Lowering};
 use super::{Argument, Choice, Entry, Purpose, Shape, ValueId};
-use crate::mechanics::coordinates::Kind;
+use crate::mechanics::coordinates::CoordinateKind;
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Counting, Entry as MatrixEntry, Frame, Mechanics, Parts, Transfer};
+use crate::mechanics::{Counting, Frame, MatrixEntry, Mechanics, TransferFormulas, TransferParts};
 use crate::scene::{LinkId, Scene};
 
 pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> (Vec<Entry>, Choice) {
@@ -268,13 +268,13 @@ impl EntryList<'_, '_> {
         mechanics: &Mechanics,
         frame: &Frame,
         number: usize,
-        transfer: &Transfer,
+        transfer: &TransferFormulas,
     ) {
         use Argument::{Coordinates, Momenta, Rates};
         let several = mechanics
             .coordinates
             .iter()
-            .filter(|c| matches!(c.kind, Kind::Difference { .. }))
+            .filter(|c| matches!(c.kind, CoordinateKind::Difference { .. }))
             .count()
             > 1;
         let place = if several {
@@ -379,7 +379,7 @@ impl EntryList<'_, '_> {
         }
     }
 
-    fn parts(&mut self, door: &mut Door<'_>, parts: &Parts) -> Vec<ValueId> {
+    fn parts(&mut self, door: &mut Door<'_>, parts: &TransferParts) -> Vec<ValueId> {
         let kinetic = self.lowering.expr(door, &parts.kinetic);
         let potential = self.lowering.expr(door, &parts.potential);
         vec![kinetic, potential]

@@ -7,7 +7,7 @@ use super::symmetric::{
 };
 use super::{Argument, ValueId};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Counting, Mechanics, Sectors};
+use crate::mechanics::{Counting, Mechanics, OrbitMechanics};
 use crate::scene::{LinkId, Scene};
 
 /// Form of the state that an entry point receives.
@@ -41,7 +41,7 @@ pub(super) fn symmetric_tree<'b>(
 }
 
 /// The constants as values of the program.
-pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &Sectors) -> ConstantValues {
+pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> ConstantValues {
     let mut door = Door::new(
         &lowering.mechanics.absolute,
         Argument::Theta,
@@ -117,7 +117,7 @@ pub(super) fn motion(
                 let mut fields = tree.zeros();
                 for (index, coordinate) in mechanics.coordinates.iter().enumerate() {
                     let value = tree.series.builder.input(argument, index);
-                    let (orbit, sector) = coordinate.kind.place();
+                    let (orbit, sector) = coordinate.kind.orbit_and_difference();
                     let field = &mut fields[orbit];
                     let value = match sector {
                         Some(id) if is_small(&id) => tree.series.small(value),

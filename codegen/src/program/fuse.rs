@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A sum with a product in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Fused {
+pub struct FusedSum {
     /// The product.
     pub product: ValueId,
     /// True if the product is subtracted.
@@ -30,7 +30,7 @@ impl Program {
     /// The fused sums of an entry point, which are those of accelerations: other
     /// functions run in plain numbers. Linear in the program's length, times a
     /// logarithm.
-    pub fn fused(&self, entry: &Entry) -> BTreeMap<ValueId, Fused> {
+    pub fn fused(&self, entry: &Entry) -> BTreeMap<ValueId, FusedSum> {
         if entry.purpose != Purpose::Accelerations || self.without == Some(Pass::Fusing) {
             return BTreeMap::new();
         }
@@ -63,7 +63,7 @@ impl Program {
     }
 
     /// The fused sums, if the products in `kept` are formed alone.
-    fn sums(&self, needed: &[ValueId], kept: &BTreeSet<ValueId>) -> BTreeMap<ValueId, Fused> {
+    fn sums(&self, needed: &[ValueId], kept: &BTreeSet<ValueId>) -> BTreeMap<ValueId, FusedSum> {
         let free = |id: ValueId| self.is_product(id) && !kept.contains(&id);
         let fused = |id: ValueId| {
             let (a, b, minus) = match self.definition(id).op {
@@ -74,14 +74,14 @@ impl Program {
             if a == b {
                 None
             } else if free(b) {
-                Some(Fused {
+                Some(FusedSum {
                     product: b,
                     minus_product: minus,
                     addend: a,
                     minus_addend: false,
                 })
             } else if free(a) {
-                Some(Fused {
+                Some(FusedSum {
                     product: a,
                     minus_product: false,
                     addend: b,

@@ -9,7 +9,7 @@ use super::constants::ConstantId;
 use super::solve::Matrix;
 use super::{Argument, ValueId};
 use crate::mechanics::expression::{Expr, Role, SymbolId};
-use crate::mechanics::{Entry as MatrixEntry, Expansion, Frame, Mechanics, ObservableFrame};
+use crate::mechanics::{Frame, MassExpansion, MatrixEntry, Mechanics, ObservableFrame};
 use std::collections::BTreeMap;
 
 /// Lowering in progress.
@@ -179,7 +179,7 @@ impl<'a> Lowering<'a> {
     fn solve_in_phase(
         &mut self,
         door: &mut Door<'_>,
-        expansion: &Expansion,
+        expansion: &MassExpansion,
         symbols: &[SymbolId],
         right: Vec<ValueId>,
     ) -> Vec<ValueId> {

@@ -27,6 +27,7 @@ mod pair;
 mod passes;
 mod rebuild;
 mod recursion;
+mod rotations;
 mod rules;
 mod scale;
 mod sectors;
@@ -35,17 +36,16 @@ mod symmetric;
 mod taylor;
 mod terms;
 mod text;
-mod turns;
 mod verify;
 
 pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
-pub use fuse::Fused;
+pub use fuse::FusedSum;
 use passes::PASSES;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
-pub use taylor::Expansion;
+pub use taylor::TaylorOutputs;
 pub use verify::Fault;
 
 use crate::exact::Rational;

@@ -8,7 +8,7 @@ use super::lower::{Door, Lowering};
 use super::sectors::by_coordinate;
 use super::symmetric::{ConstantValues, Fields, MassFactors, OrbitLinks, SymmetricTree, orbits};
 use crate::mechanics::expression::SymbolId;
-use crate::mechanics::{ObservableFrame, Sectors, System};
+use crate::mechanics::{ObservableFrame, OrbitMechanics, System};
 use crate::scene::Scene;
 
 /// A nested tree on which observables are formed.
@@ -21,7 +21,11 @@ pub(super) struct NestedObservables<'s> {
 }
 
 impl<'s> NestedObservables<'s> {
-    pub(super) fn new(lowering: &mut Lowering<'_>, scene: &'s Scene, sectors: &Sectors) -> Self {
+    pub(super) fn new(
+        lowering: &mut Lowering<'_>,
+        scene: &'s Scene,
+        sectors: &OrbitMechanics,
+    ) -> Self {
         let mechanics = lowering.mechanics;
         let orbits = orbits(scene, &mechanics.coordinates);
         let values = values(lowering, sectors);
@@ -107,7 +111,7 @@ impl<'s> NestedObservables<'s> {
         let mut momenta = tree.zeros();
         for (coordinate, &value) in mechanics.coordinates.iter().zip(&right) {
             if !tree.series.builder.is(value, 0) {
-                let (orbit, sector) = coordinate.kind.place();
+                let (orbit, sector) = coordinate.kind.orbit_and_difference();
                 let value = tree.series.value(value);
                 momenta[orbit].set(sector, value);
             }

@@ -8,13 +8,13 @@ use super::symmetric::{
     TruncatedSeries, orbits,
 };
 use super::{Argument, EnergyDefinition, Purpose, Shape, ValueId};
-use crate::mechanics::{Counting, Mechanics, Sectors};
+use crate::mechanics::{Counting, Mechanics, OrbitMechanics};
 use crate::scene::{BudgetRequest, Scene};
 
 impl EntryList<'_, '_> {
     /// Motion and momenta in symmetric coordinates, as [`EntryList::symmetric`]
     /// gives them for flat trees.
-    pub(super) fn symmetric_of_nested(&mut self, scene: &Scene, sectors: &Sectors) {
+    pub(super) fn symmetric_of_nested(&mut self, scene: &Scene, sectors: &OrbitMechanics) {
         use Argument::{Coordinates, Momenta, Rates};
         let mechanics = self.lowering.mechanics;
         let orbits = orbits(scene, &mechanics.coordinates);
@@ -91,7 +91,12 @@ impl EntryList<'_, '_> {
 
     /// Budgets of the sectors, from absolute angles and, where those are asked
     /// for, from symmetric coordinates.
-    pub(super) fn budgets(&mut self, scene: &Scene, sectors: &Sectors, request: &BudgetRequest) {
+    pub(super) fn budgets(
+        &mut self,
+        scene: &Scene,
+        sectors: &OrbitMechanics,
+        request: &BudgetRequest,
+    ) {
         let mut states = vec![EntryState::Absolute];
         if scene.requests.symmetric {
             states.push(EntryState::Rates);
@@ -110,7 +115,7 @@ impl EntryList<'_, '_> {
     fn exact_budgets(
         &mut self,
         scene: &Scene,
-        sectors: &Sectors,
+        sectors: &OrbitMechanics,
         request: &BudgetRequest,
         state: EntryState,
     ) {
@@ -119,7 +124,11 @@ impl EntryList<'_, '_> {
         let values = values(self.lowering, sectors);
         let mut tree = symmetric_tree(self.lowering, &orbits, None);
         let motion = motion(&mut tree, scene, mechanics, &values, state);
-        let ids: Vec<SectorId> = sectors.sectors.iter().map(|sector| sector.place).collect();
+        let ids: Vec<SectorId> = sectors
+            .sectors
+            .iter()
+            .map(|sector| sector.difference)
+            .collect();
         let count = ids.len();
         let mut found: Vec<(&str, Purpose, Vec<ValueId>, Shape)> = Vec::new();
         let mut shares = |tree: &mut SymmetricTree<'_>, name, definition, shares: Vec<Share>| {
@@ -215,7 +224,7 @@ impl EntryList<'_, '_> {
     fn truncated_transfers(
         &mut self,
         scene: &Scene,
-        sectors: &Sectors,
+        sectors: &OrbitMechanics,
         counting: Counting,
         order: u32,
     ) {
@@ -225,7 +234,11 @@ impl EntryList<'_, '_> {
         let mut tree = symmetric_tree(self.lowering, &orbits, Some(order as usize));
         let state = EntryState::Momenta(counting);
         let motion = motion(&mut tree, scene, mechanics, &values, state);
-        let ids: Vec<SectorId> = sectors.sectors.iter().map(|sector| sector.place).collect();
+        let ids: Vec<SectorId> = sectors
+            .sectors
+            .iter()
+            .map(|sector| sector.difference)
+            .collect();
         let small = scene.requests.budget.as_ref();
         let small = small.map_or(&[][..], |budget| budget.small.as_slice());
         let loses = |sector: SectorId| {
@@ -258,7 +271,7 @@ pub(super) fn by_coordinate<'b>(
         .coordinates
         .iter()
         .map(|coordinate| {
-            let (orbit, sector) = coordinate.kind.place();
+            let (orbit, sector) = coordinate.kind.orbit_and_difference();
             let value = component(tree, &fields[orbit], sector);
             tree.series.total(&value)
         })

@@ -13,7 +13,7 @@ use crate::mechanics::{Frame, Mechanics, Trigonometric};
 
 /// Outputs of the entry by their meaning; links in their order.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Expansion {
+pub struct TaylorOutputs {
     /// sin θ.
     pub sines: Vec<ValueId>,
     /// cos θ.
@@ -30,7 +30,7 @@ pub struct Expansion {
     pub bias: Vec<ValueId>,
 }
 
-impl Expansion {
+impl TaylorOutputs {
     /// The outputs of the entry taken apart: `links` of each kind, then the
     /// couplings between `pairs`, then the rest.
     pub(crate) fn of_outputs(outputs: &[ValueId], frame: &Frame) -> Self {
@@ -111,7 +111,7 @@ impl EntryList<'_, '_> {
             sines.push(self.lowering.builder.name(sine, &format!("sin_{name}")));
             cosines.push(self.lowering.builder.name(cosine, &format!("cos_{name}")));
         }
-        let mut expansion = Expansion {
+        let mut expansion = TaylorOutputs {
             sines,
             cosines,
             inertias: vec![zero; links],
@@ -186,10 +186,10 @@ impl EntryList<'_, '_> {
     /// rounding. Where its constants are known, by the one with which they round
     /// least; else it is divided by the moment of inertia of the last link: one
     /// rounded constant less is one error less in long motions.
-    fn normalize(&mut self, expansion: &mut Expansion) {
+    fn normalize(&mut self, expansion: &mut TaylorOutputs) {
         let factor = self.factor(expansion);
         let builder = &mut self.lowering.builder;
-        let Expansion {
+        let TaylorOutputs {
             sines: _,
             cosines: _,
             inertias,
@@ -218,7 +218,7 @@ impl EntryList<'_, '_> {
     }
 
     /// The factor for constants that are all known.
-    fn factor(&mut self, expansion: &Expansion) -> Option<Rational> {
+    fn factor(&mut self, expansion: &TaylorOutputs) -> Option<Rational> {
         let builder = &mut self.lowering.builder;
         let couplings = &expansion.couplings;
         let pairs = couplings.iter().flat_map(|(_, pair)| pair);

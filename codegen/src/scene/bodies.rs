@@ -21,13 +21,13 @@ pub(super) struct Body {
 }
 
 /// A shape, and how its body follows from its dimensions.
-pub(super) struct Shape {
+pub(super) struct BodyShape {
     /// Word behind the colon.
     pub(super) name: &'static str,
     /// Properties that must or may be given.
     pub(super) dimensions: &'static [Dimension],
     /// The body that follows.
-    pub(super) body: fn(&Given) -> Result<Body, ExactError>,
+    pub(super) body: fn(&GivenProperties) -> Result<Body, ExactError>,
     /// Length that must be positive beside the dimensions.
     pub(super) condition: Option<Condition>,
 }
@@ -38,7 +38,7 @@ pub(super) struct Condition {
     /// In words.
     pub(super) what: &'static str,
     /// In numbers.
-    pub(super) value: fn(&Given) -> Quantity,
+    pub(super) value: fn(&GivenProperties) -> Quantity,
 }
 
 /// A property with its unit and the condition on its sign.
@@ -93,20 +93,20 @@ pub(super) const PLAIN: &[Dimension] = &[
 ];
 
 /// All shapes.
-pub(super) const SHAPES: &[Shape] = &[
-    Shape {
+pub(super) const SHAPES: &[BodyShape] = &[
+    BodyShape {
         name: "point",
         dimensions: &[MASS, LENGTH],
         body: point,
         condition: None,
     },
-    Shape {
+    BodyShape {
         name: "rod",
         dimensions: &[MASS, LENGTH],
         body: rod,
         condition: None,
     },
-    Shape {
+    BodyShape {
         name: "rod_with_bob",
         dimensions: &[
             required("mass", "kg", Sign::Positive),
@@ -116,13 +116,13 @@ pub(super) const SHAPES: &[Shape] = &[
         body: rod_with_bob,
         condition: None,
     },
-    Shape {
+    BodyShape {
         name: "cylinder",
         dimensions: &[MASS, LENGTH, RADIUS],
         body: cylinder,
         condition: None,
     },
-    Shape {
+    BodyShape {
         name: "plate",
         dimensions: &[
             MASS,
@@ -136,25 +136,25 @@ pub(super) const SHAPES: &[Shape] = &[
             value: plate_span,
         }),
     },
-    Shape {
+    BodyShape {
         name: "disc",
         dimensions: &[MASS, DISTANCE, RADIUS],
         body: disc,
         condition: None,
     },
-    Shape {
+    BodyShape {
         name: "ring",
         dimensions: &[MASS, DISTANCE, RADIUS],
         body: ring,
         condition: None,
     },
-    Shape {
+    BodyShape {
         name: "ball",
         dimensions: &[MASS, DISTANCE, RADIUS],
         body: ball,
         condition: None,
     },
-    Shape {
+    BodyShape {
         name: "shell",
         dimensions: &[MASS, DISTANCE, RADIUS],
         body: shell,
@@ -164,9 +164,9 @@ pub(super) const SHAPES: &[Shape] = &[
 
 /// The values of the properties that a link gives.
 #[derive(Debug, Default)]
-pub(super) struct Given(pub(super) Vec<(&'static str, Offset)>);
+pub(super) struct GivenProperties(pub(super) Vec<(&'static str, Offset)>);
 
-impl Given {
+impl GivenProperties {
     /// A property that may be a pair.
     pub(super) fn point(&self, name: &str) -> Option<&Offset> {
         self.0
@@ -209,7 +209,7 @@ fn product(a: &Quantity, b: Quantity) -> Quantity {
 }
 
 /// A point mass m on a massless rod: com = joint = L, I = 0.
-fn point(given: &Given) -> Result<Body, ExactError> {
+fn point(given: &GivenProperties) -> Result<Body, ExactError> {
     let length = given.get("length");
     Ok(Body {
         mass: given.get("mass"),
@@ -220,7 +220,7 @@ fn point(given: &Given) -> Result<Body, ExactError> {
 }
 
 /// A uniform thin rod on its end: com = L/2, I = m L²/12, joint = L.
-fn rod(given: &Given) -> Result<Body, ExactError> {
+fn rod(given: &GivenProperties) -> Result<Body, ExactError> {
     let (mass, length) = (given.get("mass"), given.get("length"));
     Ok(Body {
         inertia: fraction(1, 12, product(&mass, square(&length)?))?,
@@ -232,7 +232,7 @@ fn rod(given: &Given) -> Result<Body, ExactError> {
 
 /// A uniform thin rod of mass m with a point mass b at its end:
 /// com = (m/2 + b) L/(m + b), I = m L²/12 + m b/(m + b) (L/2)², joint = L.
-fn rod_with_bob(given: &Given) -> Result<Body, ExactError> {
+fn rod_with_bob(given: &GivenProperties) -> Result<Body, ExactError> {
     let (rod, bob) = (given.get("mass"), given.get("bob_mass"));
     let length = given.get("length");
     let mass = Quantity::sum([rod.clone(), bob.clone()]);
@@ -249,7 +249,7 @@ fn rod_with_bob(given: &Given) -> Result<Body, ExactError> {
 
 /// A uniform solid cylinder on the centre of its end, turning across its axis:
 /// com = L/2, I = m (L²/12 + r²/4), joint = L.
-fn cylinder(given: &Given) -> Result<Body, ExactError> {
+fn cylinder(given: &GivenProperties) -> Result<Body, ExactError> {
     let (mass, length) = (given.get("mass"), given.get("length"));
     let along = fraction(1, 12, square(&length)?)?;
     let across = fraction(1, 4, square(&given.get("radius"))?)?;
@@ -263,7 +263,7 @@ fn cylinder(given: &Given) -> Result<Body, ExactError> {
 
 /// A uniform rectangular plate with a pivot hole at the distance `margin` from
 /// either end: com = L/2 - margin, I = m (L² + w²)/12, joint = L - 2 margin.
-fn plate(given: &Given) -> Result<Body, ExactError> {
+fn plate(given: &GivenProperties) -> Result<Body, ExactError> {
     let (mass, length) = (given.get("mass"), given.get("length"));
     let squares = Quantity::sum([square(&length)?, square(&given.get("width"))?]);
     let half = fraction(1, 2, length)?;
@@ -276,14 +276,14 @@ fn plate(given: &Given) -> Result<Body, ExactError> {
 }
 
 /// The distance between the holes of a plate.
-fn plate_span(given: &Given) -> Quantity {
+fn plate_span(given: &GivenProperties) -> Quantity {
     let margins = product(&Quantity::integer(-2), given.get("margin"));
     Quantity::sum([given.get("length"), margins])
 }
 
 /// A round body with its centre at the distance `length`: com = joint = L,
 /// I = factor · m r².
-fn round(given: &Given, numerator: i64, denominator: i64) -> Result<Body, ExactError> {
+fn round(given: &GivenProperties, numerator: i64, denominator: i64) -> Result<Body, ExactError> {
     let (mass, length) = (given.get("mass"), given.get("length"));
     let square = square(&given.get("radius"))?;
     Ok(Body {
@@ -295,21 +295,21 @@ fn round(given: &Given, numerator: i64, denominator: i64) -> Result<Body, ExactE
 }
 
 /// A uniform disc on a massless arm: I = m r²/2.
-fn disc(given: &Given) -> Result<Body, ExactError> {
+fn disc(given: &GivenProperties) -> Result<Body, ExactError> {
     round(given, 1, 2)
 }
 
 /// A thin ring on a massless arm: I = m r².
-fn ring(given: &Given) -> Result<Body, ExactError> {
+fn ring(given: &GivenProperties) -> Result<Body, ExactError> {
     round(given, 1, 1)
 }
 
 /// A uniform ball on a massless arm: I = 2 m r²/5.
-fn ball(given: &Given) -> Result<Body, ExactError> {
+fn ball(given: &GivenProperties) -> Result<Body, ExactError> {
     round(given, 2, 5)
 }
 
 /// A thin spherical shell on a massless arm: I = 2 m r²/3.
-fn shell(given: &Given) -> Result<Body, ExactError> {
+fn shell(given: &GivenProperties) -> Result<Body, ExactError> {
     round(given, 2, 3)
 }

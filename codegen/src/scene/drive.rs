@@ -54,11 +54,11 @@ const FUNCTIONS: &[&str] = &["sin", "cos"];
 
 /// Reads the drive; what is wrong goes to `report`.
 pub(super) fn resolve_drive(
-    drive: Option<&description::Drive>,
+    drive: Option<&description::DriveClause>,
     values: &mut Values,
     report: &mut Report,
 ) -> Option<Drive> {
-    let description::Drive {
+    let description::DriveClause {
         name,
         parts,
         damaged,
@@ -237,7 +237,7 @@ impl Signal {
     /// parentheses that is no name, number or function. `parameters` are those
     /// of the scene.
     pub fn display<'a>(&'a self, parameters: &'a [Parameter]) -> impl Display + 'a {
-        Shown {
+        ShownSignal {
             signal: self,
             parameters,
         }
@@ -245,12 +245,12 @@ impl Signal {
 }
 
 /// A signal on its way to text.
-struct Shown<'a> {
+struct ShownSignal<'a> {
     signal: &'a Signal,
     parameters: &'a [Parameter],
 }
 
-impl Shown<'_> {
+impl ShownSignal<'_> {
     fn operand(&self, signal: &Signal, f: &mut Formatter<'_>) -> fmt::Result {
         let shown = signal.display(self.parameters);
         match signal {
@@ -272,7 +272,7 @@ impl Shown<'_> {
     }
 }
 
-impl Display for Shown<'_> {
+impl Display for ShownSignal<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.signal {
             Signal::Constant(value) => write!(f, "{}", value.display(self.parameters)),

@@ -7,7 +7,7 @@ use super::{Group, Link, LinkId, Orbit, OrbitId};
 use crate::report::{Message, Report};
 
 /// The tree with all its copies.
-pub(super) struct Expansion {
+pub(super) struct ExpandedTree {
     pub(super) links: Vec<Link>,
     pub(super) orbits: Vec<Orbit>,
     pub(super) groups: Vec<Group>,
@@ -23,7 +23,7 @@ struct Pending {
 
 /// Writes out all copies, parent before child, depth first. The templates must
 /// be few enough in copies, see [`check_size`].
-pub(super) fn expand(templates: &[Template]) -> Expansion {
+pub(super) fn expand(templates: &[Template]) -> ExpandedTree {
     let mut children = vec![Vec::new(); templates.len()];
     for (index, template) in templates.iter().enumerate().rev() {
         // Backwards, because the stack gives back the last first.
@@ -31,7 +31,7 @@ pub(super) fn expand(templates: &[Template]) -> Expansion {
             siblings.push(index);
         }
     }
-    let mut expansion = Expansion {
+    let mut expansion = ExpandedTree {
         links: Vec::new(),
         orbits: orbits(templates),
         groups: Vec::new(),
@@ -154,11 +154,11 @@ pub(super) fn check_size(templates: &[Template], report: &mut Report) -> bool {
 /// Reports names of links, orbits and groups that two templates share, and
 /// returns the names of all, each with its template.
 pub(super) fn check_names(
-    expansion: &Expansion,
+    expansion: &ExpandedTree,
     templates: &[Template],
     report: &mut Report,
 ) -> BTreeMap<String, usize> {
-    let Expansion {
+    let ExpandedTree {
         links,
         orbits,
         groups,

@@ -42,7 +42,7 @@ pub use drive::{Drive, Signal, TimeFunction};
 pub use forces::Forces;
 pub use generations::{Constants, Generations};
 pub use observables::{
-    Function, OBSERVABLE_SUFFIXES, Observable, Observed, Place, Variable, VariableKind,
+    CoordinateIndex, Function, OBSERVABLE_SUFFIXES, Observable, Observed, Variable, VariableKind,
 };
 pub use places::columns as placed_columns;
 pub use quantity::Quantity;

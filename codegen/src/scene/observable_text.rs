@@ -5,9 +5,9 @@ use std::fmt;
 
 use super::{Observed, Parameter, Quantity};
 
-/// Binding strength of a value, and the one that its place asks for.
+/// Precedence strength of a value, and the one that its place asks for.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Binding {
+enum Precedence {
     Sum,
     Product,
     Factor,
@@ -17,44 +17,44 @@ enum Binding {
 impl Observed {
     /// The value as text. `parameters` are those of the scene.
     pub fn display<'a>(&'a self, parameters: &'a [Parameter]) -> impl fmt::Display + 'a {
-        Shown {
+        ShownObservable {
             value: self,
             parameters,
-            place: Binding::Sum,
+            place: Precedence::Sum,
         }
     }
 
-    fn binding(&self) -> Binding {
+    fn binding(&self) -> Precedence {
         match self {
-            Self::Known(Quantity::Parameter(_)) => Binding::Atom,
+            Self::Known(Quantity::Parameter(_)) => Precedence::Atom,
             Self::Known(Quantity::Exact(number))
                 if !number.is_negative() && !number.to_string().contains('/') =>
             {
-                Binding::Atom
+                Precedence::Atom
             }
             // A quantity may be a sum of its own.
-            Self::Known(_) | Self::Sum(_) | Self::Negative(_) => Binding::Sum,
-            Self::Product(_) | Self::Quotient(..) => Binding::Product,
-            Self::Power(..) => Binding::Factor,
+            Self::Known(_) | Self::Sum(_) | Self::Negative(_) => Precedence::Sum,
+            Self::Product(_) | Self::Quotient(..) => Precedence::Product,
+            Self::Power(..) => Precedence::Factor,
             Self::Variable(_)
             | Self::Constant(_)
             | Self::KineticEnergy
             | Self::PotentialEnergy
-            | Self::Call(..) => Binding::Atom,
+            | Self::Call(..) => Precedence::Atom,
         }
     }
 }
 
 /// An observable on its way to text.
-struct Shown<'a> {
+struct ShownObservable<'a> {
     value: &'a Observed,
     parameters: &'a [Parameter],
-    place: Binding,
+    place: Precedence,
 }
 
-impl Shown<'_> {
-    fn part<'a>(&'a self, value: &'a Observed, place: Binding) -> Shown<'a> {
-        Shown {
+impl ShownObservable<'_> {
+    fn part<'a>(&'a self, value: &'a Observed, place: Precedence) -> ShownObservable<'a> {
+        ShownObservable {
             value,
             parameters: self.parameters,
             place,
@@ -62,7 +62,7 @@ impl Shown<'_> {
     }
 
     fn bare(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        use Binding::{Atom, Factor, Product, Sum};
+        use Precedence::{Atom, Factor, Product, Sum};
         match self.value {
             Observed::Known(quantity) => write!(f, "{}", quantity.display(self.parameters)),
             Observed::Variable(variable) => f.write_str(&variable.name),
@@ -103,7 +103,7 @@ impl Shown<'_> {
     }
 }
 
-impl fmt::Display for Shown<'_> {
+impl fmt::Display for ShownObservable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.value.binding() < self.place {
             write!(f, "(")?;

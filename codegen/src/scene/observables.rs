@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::Ident;
 
 use super::names::{check_observable, irrational};
-use super::symbols::{Meaning, Symbols};
+use super::symbols::{Meaning, ObservableSymbols};
 use super::values::{message_for, unrepresentable};
 use super::{Quantity, Scene};
 use crate::description::{self, Expression, ExpressionKind};
@@ -56,7 +56,7 @@ pub struct Variable {
     /// Angle, velocity or momentum of the coordinate.
     pub kind: VariableKind,
     /// The coordinate.
-    pub place: Place,
+    pub coordinate: CoordinateIndex,
 }
 
 /// Kind of a [`Variable`] of a coordinate.
@@ -72,7 +72,7 @@ pub enum VariableKind {
 
 /// A generalized coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum CoordinateIndex {
     /// The absolute angle of the link with that index.
     Absolute(usize),
     /// The symmetric coordinate with that index.
@@ -110,7 +110,9 @@ impl Observed {
     /// occurs.
     pub fn is_symmetric(&self) -> bool {
         match self {
-            Self::Variable(variable) => matches!(variable.place, Place::Symmetric(_)),
+            Self::Variable(variable) => {
+                matches!(variable.coordinate, CoordinateIndex::Symmetric(_))
+            }
             Self::Known(_) | Self::Constant(_) | Self::KineticEnergy | Self::PotentialEnergy => {
                 false
             }
@@ -165,7 +167,7 @@ const METHOD_FAMILIES: &[&str] = &[
 /// Adds the observables to the scene, whose tree is complete; what is wrong
 /// goes to `report`. `owners` holds the names of links, orbits and groups.
 pub(super) fn resolve_observables(
-    observables: &[description::Observable],
+    observables: &[description::ObservableClause],
     scene: &mut Scene,
     owners: &BTreeMap<String, usize>,
     report: &mut Report,
@@ -173,7 +175,7 @@ pub(super) fn resolve_observables(
     if observables.is_empty() {
         return;
     }
-    let symbols = Symbols::of(scene);
+    let symbols = ObservableSymbols::of(scene);
     let mut names = BTreeSet::new();
     let mut functions = BTreeSet::new();
     for observable in observables {
@@ -200,7 +202,7 @@ pub(super) fn resolve_observables(
 /// Checks that none of the observable's functions exists already.
 fn check_functions(
     name: &Ident,
-    symbols: &Symbols,
+    symbols: &ObservableSymbols,
     functions: &mut BTreeSet<String>,
     report: &mut Report,
 ) -> bool {
@@ -223,7 +225,11 @@ fn check_functions(
 }
 
 /// The value of an expression; `None` after reporting what is wrong.
-fn evaluate(expression: &Expression, symbols: &Symbols, report: &mut Report) -> Option<Observed> {
+fn evaluate(
+    expression: &Expression,
+    symbols: &ObservableSymbols,
+    report: &mut Report,
+) -> Option<Observed> {
     let value = match &expression.kind {
         ExpressionKind::Number(number) => Observed::Known(Quantity::Exact(number.clone())),
         ExpressionKind::Name(name) => symbol(name, symbols, report)?,
@@ -336,7 +342,7 @@ fn quotient(
 /// Values of several expressions, all of them looked at even if one is wrong.
 fn all(
     expressions: &[Expression],
-    symbols: &Symbols,
+    symbols: &ObservableSymbols,
     report: &mut Report,
 ) -> Option<Vec<Observed>> {
     let values: Vec<Option<Observed>> = expressions
@@ -355,7 +361,7 @@ fn known(values: &[Observed]) -> Option<Vec<Quantity>> {
     values.iter().map(quantity).collect()
 }
 
-fn symbol(name: &Ident, symbols: &Symbols, report: &mut Report) -> Option<Observed> {
+fn symbol(name: &Ident, symbols: &ObservableSymbols, report: &mut Report) -> Option<Observed> {
     let text = name.to_string();
     let message = match symbols.get(&text) {
         Some(Meaning::One(value)) => return Some(value.clone()),

@@ -1,8 +1,10 @@
 //! The parentheses of a link: which properties there are, which are missing,
 //! and the body that follows.
 
-use super::bodies::{Body, COMMON, Condition, Dimension, Given, PLAIN, SHAPES, Shape};
-use super::rule::{COUNTS, Counts, RATIOS, Rule};
+use super::bodies::{
+    Body, BodyShape, COMMON, Condition, Dimension, GivenProperties, PLAIN, SHAPES,
+};
+use super::rule::{COUNTS, Counts, GenerationRule, RATIOS};
 use super::template::accept_body;
 use super::values::{Usage, Values, message_for};
 use super::{Offset, Quantity, Sign};
@@ -14,19 +16,19 @@ pub(super) struct Properties {
     /// The body; a stand-in after an error.
     pub(super) body: Body,
     /// The rule, where there is one.
-    pub(super) rule: Option<Rule>,
+    pub(super) rule: Option<GenerationRule>,
     /// All that is given, the body's properties included.
-    pub(super) given: Given,
+    pub(super) given: GivenProperties,
 }
 
 /// Properties that can be a pair.
 const POINTS: &[&str] = &["com", "joint", "at"];
 
 /// Properties that a link may and must have.
-pub(super) struct Kind {
+pub(super) struct LinkKind {
     /// In words: "a link", "a `rod`".
     text: String,
-    shape: Option<&'static Shape>,
+    shape: Option<&'static BodyShape>,
     is_rule: bool,
 }
 
@@ -50,7 +52,7 @@ impl Properties {
             })
         };
         let fault = matches!(shape, Some(Err(())));
-        let kind = Kind::new(shape.and_then(Result::ok), is_rule);
+        let kind = LinkKind::new(shape.and_then(Result::ok), is_rule);
         // The properties of an unknown shape are unknown too.
         let given = if fault {
             None
@@ -62,7 +64,7 @@ impl Properties {
             .and_then(|given| kind.body(given, node, values, report));
         let given = given.unwrap_or_default();
         let ratio = |name| given.value(name).cloned().unwrap_or(Quantity::integer(1));
-        let rule = is_rule.then(|| Rule {
+        let rule = is_rule.then(|| GenerationRule {
             count: counts.count.unwrap_or(1),
             branching: counts.branching.unwrap_or(1),
             code: counts.code,
@@ -93,7 +95,7 @@ fn stand_in() -> Body {
 }
 
 /// A shape by its name.
-pub(super) fn find_shape(name: &str) -> Result<&'static Shape, Message> {
+pub(super) fn find_shape(name: &str) -> Result<&'static BodyShape, Message> {
     SHAPES
         .iter()
         .find(|shape| shape.name == name)
@@ -108,8 +110,8 @@ pub(super) fn find_shape(name: &str) -> Result<&'static Shape, Message> {
         })
 }
 
-impl Kind {
-    pub(super) fn new(shape: Option<&'static Shape>, is_rule: bool) -> Self {
+impl LinkKind {
+    pub(super) fn new(shape: Option<&'static BodyShape>, is_rule: bool) -> Self {
         let text = match (shape, is_rule) {
             (None, false) => "a link without shape".to_owned(),
             (Some(shape), false) => format!("a `{}`", shape.name),
@@ -144,8 +146,13 @@ impl Kind {
 
     /// The values of all quantities, in the order written; `None` after
     /// reporting what is wrong.
-    fn evaluate(&self, node: &Node, values: &mut Values, report: &mut Report) -> Option<Given> {
-        let mut given = Given::default();
+    fn evaluate(
+        &self,
+        node: &Node,
+        values: &mut Values,
+        report: &mut Report,
+    ) -> Option<GivenProperties> {
+        let mut given = GivenProperties::default();
         let mut sound = !node.damaged;
         let mut seen: Vec<String> = Vec::new();
         for property in &node.properties {
@@ -206,7 +213,7 @@ impl Kind {
     /// The body: what the shape says, unless the link says otherwise.
     fn body(
         &self,
-        given: &Given,
+        given: &GivenProperties,
         node: &Node,
         values: &mut Values,
         report: &mut Report,

@@ -192,17 +192,17 @@ impl Quantity {
     /// The value as text in the attribute's own notation, so that it could be
     /// written there again. `parameters` are those of the scene.
     pub fn display<'a>(&'a self, parameters: &'a [Parameter]) -> impl fmt::Display + 'a {
-        Shown {
+        ShownQuantity {
             value: self,
             parameters,
-            place: Place::Sum,
+            place: Position::Sum,
         }
     }
 }
 
 /// Surroundings of a value in the text, from loosest to tightest.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Place {
+enum Position {
     Sum,
     Term,
     Factor,
@@ -210,15 +210,15 @@ enum Place {
 }
 
 /// A value on its way to text.
-struct Shown<'a> {
+struct ShownQuantity<'a> {
     value: &'a Quantity,
     parameters: &'a [Parameter],
-    place: Place,
+    place: Position,
 }
 
-impl Shown<'_> {
-    fn part<'a>(&'a self, value: &'a Quantity, place: Place) -> Shown<'a> {
-        Shown {
+impl ShownQuantity<'_> {
+    fn part<'a>(&'a self, value: &'a Quantity, place: Position) -> ShownQuantity<'a> {
+        ShownQuantity {
             value,
             parameters: self.parameters,
             place,
@@ -236,10 +236,10 @@ impl Shown<'_> {
                 for (i, member) in members.iter().enumerate() {
                     match member {
                         Quantity::Negative(opposite) if i > 0 => {
-                            write!(f, " - {}", self.part(opposite, Place::Term))?;
+                            write!(f, " - {}", self.part(opposite, Position::Term))?;
                         }
-                        _ if i > 0 => write!(f, " + {}", self.part(member, Place::Term))?,
-                        _ => write!(f, "{}", self.part(member, Place::Term))?,
+                        _ if i > 0 => write!(f, " + {}", self.part(member, Position::Term))?,
+                        _ => write!(f, "{}", self.part(member, Position::Term))?,
                     }
                 }
                 Ok(())
@@ -249,20 +249,20 @@ impl Shown<'_> {
                     if i > 0 {
                         write!(f, " * ")?;
                     }
-                    write!(f, "{}", self.part(factor, Place::Factor))?;
+                    write!(f, "{}", self.part(factor, Position::Factor))?;
                 }
                 Ok(())
             }
             Quantity::Quotient(dividend, divisor) => write!(
                 f,
                 "{} / {}",
-                self.part(dividend, Place::Factor),
-                self.part(divisor, Place::Factor)
+                self.part(dividend, Position::Factor),
+                self.part(divisor, Position::Factor)
             ),
             Quantity::Power(base, exponent) => {
-                write!(f, "{}^{exponent}", self.part(base, Place::Base))
+                write!(f, "{}^{exponent}", self.part(base, Position::Base))
             }
-            Quantity::Negative(value) => write!(f, "-{}", self.part(value, Place::Factor)),
+            Quantity::Negative(value) => write!(f, "-{}", self.part(value, Position::Factor)),
         }
     }
 
@@ -270,20 +270,20 @@ impl Shown<'_> {
     fn is_loose(&self) -> bool {
         match self.value {
             Quantity::Exact(value) => {
-                self.place >= Place::Factor
+                self.place >= Position::Factor
                     && (value.is_negative() || value.to_string().contains('/'))
             }
             Quantity::Parameter(_) => false,
-            Quantity::Sum(_) => self.place > Place::Sum,
+            Quantity::Sum(_) => self.place > Position::Sum,
             Quantity::Product(_) | Quantity::Quotient(..) | Quantity::Negative(_) => {
-                self.place > Place::Term
+                self.place > Position::Term
             }
-            Quantity::Power(..) => self.place > Place::Factor,
+            Quantity::Power(..) => self.place > Position::Factor,
         }
     }
 }
 
-impl fmt::Display for Shown<'_> {
+impl fmt::Display for ShownQuantity<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_loose() {
             write!(f, "(")?;

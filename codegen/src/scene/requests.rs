@@ -5,9 +5,9 @@ use std::ops::RangeInclusive;
 
 use proc_macro2::{Ident, Span};
 
-use super::expand::Expansion;
+use super::expand::ExpandedTree;
 use super::{BudgetRequest, LinkId, Requests, Scene, Solve, TransferRequest};
-use crate::description::{Form, Request};
+use crate::description::{Request, RequestForm};
 use crate::mechanics::coordinates::symmetric_coordinates;
 use crate::mechanics::sectors::sectors;
 use crate::report::{Message, Report, nearest};
@@ -138,7 +138,7 @@ pub(super) fn resolve_solve(
 /// Reads the forms of the budget; all exact ones if none is named.
 fn budget(
     span: Span,
-    forms: Option<&[Form]>,
+    forms: Option<&[RequestForm]>,
     damaged: bool,
     small: &mut Vec<Ident>,
     report: &mut Report,
@@ -157,7 +157,7 @@ fn budget(
         report.error(span, Message::NoBudgetForm);
     }
     let mut seen: Vec<(String, Option<u32>)> = Vec::new();
-    for Form {
+    for RequestForm {
         name,
         value,
         members,
@@ -231,17 +231,17 @@ pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut 
         return;
     }
     let known = sectors(&symmetric_coordinates(scene));
-    let differences = known.iter().filter(|sector| sector.place.is_some());
+    let differences = known.iter().filter(|sector| sector.difference.is_some());
     let names: Vec<&str> = differences.map(|sector| sector.name.as_str()).collect();
     let mut small = Vec::new();
     for ident in resolved {
         let name = ident.to_string();
         let found = known.iter().find(|sector| sector.name == name);
-        match found.and_then(|sector| sector.place) {
-            Some(place) if small.contains(&place) => {
+        match found.and_then(|sector| sector.difference) {
+            Some(difference) if small.contains(&difference) => {
                 report.error(ident.span(), Message::DuplicateRequest { name });
             }
-            Some(place) => small.push(place),
+            Some(difference) => small.push(difference),
             None => {
                 let nearest = nearest(&name, &names).map(str::to_owned);
                 let known = names.join("`, `");
@@ -264,7 +264,7 @@ pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut 
 /// Reads the forms of the transfer; all of them if none is named.
 fn transfer(
     span: Span,
-    forms: Option<&[Form]>,
+    forms: Option<&[RequestForm]>,
     damaged: bool,
     report: &mut Report,
 ) -> TransferRequest {
@@ -284,7 +284,7 @@ fn transfer(
         report.error(span, Message::NoForm);
     }
     let mut seen: Vec<(String, Option<u32>)> = Vec::new();
-    for Form {
+    for RequestForm {
         name,
         value,
         members,
@@ -335,8 +335,8 @@ fn transfer(
 }
 
 /// Checks that the tree has the identical siblings that the requests need.
-pub(super) fn check_symmetry(resolved: &Resolved, expansion: &Expansion, report: &mut Report) {
-    let Expansion { links, groups, .. } = expansion;
+pub(super) fn check_symmetry(resolved: &Resolved, expansion: &ExpandedTree, report: &mut Report) {
+    let ExpandedTree { links, groups, .. } = expansion;
     if groups.is_empty() {
         let needy = [
             (resolved.symmetric, "symmetric"),

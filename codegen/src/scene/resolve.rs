@@ -8,7 +8,7 @@ use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_s
 use super::rule::resolve_code;
 use super::singular::check_regular;
 use super::table;
-use super::template::Builder;
+use super::template::TreeBuilder;
 use super::values::{Usage, Values};
 use super::{CratePath, Quantity, Scene, Sign};
 use crate::description::{Description, Node, Property, Value};
@@ -19,14 +19,14 @@ use crate::report::{Message, Report};
 /// `None` if anything is wrong, here or before: then `report` says what. Every
 /// mistake is looked for that does not depend on another one.
 pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> {
-    let mut builder = Builder::default();
+    let mut builder = TreeBuilder::default();
     let gravity = gravity(description, &mut builder.values, report);
     check_roots(description, report);
     for root in &description.roots {
         builder.add_root(root, report);
     }
     let drive = resolve_drive(description.drive.as_ref(), &mut builder.values, report);
-    let Builder {
+    let TreeBuilder {
         mut templates,
         values,
         whole,

@@ -2,15 +2,15 @@
 
 use proc_macro2::{Ident, Span};
 
-use super::bodies::{Body, Dimension, Shape};
-use super::properties::{Kind, find_shape};
+use super::bodies::{Body, BodyShape, Dimension};
+use super::properties::{LinkKind, find_shape};
 use super::{Offset, Quantity, Sign};
 use crate::description::{Expression, ExpressionKind, Node, Property, Value};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Message, Report};
 
 /// The settings of a generation rule.
-pub(super) struct Rule {
+pub(super) struct GenerationRule {
     /// Generations, at least one.
     pub(super) count: usize,
     /// Children of a link, at least one.
@@ -75,7 +75,7 @@ pub(super) const RATIOS: &[Dimension] = &[
 /// Properties of a generation rule that are no quantities.
 pub(super) const COUNTS: &[&str] = &["count", "branching", "shape", "code"];
 
-impl Rule {
+impl GenerationRule {
     /// The body of a generation, counted from 0.
     pub(super) fn body(&self, first: &Body, generation: usize) -> Result<Body, ExactError> {
         let exponent = i32::try_from(generation).map_err(|_| ExactError::TooLong)?;
@@ -106,7 +106,7 @@ fn scaled(body: &Body, mass: &Quantity, length: &Quantity) -> Result<Body, Exact
 pub(super) struct Counts {
     pub(super) count: Option<usize>,
     pub(super) branching: Option<usize>,
-    pub(super) shape: Option<Result<&'static Shape, ()>>,
+    pub(super) shape: Option<Result<&'static BodyShape, ()>>,
     pub(super) code: Option<Code>,
 }
 
@@ -141,7 +141,7 @@ impl Counts {
             }
         }
         if !named && !node.damaged {
-            let message = Kind::new(None, true).missing("count", node);
+            let message = LinkKind::new(None, true).missing("count", node);
             report.error(node.name.span(), message);
         }
     }
@@ -175,7 +175,7 @@ fn code(value: &Value) -> Option<Code> {
 }
 
 /// A shape as the value of a property.
-fn shape(value: &Value, span: Span, report: &mut Report) -> Result<&'static Shape, ()> {
+fn shape(value: &Value, span: Span, report: &mut Report) -> Result<&'static BodyShape, ()> {
     let Value::Single(Expression {
         kind: ExpressionKind::Name(name),
         ..

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::observables::{Observed, Place, Variable, VariableKind};
+use super::observables::{CoordinateIndex, Observed, Variable, VariableKind};
 use super::{LinkId, ParameterId, Quantity, Scene};
 use crate::mechanics::coordinates::symmetric_coordinates;
 
@@ -15,13 +15,13 @@ pub(super) enum Meaning {
 }
 
 /// All names and what they mean.
-pub(super) struct Symbols {
+pub(super) struct ObservableSymbols {
     meanings: BTreeMap<String, Meaning>,
     /// Name of the last link, for examples.
     example: String,
 }
 
-impl Symbols {
+impl ObservableSymbols {
     /// The symbols of a scene whose tree is complete.
     pub(super) fn of(scene: &Scene) -> Self {
         let mut symbols = Self {
@@ -33,7 +33,7 @@ impl Symbols {
                 .unwrap_or_default(),
         };
         for (index, link) in scene.links.iter().enumerate() {
-            symbols.coordinate(&link.name, Place::Absolute(index));
+            symbols.coordinate(&link.name, CoordinateIndex::Absolute(index));
         }
         // The mean of a single link is its own angle.
         let shared = |(_, coordinate): &(usize, _)| {
@@ -43,7 +43,7 @@ impl Symbols {
         if !scene.groups.is_empty() {
             let coordinates = symmetric_coordinates(scene);
             for (index, coordinate) in coordinates.into_iter().enumerate().filter(shared) {
-                symbols.coordinate(&coordinate.name, Place::Symmetric(index));
+                symbols.coordinate(&coordinate.name, CoordinateIndex::Symmetric(index));
             }
         }
         for name in constants(scene) {
@@ -63,7 +63,7 @@ impl Symbols {
         symbols
     }
 
-    fn coordinate(&mut self, name: &str, place: Place) {
+    fn coordinate(&mut self, name: &str, coordinate: CoordinateIndex) {
         for (prefix, kind) in [
             ("theta", VariableKind::Angle),
             ("omega", VariableKind::Velocity),
@@ -73,7 +73,7 @@ impl Symbols {
             let variable = Variable {
                 name: name.clone(),
                 kind,
-                place,
+                coordinate,
             };
             self.add(name, Observed::Variable(variable));
         }

@@ -2,10 +2,10 @@
 
 use proc_macro2::Span;
 
-use super::bodies::{Body, Given};
+use super::bodies::{Body, GivenProperties};
 use super::names::check_link;
 use super::properties::Properties;
-use super::rule::{Code, Rule};
+use super::rule::{Code, GenerationRule};
 use super::values::{Usage, Values};
 use super::{Offset, Quantity, Sign};
 use crate::description::Node;
@@ -34,7 +34,7 @@ pub(super) struct Template {
 /// The templates and values that are built up on the way through the
 /// description.
 #[derive(Default)]
-pub(super) struct Builder {
+pub(super) struct TreeBuilder {
     /// Parents before children, depth first.
     pub(super) templates: Vec<Template>,
     pub(super) values: Values,
@@ -57,7 +57,7 @@ struct Parent {
     joint: Offset,
 }
 
-impl Builder {
+impl TreeBuilder {
     /// Adds the root and all that hangs from it. After an error the templates
     /// still have their names and numbers of copies, but no meaningful bodies.
     pub(super) fn add_root(&mut self, node: &Node, report: &mut Report) {
@@ -133,7 +133,7 @@ impl Builder {
         &self,
         node: &Node,
         parent: Option<&Parent>,
-        given: &Given,
+        given: &GivenProperties,
         report: &mut Report,
     ) -> Offset {
         match (parent, given.point("at")) {
@@ -150,7 +150,13 @@ impl Builder {
     }
 
     /// Adds the generations of a rule, the first of which is given.
-    fn add_generations(&mut self, node: &Node, first: Template, rule: &Rule, report: &mut Report) {
+    fn add_generations(
+        &mut self,
+        node: &Node,
+        first: Template,
+        rule: &GenerationRule,
+        report: &mut Report,
+    ) {
         let span = first.span;
         // The templates alone may be too many, before any copies.
         if self.templates.len().saturating_add(rule.count) > MAX_LINKS {

@@ -6,7 +6,7 @@ mod shaken;
 
 use std::f64::consts::PI;
 
-use branched_pendulum_codegen::mechanics::coordinates::Kind;
+use branched_pendulum_codegen::mechanics::coordinates::CoordinateKind;
 use branched_pendulum_codegen::scene::Solve;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::constrained;
@@ -184,7 +184,7 @@ fn a_drive_leaves_zero_differences_exactly_zero() {
         .mechanics
         .coordinates
         .iter()
-        .map(|c| matches!(c.kind, Kind::Difference { .. }))
+        .map(|c| matches!(c.kind, CoordinateKind::Difference { .. }))
         .collect();
     assert_eq!(differences.iter().filter(|d| **d).count(), 6);
     let mut random = Random::new(8000);

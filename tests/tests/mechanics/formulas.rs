@@ -3,7 +3,7 @@
 
 use branched_pendulum_codegen::mechanics::algebra::{self, Formula};
 use branched_pendulum_codegen::mechanics::expression::{Expr, SymbolId};
-use branched_pendulum_codegen::mechanics::{Entry, Frame, Mechanics, Trigonometric, text};
+use branched_pendulum_codegen::mechanics::{Frame, MatrixEntry, Mechanics, Trigonometric, text};
 
 use crate::support::Compiled;
 
@@ -56,7 +56,7 @@ impl Algebra<'_> {
     }
 
     /// Entry (row, column) of a symmetric matrix.
-    pub(crate) fn entry(&self, matrix: &[Entry], row: usize, column: usize) -> Formula {
+    pub(crate) fn entry(&self, matrix: &[MatrixEntry], row: usize, column: usize) -> Formula {
         let (row, column) = (row.max(column), row.min(column));
         matrix
             .iter()

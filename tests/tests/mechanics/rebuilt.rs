@@ -3,7 +3,7 @@
 
 use branched_pendulum_codegen::mechanics::algebra::Formula;
 use branched_pendulum_codegen::mechanics::expression::{Expr, SymbolId};
-use branched_pendulum_codegen::mechanics::{Entry, Temporal, Trigonometric};
+use branched_pendulum_codegen::mechanics::{MatrixEntry, Temporal, Trigonometric};
 use branched_pendulum_codegen::program::Rebuilt;
 
 use crate::fixtures::FRICTIONAL;
@@ -81,7 +81,7 @@ impl Algebra<'_> {
     }
 
     /// Fails unless Σ_j M_ij x_j + rest_i = 0 for the entry point's outputs x.
-    fn assert_solves(&self, entry: &str, mass: &[Entry], rest: &[Formula]) {
+    fn assert_solves(&self, entry: &str, mass: &[MatrixEntry], rest: &[Formula]) {
         let solution = self.rebuilt(entry);
         for (row, rest) in rest.iter().enumerate() {
             let products: Formula = solution

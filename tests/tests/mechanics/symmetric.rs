@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-use branched_pendulum_codegen::mechanics::coordinates::Kind;
+use branched_pendulum_codegen::mechanics::coordinates::CoordinateKind;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, Sample, sample};
 use branched_pendulum_tests::random::Random;
@@ -266,10 +266,10 @@ fn hamiltonian_is_the_energy() {
 }
 
 /// The sector of a coordinate: the means, or one difference of one group.
-pub(crate) fn sector(kind: &Kind) -> Option<(usize, usize)> {
+pub(crate) fn sector(kind: &CoordinateKind) -> Option<(usize, usize)> {
     match kind {
-        Kind::Mean { .. } => None,
-        Kind::Difference { group, index, .. } => Some((*group, *index)),
+        CoordinateKind::Mean { .. } => None,
+        CoordinateKind::Difference { group, index, .. } => Some((*group, *index)),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The cut of a long function into parts, and the values that its parts hand to
 //! each other.
 
-use super::{Line, MOST_IN_PART, Part, Parts};
+use super::{FunctionPart, FunctionParts, Line, MOST_IN_PART};
 use crate::emit::Emission;
 use crate::emit::names::Locals;
 use crate::program::{Argument, Op, ValueId};
@@ -24,7 +24,7 @@ impl Emission<'_> {
         outputs: &[ValueId],
         lines: &[Line],
         locals: &Locals,
-    ) -> Parts {
+    ) -> FunctionParts {
         let (numbers, lines): (Vec<&Line>, Vec<&Line>) =
             lines.iter().partition(|line| self.is_number(line));
         let outputs: BTreeSet<ValueId> = outputs.iter().copied().collect();
@@ -35,7 +35,7 @@ impl Emission<'_> {
             parts.push(part);
         }
         parts.reverse();
-        Parts::new(parts, &outputs)
+        FunctionParts::new(parts, &outputs)
     }
 
     /// Pieces of few lines and few values from outside.
@@ -70,7 +70,7 @@ impl Emission<'_> {
         numbers: &[&Line],
         wanted: &mut BTreeSet<ValueId>,
         locals: &Locals,
-    ) -> Part {
+    ) -> FunctionPart {
         let mut read = BTreeSet::new();
         for &id in lines.iter().flat_map(|line| &line.reads) {
             self.named_operands(id, locals, &mut read);
@@ -111,7 +111,7 @@ impl Emission<'_> {
         }
         arguments.sort_unstable();
         let lines = own_numbers.iter().chain(lines);
-        Part {
+        FunctionPart {
             number,
             arguments,
             inputs,

@@ -65,11 +65,11 @@ fn factored(program: &Program, chosen: &[bool]) -> Program {
         builder: Builder::on_constants_of(program),
         values: Vec::with_capacity(program.definitions.len()),
     };
-    let mut functions: Vec<Function> = program
+    let mut functions: Vec<FactoredEntry> = program
         .entries
         .iter()
         .zip(chosen)
-        .map(|(entry, &chosen)| Function::new(program, entry, chosen))
+        .map(|(entry, &chosen)| FactoredEntry::new(program, entry, chosen))
         .collect();
     // In the order of the program, whichever entry points need a value: what is not
     // changed keeps its place among the rest.
@@ -90,7 +90,7 @@ fn factored(program: &Program, chosen: &[bool]) -> Program {
 }
 
 /// An entry point as the pass sees it.
-struct Function {
+struct FactoredEntry {
     /// The values that it needs and that are still to come, last first.
     ahead: Vec<ValueId>,
     /// The value that uses a value, where there is one alone and that once.
@@ -103,7 +103,7 @@ struct Function {
     own: BTreeMap<ValueId, ValueId>,
 }
 
-impl Function {
+impl FactoredEntry {
     fn new(program: &Program, entry: &Entry, chosen: bool) -> Self {
         let mut ahead = program.needed(&entry.outputs);
         let mut users: BTreeMap<ValueId, Vec<ValueId>> = BTreeMap::new();
@@ -144,7 +144,7 @@ struct Factoring<'p> {
 
 impl Factoring<'_> {
     /// Forms a value for all entry points that need it.
-    fn form(&mut self, id: ValueId, functions: &mut [Function]) {
+    fn form(&mut self, id: ValueId, functions: &mut [FactoredEntry]) {
         let mut common = None;
         for function in functions {
             if function.ahead.pop_if(|next| *next == id).is_none() {
@@ -170,7 +170,7 @@ impl Factoring<'_> {
         }
     }
 
-    fn value(&mut self, id: ValueId, function: &Function) -> ValueId {
+    fn value(&mut self, id: ValueId, function: &FactoredEntry) -> ValueId {
         let Definition { op, name, hint } = self.program.definition(id);
         let value = match self.factored(id, function) {
             Some(value) => value,
@@ -189,7 +189,7 @@ impl Factoring<'_> {
     }
 
     /// The value of a sum with factors taken out, if that saves anything.
-    fn factored(&mut self, id: ValueId, function: &Function) -> Option<ValueId> {
+    fn factored(&mut self, id: ValueId, function: &FactoredEntry) -> Option<ValueId> {
         let inside = |user: &ValueId| self.is_sum(*user) && self.opens(id, *user, function);
         if !function.chosen || !self.is_sum(id) || function.user.get(&id).is_some_and(inside) {
             return None;
@@ -208,7 +208,7 @@ impl Factoring<'_> {
     }
 
     /// Returns true if a value becomes a part of the one that uses it.
-    fn opens(&self, id: ValueId, user: ValueId, function: &Function) -> bool {
+    fn opens(&self, id: ValueId, user: ValueId, function: &FactoredEntry) -> bool {
         self.program.definition(id).name.is_none() && function.user.get(&id) == Some(&user)
     }
 
@@ -226,7 +226,7 @@ impl Factoring<'_> {
         &mut self,
         sum: ValueId,
         negative: bool,
-        function: &Function,
+        function: &FactoredEntry,
         terms: &mut Vec<Term>,
     ) -> usize {
         let (a, b, minus) = self.operands(sum);
@@ -256,7 +256,12 @@ impl Factoring<'_> {
     }
 
     /// A difference of products, with the factors that both have taken out.
-    fn difference(&mut self, id: ValueId, negative: bool, function: &Function) -> (Term, usize) {
+    fn difference(
+        &mut self,
+        id: ValueId,
+        negative: bool,
+        function: &FactoredEntry,
+    ) -> (Term, usize) {
         let (a, b, _) = self.operands(id);
         let (mut first, mut second) =
             (self.factors(a, id, function), self.factors(b, id, function));
@@ -292,7 +297,7 @@ impl Factoring<'_> {
         (term, saved)
     }
 
-    fn factors(&self, id: ValueId, user: ValueId, function: &Function) -> Vec<ValueId> {
+    fn factors(&self, id: ValueId, user: ValueId, function: &FactoredEntry) -> Vec<ValueId> {
         match self.program.definition(id).op {
             Op::Mul(a, b) if self.opens(id, user, function) => {
                 let mut factors = self.factors(a, id, function);

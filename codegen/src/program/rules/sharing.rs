@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 
 /// The operations that are formed already.
 #[derive(Clone, Default)]
-pub(in crate::program) struct Known(BTreeMap<Op, ValueId>);
+pub(in crate::program) struct KnownOperations(BTreeMap<Op, ValueId>);
 
-impl Known {
+impl KnownOperations {
     /// The value that is formed by this operation, or by the same with its operands
     /// exchanged where that makes no difference.
     pub(in crate::program) fn find(&self, op: &Op) -> Option<ValueId> {

@@ -28,7 +28,7 @@ pub(in crate::program) struct Share {
 
 /// W_s in the parts of kinetic and potential energy: {E_s, K − T_s} and
 /// {E_s, U − V_s}.
-pub(in crate::program) struct TransferParts {
+pub(in crate::program) struct TransferSeries {
     /// −∂T_s/∂p ∂K/∂q.
     pub(in crate::program) slopes: TruncatedSeries,
     /// The rest of {E_s, K − T_s}.
@@ -108,7 +108,7 @@ impl SymmetricTree<'_> {
         values: &ConstantValues,
         motion: &SymmetricMotion,
         sector: SectorId,
-    ) -> TransferParts {
+    ) -> TransferSeries {
         let velocities = self.own_velocities(values, motion, sector, false);
         let slopes = self.kinetic_gradient(&motion.pose, &motion.rates);
         let slopes = self.projections(&slopes, sector);
@@ -131,7 +131,7 @@ impl SymmetricTree<'_> {
         let gradient = self.subtract(&gradient, &springs);
         let gradient = self.projections(&gradient, sector);
         let pull = self.inner(&velocities, &gradient);
-        TransferParts {
+        TransferSeries {
             slopes,
             kinetic,
             potential: self.series.sub(&swing, &pull),

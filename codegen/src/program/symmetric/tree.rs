@@ -71,7 +71,7 @@ pub(super) fn structure(copies: usize, j: usize, i: usize, l: usize) -> Option<R
 pub(in crate::program) fn orbits(scene: &Scene, coordinates: &[Coordinate]) -> Vec<OrbitLinks> {
     let names = |number: usize| {
         let named = coordinates.iter().filter_map(|coordinate| {
-            let (orbit, sector) = coordinate.kind.place();
+            let (orbit, sector) = coordinate.kind.orbit_and_difference();
             (orbit == number).then(|| (sector, coordinate.name.clone()))
         });
         named.collect()

@@ -39,13 +39,13 @@ impl ErrorCurve {
     /// first passes `level`, between two points by a power law. None without
     /// points or such a form.
     #[must_use]
-    pub fn crossing(&self, form: usize, level: f64) -> Option<Crossing> {
+    pub fn crossing(&self, form: usize, level: f64) -> Option<LevelCrossing> {
         let mut previous: Option<(f64, f64)> = None;
         for point in &self.points {
             let here = (point.amplitude, *point.errors.get(form)?);
             if here.1 > level {
                 let Some(below) = previous else {
-                    return Some(Crossing::Below(here.0));
+                    return Some(LevelCrossing::Below(here.0));
                 };
                 // A form may be exact up to here: then there is no power law.
                 let part = if below.1 > 0.0 {
@@ -53,17 +53,17 @@ impl ErrorCurve {
                 } else {
                     1.0
                 };
-                return Some(Crossing::At(below.0 * (here.0 / below.0).powf(part)));
+                return Some(LevelCrossing::At(below.0 * (here.0 / below.0).powf(part)));
             }
             previous = Some(here);
         }
-        previous.map(|(amplitude, _)| Crossing::Above(amplitude))
+        previous.map(|(amplitude, _)| LevelCrossing::Above(amplitude))
     }
 }
 
 /// Amplitude at which an error passes a level, as the amplitude grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Crossing {
+pub enum LevelCrossing {
     /// Above the level from the smallest amplitude on, which is given, rad.
     Below(f64),
     /// The error passes the level at this amplitude first, rad.
@@ -72,7 +72,7 @@ pub enum Crossing {
     Above(f64),
 }
 
-impl Crossing {
+impl LevelCrossing {
     /// The amplitude, rad; none where the level is not passed in the range
     /// looked at.
     #[must_use]
@@ -84,7 +84,7 @@ impl Crossing {
     }
 }
 
-impl fmt::Display for Crossing {
+impl fmt::Display for LevelCrossing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Through `pad`, so that a width given by the caller is kept.
         f.pad(&match self {
@@ -97,7 +97,7 @@ impl fmt::Display for Crossing {
 
 /// Sums of squares over states, for every sector.
 #[derive(Clone, Debug)]
-pub(super) struct Sums {
+pub(super) struct SquareSums {
     states: u64,
     /// Sums for W exact, by sector.
     exact: Vec<f64>,
@@ -105,7 +105,7 @@ pub(super) struct Sums {
     errors: Vec<f64>,
 }
 
-impl Sums {
+impl SquareSums {
     pub(super) fn new(receivers: usize, forms: usize) -> Self {
         Self {
             states: 0,
@@ -131,9 +131,9 @@ impl Sums {
 pub(super) fn curves(
     receivers: &[&'static str],
     forms: &[TransferForm],
-    sums: &[(f64, Sums)],
+    sums: &[(f64, SquareSums)],
 ) -> Vec<ErrorCurve> {
-    let point = |receiver: usize, amplitude: f64, sums: &Sums| {
+    let point = |receiver: usize, amplitude: f64, sums: &SquareSums| {
         let exact = sums.exact.get(receiver).copied().unwrap_or(0.0);
         let own = sums.errors.iter().skip(receiver).step_by(receivers.len());
         (exact > 0.0).then(|| ErrorPoint {
@@ -155,7 +155,7 @@ pub(super) fn curves(
 
 #[cfg(test)]
 mod tests {
-    use super::{Crossing, ErrorCurve, ErrorPoint, Sums, curves};
+    use super::{ErrorCurve, ErrorPoint, LevelCrossing, SquareSums, curves};
     use crate::analysis::truncation::logarithmic;
     use crate::transfer_forms::TransferForm;
 
@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn a_power_law_is_interpolated_exactly() {
         let crossing = curve(2).crossing(1, 0.01);
-        let amplitude = crossing.and_then(Crossing::amplitude).unwrap();
+        let amplitude = crossing.and_then(LevelCrossing::amplitude).unwrap();
         assert!((amplitude - 0.1).abs() < 1e-12, "{amplitude}");
     }
 
@@ -188,13 +188,13 @@ mod tests {
         assert_eq!(crossing(1e-7), "< 0.001");
         assert_eq!(crossing(3.0), "> 1.50");
         assert_eq!(curve(2).crossing(2, 1.0), None);
-        assert_eq!(curve(2).crossing(0, 0.5), Some(Crossing::Above(1.5)));
+        assert_eq!(curve(2).crossing(0, 0.5), Some(LevelCrossing::Above(1.5)));
     }
 
     #[test]
     fn errors_go_to_their_form_and_sector() {
         let forms = [TransferForm::Angle(1), TransferForm::Amplitude(2)];
-        let mut sums = Sums::new(2, 2);
+        let mut sums = SquareSums::new(2, 2);
         // Two states, W exact = 3 and 4 into the first sector, none into the second.
         sums.add(&[3.0, 0.0], &[3.0, 0.0, 3.5, 1.0]);
         sums.add(&[4.0, 0.0], &[4.0, 0.0, 4.0, 1.0]);

@@ -28,7 +28,7 @@
 //!
 #![cfg_attr(feature = "macros", doc = "```")]
 #![cfg_attr(not(feature = "macros"), doc = "```ignore")]
-//! use branched_pendulum::analysis::truncation::{Background, Crossing, PhaseAverage, logarithmic};
+//! use branched_pendulum::analysis::truncation::{Background, LevelCrossing, PhaseAverage, logarithmic};
 //! use branched_pendulum::prelude::*;
 //!
 //! #[branched_pendulum(
@@ -48,7 +48,7 @@
 //! };
 //! let curves = average.curves(&model)?;
 //! assert_eq!(curves[0].receiver, "d");
-//! let Some(Crossing::At(amplitude)) = curves[0].crossing(0, 0.01) else { unreachable!() };
+//! let Some(LevelCrossing::At(amplitude)) = curves[0].crossing(0, 0.01) else { unreachable!() };
 //! assert!((amplitude - 0.16).abs() < 0.02);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -62,7 +62,7 @@ mod random;
 mod trajectories;
 
 pub use background::Background;
-pub use curve::{Crossing, ErrorCurve, ErrorPoint};
+pub use curve::{ErrorCurve, ErrorPoint, LevelCrossing};
 pub use error::TruncationError;
 pub use motion::{amplitude, sector_frequencies};
 pub use phase_average::{CanonicalState, PhaseAverage};

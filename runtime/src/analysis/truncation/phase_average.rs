@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use super::background::Background;
-use super::curve::{ErrorCurve, Sums, curves};
+use super::curve::{ErrorCurve, SquareSums, curves};
 use super::error::{TruncationError, check_amplitudes, check_bounds, check_positive};
 use super::motion::{Powers, sector_frequencies};
 use super::random::Random;
@@ -51,7 +51,7 @@ impl PhaseAverage {
         let n = <M as Pendulum<f64>>::LINKS;
         let mut state = vec![0.0; 2 * n];
         for &amplitude in &self.amplitudes {
-            let mut sums = Sums::new(M::RECEIVERS.len(), powers.count());
+            let mut sums = SquareSums::new(M::RECEIVERS.len(), powers.count());
             for unit in unit.chunks_exact(2 * n) {
                 scale(unit, &small, amplitude, &mut state);
                 let (coordinates, rates) = state.split_at(n);

@@ -1,6 +1,6 @@
 //! Errors along exact motions.
 
-use super::curve::{ErrorCurve, Sums, curves};
+use super::curve::{ErrorCurve, SquareSums, curves};
 use super::error::{TruncationError, check_length, check_positive};
 use super::motion::{Powers, amplitude, sector_frequencies};
 use super::truncated;
@@ -60,7 +60,7 @@ impl AlongTrajectories {
         let frequencies = sector_frequencies(model)?;
         let mut powers = Powers::new(model)?;
         let per_bin = (high / low).ln() / self.bins as f64;
-        let empty = Sums::new(M::RECEIVERS.len(), powers.count());
+        let empty = SquareSums::new(M::RECEIVERS.len(), powers.count());
         let mut bins = vec![empty; self.bins];
         let samples = (self.duration * self.sampling).floor() as u64;
         let times: Vec<f64> = (0..=samples)

@@ -56,7 +56,7 @@ fn the_samples_are_rich() {
     let nested = |sample: &&Budgeted| {
         let sectors = sample.compiled.mechanics.sectors.as_ref();
         let mut sectors = sectors.iter().flat_map(|sectors| &sectors.sectors);
-        sectors.any(|sector| sector.place.is_some() && sector.coordinates.len() > 1)
+        sectors.any(|sector| sector.difference.is_some() && sector.coordinates.len() > 1)
     };
     assert!(SAMPLES.iter().filter(nested).count() >= 4);
     let links = SAMPLES.iter().flat_map(|sample| &sample.tree.links);

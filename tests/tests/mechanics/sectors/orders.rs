@@ -14,9 +14,9 @@ fn error(compiled: &Compiled, order: u32, epsilon: f64) -> f64 {
         .sectors
         .iter()
         .filter(|sector| {
-            sector
-                .place
-                .is_some_and(|place| budget.small.is_empty() || budget.small.contains(&place))
+            sector.difference.is_some_and(|difference| {
+                budget.small.is_empty() || budget.small.contains(&difference)
+            })
         })
         .flat_map(|sector| sector.coordinates.clone())
         .collect();
