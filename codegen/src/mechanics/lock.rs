@@ -82,6 +82,7 @@ impl std::error::Error for LockError {
 #[derive(Debug)]
 pub(super) struct DerivationLock {
     _file: File,
+    _old: File,
 }
 
 impl DerivationLock {
@@ -109,7 +110,13 @@ impl DerivationLock {
         }
         // Waiting processes can do without it.
         let _ = std::fs::write(&note, description());
-        Ok(Self { _file: file })
+        // TEMPORARY
+        let old = open(&std::env::temp_dir().join("branched-pendulum.lock")).map_err(failed)?;
+        old.lock().map_err(failed)?;
+        Ok(Self {
+            _file: file,
+            _old: old,
+        })
     }
 }
 
