@@ -125,8 +125,8 @@ fn underivable(description: &Description, error: &AlgebraError) -> Diagnostic {
 
 fn refuse(description: &Description, report: Report) -> (Report, TokenStream) {
     let errors = report.to_compile_errors();
-    if description.item.ident == "T" {
-        // The name of the type parameter: a stub would add errors.
+    if description.item.is_reserved() {
+        // A stub would add errors.
         let item = &description.item.tokens;
         return (report, quote!(#errors #item));
     }

@@ -130,8 +130,16 @@ fn deepest(tokens: &TokenStream) -> Option<Span> {
     None
 }
 
-/// The type parameter of emitted models.
-const SCALAR: &str = "T";
+/// Types that emitted models name without a path: their type parameter, and
+/// primitive ones.
+const RESERVED_TYPES: [&str; 5] = ["T", "f64", "usize", "bool", "str"];
+
+impl StructItem {
+    /// Whether the struct is called as a type that the code of a model names.
+    pub fn is_reserved(&self) -> bool {
+        RESERVED_TYPES.iter().any(|name| self.ident == name)
+    }
+}
 
 /// Reads the struct.
 fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
@@ -152,21 +160,20 @@ fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
             Message::StructFields { name: name.clone() },
         );
     }
-    if name == SCALAR {
-        report.error(
-            item.ident.span(),
-            Message::ReservedName { name: name.clone() },
-        );
-    }
     if !item.generics.params.is_empty() || item.generics.where_clause.is_some() {
+        let name = name.clone();
         report.error(item.ident.span(), Message::StructGenerics { name });
     }
-    Some(StructItem {
+    let item = StructItem {
         attrs: item.attrs,
         vis: item.vis,
         ident: item.ident,
         tokens,
-    })
+    };
+    if item.is_reserved() {
+        report.error(item.ident.span(), Message::ReservedName { name });
+    }
+    Some(item)
 }
 
 /// A member of the attribute.

@@ -10,7 +10,7 @@ impl Emission<'_> {
     /// cost a scene nothing that does not call them.
     pub(super) fn loop_cast(&self, loops: &str) -> TokenStream {
         let (name, runtime, loops) = (&self.item.ident, self.runtime(), ident(loops));
-        let fields = self.cast_fields(&loops);
+        let (fields, other) = (self.cast_fields(&loops), super::other_scalar(name));
         let (time, evaluate, drive) = match self.mechanics.drive {
             Some(_) => (
                 quote!(time),
@@ -25,12 +25,12 @@ impl Emission<'_> {
         };
         quote! {
             impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
-                type Of<S: #runtime::Scalar> = #name<S>;
+                type Of<#other: #runtime::Scalar> = #name<#other>;
 
-                fn cast<S: #runtime::Scalar>(
+                fn cast<#other: #runtime::Scalar>(
                     &self,
-                    convert: impl ::core::ops::Fn(T) -> S,
-                ) -> #name<S> {
+                    convert: impl ::core::ops::Fn(T) -> #other,
+                ) -> #name<#other> {
                     #name { #(#fields),* }
                 }
 

@@ -165,12 +165,22 @@ impl Emission<'_> {
     }
 }
 
+/// Type parameter beside `T`, where a function goes from one scalar to another:
+/// `S`, unless the model itself is called so.
+fn other_scalar(model: &Ident) -> Ident {
+    let name = if model == "S" { "R" } else { "S" };
+    Ident::new(name, Span::call_site())
+}
+
 /// The tokens of `::branched_pendulum` or of what `crate = …` says.
 pub fn runtime_path(path: &crate::scene::CratePath) -> TokenStream {
-    let mut segments = path.segments.iter().map(|segment| {
-        // `crate`, `self` and `super` are paths too, but no raw identifiers.
-        Ident::new(segment, Span::call_site())
-    });
+    let mut segments =
+        path.segments
+            .iter()
+            .map(|segment| match segment.strip_prefix("r#") {
+                Some(keyword) => Ident::new_raw(keyword, Span::call_site()),
+                None => Ident::new(segment, Span::call_site()),
+            });
     let first = segments.next();
     let lead = path.global.then(|| quote!(::));
     quote!(#lead #first #(:: #segments)*)

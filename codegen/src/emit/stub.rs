@@ -3,7 +3,7 @@
 //! and no others.
 
 use crate::description::{Description, Expression, ExpressionKind, Node, Value};
-use crate::scene::OBSERVABLE_SUFFIXES;
+use crate::scene::{OBSERVABLE_SUFFIXES, is_keyword, is_method};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
@@ -41,16 +41,6 @@ const BUDGETS: [&str; 4] = [
 /// Methods from two arrays to a transfer.
 const TRANSFERS: [&str; 2] = ["transfer_exact", "transfer_exact_from_rates"];
 
-/// Beginnings of the names of functions that are not listed one by one.
-const FAMILIES: [&str; 6] = [
-    "antiphase_drive_power",
-    "antiphase_energy",
-    "antiphase_friction_power",
-    "sector_transfers",
-    "symmetric_",
-    "transfer_",
-];
-
 /// Results of more elements say no more about a description that is wrong.
 const MOST_SECTORS: usize = 1024;
 
@@ -60,6 +50,7 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     let item = &description.item;
     let constructors = constructors(description, runtime);
     let (attrs, vis, name) = (&item.attrs, &item.vis, &item.ident);
+    let other = super::other_scalar(name);
     let idents = |names: &[&str]| -> Vec<Ident> {
         names
             .iter()
@@ -159,10 +150,10 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
         }
 
         impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
-            type Of<S: #runtime::Scalar> = #name<S>;
-            fn cast<S: #runtime::Scalar>(
-                &self, _: impl ::core::ops::Fn(T) -> S,
-            ) -> #name<S> { ::core::unimplemented!() }
+            type Of<#other: #runtime::Scalar> = #name<#other>;
+            fn cast<#other: #runtime::Scalar>(
+                &self, _: impl ::core::ops::Fn(T) -> #other,
+            ) -> #name<#other> { ::core::unimplemented!() }
             fn evaluate(
                 &self,
                 _: T,
@@ -194,8 +185,9 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     }
 }
 
-/// Names of the differences of groups of single links.
-fn places(description: &Description) -> Vec<String> {
+/// Names of the differences of groups of single links, each once: names of links
+/// may be wrong.
+fn places(description: &Description) -> BTreeSet<String> {
     let mut groups: Vec<(String, usize)> = Vec::new();
     let mut pending: Vec<&Node> = description.roots.iter().collect();
     while let Some(node) = pending.pop() {
@@ -291,6 +283,7 @@ fn rule_count(node: &Node, name: &str) -> Option<usize> {
 /// The Taylor coefficients, where they are asked for.
 fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStream> {
     let name = &description.item.ident;
+    let other = super::other_scalar(name);
     let wanted = description
         .requests
         .iter()
@@ -314,9 +307,9 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
 
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
                 fn taylor_workspace(_: usize) -> usize { 0 }
-                fn taylor_coefficients_of<S: #runtime::Scalar>(
-                    _: &#name<S>, _: S, _: &[S], _: &[S], _: &mut [S],
-                    _: &mut [#runtime::taylor::Quad<S>],
+                fn taylor_coefficients_of<#other: #runtime::Scalar>(
+                    _: &#name<#other>, _: #other, _: &[#other], _: &[#other], _: &mut [#other],
+                    _: &mut [#runtime::taylor::Quad<#other>],
                 ) {}
                 fn taylor_coefficients_into(
                     &self, _: T, _: &[T], _: &[T], _: &mut [T],
@@ -329,32 +322,31 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
 
 /// The functions of observables, as far as they can stand beside the others.
 fn observables(description: &Description) -> Vec<Ident> {
-    let known = MAPS.iter().chain(&TRANSFORMS).chain(&MATRICES);
-    let known = known.chain(&NUMBERS).chain(&TRANSFERS).chain(&BUDGETS);
-    let mut taken: BTreeSet<String> = known.map(|name| (*name).to_owned()).collect();
-    taken.extend(["potential_energy", "new", "from_parameters"].map(str::to_owned));
+    let mut taken = BTreeSet::new();
     let mut functions = Vec::new();
     for observable in &description.observables {
         let name = observable.name.to_string();
         for suffix in OBSERVABLE_SUFFIXES {
             let function = format!("{name}{suffix}");
-            let plain = syn::parse_str::<Ident>(&function);
-            if let Ok(plain) = plain
-                && !FAMILIES.iter().any(|family| function.starts_with(family))
-                && taken.insert(function)
-            {
-                functions.push(plain);
+            if is_plain(&function) && !is_method(&function) && taken.insert(function.clone()) {
+                functions.push(format_ident!("{function}"));
             }
         }
     }
     functions
 }
 
+/// Whether a name may stand in a stub: no keyword, and spelt in one way only.
+fn is_plain(name: &str) -> bool {
+    syn::parse_str::<Ident>(name).is_ok() && !is_keyword(name) && !name.starts_with("r#")
+}
+
 /// As the model would have them: with the parameters that the description
 /// names, or without any.
 fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream {
     let (vis, name) = (&description.item.vis, &description.item.ident);
-    let names = description.parameter_names();
+    let mut names = description.parameter_names();
+    names.retain(|name| is_plain(&name.to_string()));
     if names.is_empty() {
         return quote! {
             #[allow(missing_docs, clippy::all)]

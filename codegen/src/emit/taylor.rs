@@ -145,6 +145,7 @@ impl Emission<'_> {
     /// The runtime's trait for it, in slices of any length.
     pub(super) fn taylor_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
+        let other = super::other_scalar(name);
         let entry = self.program.entry("taylor_coefficients");
         let Some(entry) = entry else {
             unreachable!("the request makes the entry");
@@ -166,13 +167,13 @@ impl Emission<'_> {
         quote! {
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
                 #[inline(always)]
-                fn taylor_coefficients_of<S: #runtime::Scalar>(
-                    pendulum: &#name<S>,
-                    time: S,
-                    theta: &[S],
-                    omega: &[S],
-                    coefficients: &mut [S],
-                    work: &mut [#runtime::taylor::Quad<S>],
+                fn taylor_coefficients_of<#other: #runtime::Scalar>(
+                    pendulum: &#name<#other>,
+                    time: #other,
+                    theta: &[#other],
+                    omega: &[#other],
+                    coefficients: &mut [#other],
+                    work: &mut [#runtime::taylor::Quad<#other>],
                 ) {
                     pendulum.taylor_coefficients_into(time, theta, omega, coefficients, work);
                 }

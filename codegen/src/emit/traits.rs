@@ -114,6 +114,7 @@ impl Emission<'_> {
             .into_iter()
             .map(|id| self.field(id))
             .collect();
+        let other = super::other_scalar(name);
         let convert = match fields.is_empty() {
             true => quote!(_convert),
             false => quote!(convert),
@@ -131,13 +132,13 @@ impl Emission<'_> {
             }
 
             impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
-                type Of<S: #runtime::Scalar> = #name<S>;
+                type Of<#other: #runtime::Scalar> = #name<#other>;
 
                 #[inline(always)]
-                fn cast<S: #runtime::Scalar>(
+                fn cast<#other: #runtime::Scalar>(
                     &self,
-                    #convert: impl ::core::ops::Fn(T) -> S,
-                ) -> #name<S> {
+                    #convert: impl ::core::ops::Fn(T) -> #other,
+                ) -> #name<#other> {
                     #name { #(#fields: convert(self.#fields)),* }
                 }
 

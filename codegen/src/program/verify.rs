@@ -1,6 +1,6 @@
 //! Checks the shape of a program. Later stages rely on it; a fault is a bug.
 
-use super::{Program, Shape};
+use super::{ConstantOp, Program, Shape};
 use crate::exact::Rational;
 use std::fmt;
 
@@ -79,6 +79,11 @@ impl Program {
         let definition = self.setup.get(id);
         if let Some(exact) = &definition.exact
             && is_unrepresentable(exact)
+        {
+            return Some(&definition.name);
+        }
+        if let ConstantOp::Number(number) | ConstantOp::Product(number, _) = &definition.op
+            && is_unrepresentable(number)
         {
             return Some(&definition.name);
         }

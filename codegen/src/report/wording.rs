@@ -88,7 +88,10 @@ impl Message {
             M::ReservedName { name } => problem(
                 format!("the name `{name}` is reserved"),
                 "used by Rust or by the emitted code",
-                format!("choose another, as in `my_{name}`"),
+                match name.starts_with(|first: char| first.is_ascii_uppercase()) {
+                    true => format!("choose another, as in `My{name}`"),
+                    false => format!("choose another, as in `my_{name}`"),
+                },
             ),
             M::NotSnakeCase { name, suggestion } => problem(
                 format!("`{name}` is not a snake-case name"),

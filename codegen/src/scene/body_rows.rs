@@ -23,8 +23,7 @@ pub fn has_bodies(scene: &Scene) -> bool {
 
 /// Whether `f64` can hold them all, where the code has them.
 pub(super) fn bodies_fit(scene: &Scene) -> bool {
-    let fits = |value: &Quantity| value.exact().is_none_or(|n| n.to_f64().is_finite());
-    !has_bodies(scene) || body_rows(scene).iter().flatten().all(fits)
+    !has_bodies(scene) || body_rows(scene).iter().flatten().all(Quantity::is_finite)
 }
 
 fn body_row(gravity: &Quantity, link: &Link) -> [Quantity; 12] {

@@ -268,7 +268,7 @@ impl Constants {
 
     /// The first value that no `f64` can hold, by its column.
     fn unrepresentable(&self, columns: &[&'static str]) -> Option<&'static str> {
-        let fits = |quantity: &Quantity| quantity.exact().is_none_or(|n| n.to_f64().is_finite());
+        let fits = Quantity::is_finite;
         let motion = self.motion.iter().flat_map(|row| columns.iter().zip(row));
         let wrong = motion.into_iter().find(|(_, value)| !fits(value));
         let energy = self.energy.iter().flatten().all(fits)

@@ -41,8 +41,10 @@ pub use body_rows::{body_rows, has_bodies};
 pub use drive::{Drive, Signal, TimeFunction};
 pub use forces::Forces;
 pub use generations::{Constants, Generations};
+pub use names::is_keyword;
 pub use observables::{
     CoordinateIndex, Function, OBSERVABLE_SUFFIXES, Observable, Observed, Variable, VariableKind,
+    is_method,
 };
 pub use places::columns as placed_columns;
 pub use quantity::Quantity;

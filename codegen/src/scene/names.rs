@@ -70,10 +70,15 @@ pub(super) fn check_parameter(name: &str, span: Span, report: &mut Report) -> Op
     }
 }
 
+/// Returns true if a name is a keyword of Rust 2024.
+pub fn is_keyword(name: &str) -> bool {
+    KEYWORDS.contains(&name)
+}
+
 /// The message about a name that may not be used.
 fn fault(name: &str) -> Option<Message> {
     let name = name.to_owned();
-    if KEYWORDS.contains(&name.as_str()) || EMITTED.contains(&name.as_str()) {
+    if is_keyword(&name) || EMITTED.contains(&name.as_str()) {
         Some(Message::ReservedName { name })
     } else if is_snake_case(&name) {
         None
@@ -112,5 +117,5 @@ fn snake_case(name: &str) -> Option<String> {
 
 /// Returns true if a name may be used.
 fn fault_free(name: &str) -> bool {
-    is_snake_case(name) && !KEYWORDS.contains(&name) && !EMITTED.contains(&name)
+    is_snake_case(name) && !is_keyword(name) && !EMITTED.contains(&name)
 }

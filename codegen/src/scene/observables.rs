@@ -164,6 +164,11 @@ const METHOD_FAMILIES: &[&str] = &[
     "transfer_quadratic_form",
 ];
 
+/// Whether emitted models may have a method of that name, asked for or not.
+pub fn is_method(name: &str) -> bool {
+    METHODS.contains(&name) || METHOD_FAMILIES.iter().any(|f| name.starts_with(f))
+}
+
 /// Adds the observables to the scene, whose tree is complete; what is wrong
 /// goes to `report`. `owners` holds the names of links, orbits and groups.
 pub(super) fn resolve_observables(
@@ -208,8 +213,7 @@ fn check_functions(
 ) -> bool {
     for suffix in OBSERVABLE_SUFFIXES {
         let function = format!("{name}{suffix}");
-        let taken = METHODS.contains(&function.as_str())
-            || METHOD_FAMILIES.iter().any(|f| function.starts_with(f))
+        let taken = is_method(&function)
             || symbols.is_constant(&function)
             || !functions.insert(function.clone());
         if taken {

@@ -189,6 +189,15 @@ impl Quantity {
         }
     }
 
+    /// Whether every number in the value rounds to a finite `f64`.
+    pub fn is_finite(&self) -> bool {
+        let mut finite = true;
+        self.for_each_leaf(&mut |leaf| {
+            finite &= leaf.exact().is_none_or(|number| number.to_f64().is_finite());
+        });
+        finite
+    }
+
     /// The value as text in the attribute's own notation, so that it could be
     /// written there again. `parameters` are those of the scene.
     pub fn display<'a>(&'a self, parameters: &'a [Parameter]) -> impl fmt::Display + 'a {

@@ -181,7 +181,7 @@ impl Table {
 
     /// The first value that no `f64` can hold, by its column.
     fn unrepresentable(&self, columns: &[&'static str]) -> Option<&'static str> {
-        let fits = |quantity: &Quantity| quantity.exact().is_none_or(|n| n.to_f64().is_finite());
+        let fits = Quantity::is_finite;
         let motion = self.motion.iter().flat_map(|row| columns.iter().zip(row));
         let energy = self
             .energy

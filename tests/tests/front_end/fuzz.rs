@@ -1,5 +1,9 @@
 //! No input makes the macro panic, and none gets away without code or a message.
 
+mod expansion;
+mod grammar;
+mod verdict;
+
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
 use branched_pendulum_codegen::stages;

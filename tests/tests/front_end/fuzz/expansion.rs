@@ -1,0 +1,133 @@
+//! Random descriptions through the whole pipeline: each is expanded within limits
+//! of time and memory, or refused in our words.
+
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use proc_macro2::{TokenStream, TokenTree};
+
+use super::grammar::description;
+use super::verdict::{Verdict, judge, peak_memory, processor_time};
+use super::{flattened, mutated};
+use crate::support::Random;
+
+/// Most processor time for one description, in an unoptimised build.
+const TIME: Duration = Duration::from_secs(5);
+
+/// Most memory for all of them.
+const MEMORY: u64 = 1 << 30;
+
+/// Description that is being expanded, and the processor time at its start.
+type Present = Arc<Mutex<(Duration, String)>>;
+
+/// Ends the process over a description that takes far too long: no test can.
+fn watch(present: Present) {
+    std::thread::spawn(move || {
+        loop {
+            std::thread::sleep(Duration::from_millis(500));
+            let Ok(present) = present.lock() else { return };
+            let memory = peak_memory().unwrap_or(0);
+            if processor_time().saturating_sub(present.0) > 6 * TIME || memory > 2 * MEMORY {
+                eprintln!("far too much time or memory: {}", present.1);
+                std::process::exit(1);
+            }
+        }
+    });
+}
+
+/// Looks at `count` descriptions; gives those that broke something, with what.
+fn broken(seed: u64, count: usize) -> Vec<String> {
+    let mut random = Random(seed);
+    let present: Present = Arc::default();
+    watch(Arc::clone(&present));
+    let (mut faults, mut expanded, mut refused) = (Vec::new(), 0, 0);
+    let mut longest = (Duration::ZERO, String::new());
+    for index in 0..count {
+        let (attribute, item) = description(&mut random);
+        let tokens = |text: &str| text.parse::<TokenStream>().unwrap_or_default();
+        let mut attribute = tokens(&attribute);
+        let item = tokens(&item);
+        if random.below(4) == 0 {
+            let mut supply = Vec::new();
+            flattened(attribute.clone(), &mut supply);
+            let mut trees: Vec<TokenTree> = attribute.into_iter().collect();
+            for _ in 0..1 + random.below(3) {
+                trees = mutated(&trees, &supply, &mut random);
+            }
+            attribute = trees.into_iter().collect();
+        }
+        let shown = format!("#[branched_pendulum({attribute})] {item}");
+        let start = processor_time();
+        if let Ok(mut present) = present.lock() {
+            *present = (start, shown.clone());
+        }
+        let verdict = judge(&attribute, &item);
+        let time = processor_time().saturating_sub(start);
+        if time > TIME {
+            faults.push(format!("{index}: took {time:?}: {shown}"));
+        }
+        if time > longest.0 {
+            longest = (time, shown.clone());
+        }
+        match verdict {
+            Verdict::Expanded => expanded += 1,
+            Verdict::Refused => refused += 1,
+            Verdict::Broken(what) => {
+                let fault = format!("{index}: {what}: {shown}");
+                eprintln!("{fault}");
+                faults.push(fault);
+            }
+        }
+        if (index + 1) % 10_000 == 0 {
+            eprintln!("{} looked at, {} broken", index + 1, faults.len());
+        }
+    }
+    let memory = peak_memory().unwrap_or(0);
+    eprintln!(
+        "{expanded} expanded, {refused} refused, {} broken; {memory} bytes at most; longest {:?}: {}",
+        faults.len(),
+        longest.0,
+        longest.1,
+    );
+    if memory > MEMORY {
+        faults.push(format!("{memory} bytes of memory"));
+    }
+    // Neither all right nor all wrong.
+    assert!(expanded > count / 5 && refused > count / 5);
+    faults
+}
+
+#[test]
+fn descriptions_are_expanded_or_refused() {
+    let faults = broken(20_251_122, 2_000);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// As many as the environment asks for; see `README.md`.
+#[test]
+#[ignore = "runs for hours"]
+fn many_descriptions_are_expanded_or_refused() {
+    let number = |name: &str, otherwise: u64| {
+        let text = std::env::var(name).ok();
+        text.map_or(otherwise, |text| text.parse().expect("a whole number"))
+    };
+    let count = number("FUZZ_COUNT", 1_000_000);
+    let faults = broken(number("FUZZ_SEED", 1), count as usize);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+#[ignore = "scratch"]
+fn scratch_file() {
+    for path in std::env::var("FILES").unwrap().split(',') {
+        let source = std::fs::read_to_string(path).unwrap();
+        let (attribute, item) = crate::support::split(&source);
+        let start = processor_time();
+        let verdict = judge(&attribute, &item);
+        let time = processor_time().saturating_sub(start);
+        let what = match verdict { Verdict::Expanded => "expanded".to_owned(), Verdict::Refused => {
+            format!("refused {}", branched_pendulum_codegen::stages(attribute, item).err().map(|(r, _)| r.render(&source)).unwrap_or_default())
+        }, Verdict::Broken(what) => what };
+        eprintln!("{path}: {time:?} {} MB {what}", peak_memory().unwrap_or(0) >> 20);
+    }
+}

@@ -1,0 +1,352 @@
+//! Random descriptions by the grammar of the attribute. Most are right; some
+//! have odd values, names, sizes or requests, as users and machines write them.
+
+use crate::support::Random;
+
+/// Shapes with the properties that they need.
+const SHAPES: &[(&str, &[&str])] = &[
+    ("point", &["mass", "length"]),
+    ("rod", &["mass", "length"]),
+    ("rod_with_bob", &["mass", "length", "bob_mass"]),
+    ("cylinder", &["mass", "length", "radius"]),
+    ("disc", &["mass", "radius", "length"]),
+    ("ball", &["mass", "radius", "length"]),
+    ("plate", &["mass", "length", "width"]),
+    ("", &["mass", "com", "inertia", "joint"]),
+];
+
+/// Names of links.
+const LINKS: &[&str] = &[
+    "arm", "hand", "finger", "tip", "bob", "twig", "leaf", "stem",
+];
+
+/// Names of parameters, some of which look like something else.
+const PARAMETERS: &[&str] = &["m", "l", "g", "k", "a", "b", "w", "p", "q", "n", "x", "scale"];
+
+/// Names that are reserved, taken, or no names.
+const ODD_NAMES: &[&str] = &[
+    "sin", "cos", "sqrt", "t", "T", "S", "pi", "PI", "tau", "inf", "nan", "self", "Self", "crate",
+    "super", "async", "gen", "type", "r#type", "r#fn", "_", "__", "_a", "a_", "A", "mL", "é", "Ω",
+    "true", "time", "out", "new", "momenta", "theta_arm", "omega", "theta", "gravity", "inertia_arm",
+    "coupling_hand_arm", "kinetic_energy", "parameters", "generations", "links", "scaled", "shared",
+    "convert", "f64", "prismatic", "ball", "alpha", "turns", "number", "constant_0", "d", "m_1",
+];
+
+/// Numbers at the edges of what is exact, representable or a number.
+const ODD_NUMBERS: &[&str] = &[
+    "0", "0.0", "1", "-1", "1e308", "1.7976931348623157e308", "1e300", "1e200", "1e155", "1e100",
+    "1e-100", "1e-155", "1e-200", "1e-300", "5e-324", "2e-324", "1e400", "1e-400", "1e401",
+    "1e99999999999", "4294967296", "340282366920938463463374607431768211456", "0x1F", "1f64",
+    "1kg", "0.1_5", "1_000", "3.141592653589793238462643383279502884197169399375105820974944",
+    "9.8 m", "\"text\"", "'c'", "true", "1/3", "(1 - 1)", "(0.1 + 0.2 - 0.3)",
+];
+
+/// Names of structs.
+const STRUCTS: &[&str] = &[
+    "Pendulum", "Pendulum", "Pendulum", "Pendulum", "S", "T", "R", "N", "r#type", "f64", "Option",
+    "Self", "pendulum", "Vec", "Transfer", "Scalar", "Clone", "K",
+];
+
+/// Writes one description after the other.
+pub(crate) struct Grammar<'a> {
+    random: &'a mut Random,
+    /// One in so many choices is odd; none if 0.
+    odd: usize,
+    /// Links of the present tree.
+    links: Vec<String>,
+}
+
+/// A description: attribute and item.
+pub(crate) fn description(random: &mut Random) -> (String, String) {
+    let odd = *random.pick(&[0, 0, 0, 60, 25, 8]);
+    let links = Vec::new();
+    let mut grammar = Grammar { random, odd, links };
+    let attribute = grammar.attribute();
+    (attribute, grammar.item())
+}
+
+impl Grammar<'_> {
+    /// Whether the next choice is odd.
+    fn is_odd(&mut self) -> bool {
+        self.odd > 0 && self.one_in(self.odd)
+    }
+
+    fn one_in(&mut self, count: usize) -> bool {
+        self.random.below(count) == 0
+    }
+
+    fn pick(&mut self, choices: &[&str]) -> String {
+        (*self.random.pick(choices)).to_owned()
+    }
+
+    fn item(&mut self) -> String {
+        let name = match self.is_odd() {
+            true => self.pick(STRUCTS),
+            false => "Pendulum".to_owned(),
+        };
+        let before = self.pick(&["", "pub ", "pub(crate) ", "#[derive(Debug)] pub ", "/// Text.\n"]);
+        let after = match self.is_odd() {
+            true => self.pick(&[" {}", "();", "<T>;", " { a: f64 }", "", "(u8);"]),
+            false => ";".to_owned(),
+        };
+        format!("{before}struct {name}{after}")
+    }
+
+    fn attribute(&mut self) -> String {
+        let mut entries = Vec::new();
+        if self.one_in(20) {
+            let path = self.pick(&["::bp", "crate", "::r#type", "super::a::b", "self", "::a::r#fn"]);
+            entries.push(format!("crate = {path}"));
+        }
+        if !self.is_odd() {
+            let gravity = self.value();
+            entries.push(format!("gravity = {gravity}"));
+        }
+        for (name, values) in [
+            ("solve", ["factorization", "recursion", "lu"]),
+            ("code", ["loops", "unrolled", "fast"]),
+        ] {
+            if self.one_in(10) {
+                let known = if self.is_odd() { 3 } else { 2 };
+                let value = values[self.random.below(known)];
+                entries.push(format!("{name} = {value}"));
+            }
+        }
+        let budget = *self.random.pick(&[1, 2, 3, 4, 5, 7]);
+        entries.push(self.tree(budget));
+        if self.is_odd() {
+            entries.push(self.tree(1));
+        }
+        if self.one_in(4) {
+            entries.push(self.drive());
+        }
+        if self.one_in(2) {
+            entries.push(self.emit());
+        }
+        if self.one_in(4) {
+            entries.push(self.observe());
+        }
+        if self.is_odd() {
+            let other = self.random.below(entries.len());
+            entries.swap(0, other);
+        }
+        if self.is_odd() {
+            let other = self.random.below(entries.len());
+            entries.push(entries[other].clone());
+        }
+        let comma = if self.one_in(2) { "," } else { "" };
+        format!("{}{comma}", entries.join(", "))
+    }
+
+    /// A link of at most so many below each other and beside each other, copies
+    /// aside.
+    fn tree(&mut self, budget: usize) -> String {
+        let name = match self.is_odd() {
+            true => self.pick(ODD_NAMES),
+            false => LINKS[self.links.len() % LINKS.len()].to_owned(),
+        };
+        self.links.push(name.clone());
+        if self.one_in(8) {
+            return self.rule(&name);
+        }
+        let (shape, needed) = *self.random.pick(SHAPES);
+        let mut properties: Vec<String> = Vec::new();
+        for property in needed {
+            if !self.is_odd() {
+                properties.push(self.property(property));
+            }
+        }
+        for property in ["friction", "drag", "spring"] {
+            if self.one_in(8) {
+                properties.push(self.property(property));
+            }
+        }
+        if self.links.len() > 1 && self.one_in(5) {
+            properties.push(self.property("at"));
+        }
+        if self.is_odd() {
+            let other = self.pick(&["com", "joint", "inertia", "mass", "stiffness", "at"]);
+            properties.push(self.property(&other));
+        }
+        let mut children = Vec::new();
+        let mut left = budget.saturating_sub(1);
+        while left > 0 {
+            let part = 1 + self.random.below(left);
+            children.push(self.tree(part));
+            left -= part;
+        }
+        let mut link = match shape {
+            "" => name,
+            shape => format!("{name}: {shape}"),
+        };
+        link.push_str(&format!("({})", properties.join(", ")));
+        if !children.is_empty() {
+            link.push_str(&format!(" [{}]", children.join(", ")));
+        }
+        if self.links.len() > 1 && self.one_in(3) {
+            let copies = match self.is_odd() {
+                true => self.pick(&["0", "1", "7", "40", "4097", "99999999999", "m", "-1", "2.0"]),
+                false => self.pick(&["2", "2", "3"]),
+            };
+            link.push_str(&format!(" * {copies}"));
+        }
+        link
+    }
+
+    /// A rule for generations.
+    fn rule(&mut self, name: &str) -> String {
+        let (shape, needed) = self.random.pick(&SHAPES[..7]);
+        let (shape, needed) = (shape.to_owned(), needed.to_owned());
+        let mut properties: Vec<String> = needed.iter().map(|p| self.property(p)).collect();
+        let (count, branching) = match self.is_odd() {
+            true => (
+                self.pick(&["0", "30", "45", "64", "65", "100", "1000", "4096", "5000", "9999999999"]),
+                self.pick(&["0", "1", "1", "2", "3", "10", "4294967296", "m"]),
+            ),
+            false => (self.pick(&["1", "2", "3", "4"]), self.pick(&["1", "2", "2", "3"])),
+        };
+        properties.push(format!("shape = {shape}, count = {count}, branching = {branching}"));
+        for ratio in ["mass_ratio", "length_ratio", "friction", "spring"] {
+            if self.one_in(4) {
+                properties.push(self.property(ratio));
+            }
+        }
+        if self.one_in(8) {
+            let code = self.pick(&["code = loops", "code = unrolled"]);
+            properties.push(code);
+        }
+        format!("{name}: generations({})", properties.join(", "))
+    }
+
+    fn property(&mut self, name: &str) -> String {
+        if ["com", "joint", "at"].contains(&name) && self.one_in(4) {
+            let (along, lateral) = (self.value(), self.value());
+            return format!("{name} = ({along}, {lateral})");
+        }
+        let value = self.value();
+        format!("{name} = {value}")
+    }
+
+    /// The value of a property.
+    fn value(&mut self) -> String {
+        if self.is_odd() {
+            return match self.random.below(3) {
+                0 => self.pick(ODD_NAMES),
+                1 => self.expression(5, &[]),
+                _ => self.pick(ODD_NUMBERS),
+            };
+        }
+        match self.random.below(8) {
+            0 | 1 => self.pick(PARAMETERS),
+            2 => self.expression(2, &[]),
+            _ => self.pick(&["1", "0.27", "0.084", "1.88e-3", "2.5", "0.1", "9.80665"]),
+        }
+    }
+
+    /// An expression of parameters, numbers and `symbols`, which have functions.
+    fn expression(&mut self, depth: usize, symbols: &[String]) -> String {
+        if depth == 0 || self.one_in(4) {
+            if self.is_odd() {
+                let odd = if self.one_in(2) { ODD_NAMES } else { ODD_NUMBERS };
+                return self.pick(odd);
+            }
+            return match self.random.below(3) {
+                0 => self.pick(&["1", "2", "0.5", "3.7", "1e-3"]),
+                1 if symbols.is_empty() || self.one_in(3) => self.pick(PARAMETERS),
+                _ if symbols.is_empty() => self.pick(&["4", "0.25"]),
+                _ => self.random.pick(symbols).clone(),
+            };
+        }
+        let part = |grammar: &mut Self| grammar.expression(depth - 1, symbols);
+        // Properties are mostly positive.
+        let signs = !symbols.is_empty() || self.is_odd();
+        match self.random.below(9) {
+            2 if !signs => part(self),
+            8 if !signs => format!("({})", part(self)),
+            0 | 1 => format!("{} + {}", part(self), part(self)),
+            2 => format!("({} - {})", part(self), part(self)),
+            3 | 4 => format!("{} * {}", part(self), part(self)),
+            5 => format!("({}) / ({})", part(self), part(self)),
+            6 => {
+                let powers = match self.is_odd() {
+                    true => ["8", "-8", "9", "400", "0", "-1", "2147483647", "(-2147483648)"],
+                    false => ["2", "2", "3", "-1", "4", "2", "3", "2"],
+                };
+                format!("({})^{}", part(self), self.pick(&powers))
+            }
+            7 if !symbols.is_empty() || self.is_odd() => {
+                let function = match self.is_odd() {
+                    true => self.pick(&["tan", "exp", "sqrt", "sin", "abs"]),
+                    false => self.pick(&["sin", "cos"]),
+                };
+                format!("{function}({})", part(self))
+            }
+            _ => format!("-({})", part(self)),
+        }
+    }
+
+    fn drive(&mut self) -> String {
+        let symbols = ["t".to_owned(), "t".to_owned()];
+        let parts = ["torque", "x", "y"].map(|name| {
+            let depth = 1 + self.random.below(4);
+            let value = self.expression(depth, &symbols);
+            format!("{name} = {value}")
+        });
+        let mut parts = parts.to_vec();
+        while parts.len() > 1 && self.one_in(2) {
+            let one = self.random.below(parts.len());
+            drop(parts.remove(one));
+        }
+        format!("drive({})", parts.join(", "))
+    }
+
+    fn emit(&mut self) -> String {
+        let mut requests = Vec::new();
+        for request in ["energies", "momenta", "modes", "symmetric", "taylor"] {
+            if self.one_in(4) {
+                requests.push(request.to_owned());
+            }
+        }
+        if self.one_in(5) {
+            let forms = ["", "(exact)", "(angle = 1)", "(angle = 3, amplitude = 4)", "(amplitude = 2)"];
+            let odd = ["()", "(angle = 8, amplitude = 8)", "(angle = 0)", "(rest)", "(exact = 1)"];
+            let forms = if self.is_odd() { odd } else { forms };
+            requests.push(format!("transfer{}", self.pick(&forms)));
+        }
+        if self.one_in(5) {
+            let forms = ["", "(canonical)", "(parseval, matrix)", "(rest, velocity)", "(amplitude = 2)"];
+            let odd = ["()", "(angle = 6, amplitude = 8)", "(amplitude = 2, small(hand_d))", "(amplitude = 4, small(hand))", "(angle = 99)"];
+            let forms = if self.is_odd() { odd } else { forms };
+            requests.push(format!("budget{}", self.pick(&forms)));
+        }
+        if self.is_odd() {
+            requests.push(self.pick(ODD_NAMES));
+        }
+        format!("emit({})", requests.join(", "))
+    }
+
+    fn observe(&mut self) -> String {
+        let mut symbols = vec!["kinetic_energy".to_owned(), "gravity".to_owned()];
+        for link in &self.links {
+            for symbol in ["theta", "omega", "p", "inertia", "gravity"] {
+                symbols.push(format!("{symbol}_{link}"));
+                if self.odd > 0 {
+                    symbols.push(format!("{symbol}_{link}_1"));
+                }
+            }
+        }
+        let count = 1 + self.random.below(3);
+        let observables: Vec<String> = (0..count)
+            .map(|index| {
+                let name = match self.is_odd() {
+                    true => self.pick(&["accelerations", "sin", "new", "friction_power", "cast", "self", "z", "budget_rest"]),
+                    false => ["first", "second", "third"][index].to_owned(),
+                };
+                let depth = 1 + self.random.below(4);
+                let value = self.expression(depth, &symbols);
+                format!("{name} = {value}")
+            })
+            .collect();
+        format!("observe({})", observables.join(", "))
+    }
+}
