@@ -1,7 +1,8 @@
-//! From the attribute `#[branched_pendulum(...)]` to specialised Rust code.
+//! Compiler of the attribute `#[branched_pendulum(...)]` to specialised Rust
+//! code.
 //!
-//! An ordinary library on token streams, so that every stage can be tested
-//! without a compiler around it:
+//! It is an ordinary library on token streams, so that every stage can be
+//! tested without a compiler around it:
 //!
 //! ```text
 //! tokens -> Description -> Scene -> Mechanics -> Program -> tokens

@@ -181,7 +181,8 @@ impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
 /// lines takes two accesses.
 const LINE: usize = 64;
 
-/// Numbers for so many values in the widest registers, wherever they start.
+/// Numbers of workspace for `values` values in the widest registers, wherever
+/// it starts.
 fn room<T>(values: usize) -> usize {
     match values {
         0 => 0,
@@ -189,7 +190,7 @@ fn room<T>(values: usize) -> usize {
     }
 }
 
-/// From the first line on.
+/// The workspace from its first line of the cache on.
 fn aligned<T>(room: &mut [T]) -> &mut [T] {
     let unaligned = room.as_ptr().align_offset(LINE);
     room.get_mut(unaligned..).unwrap_or_default()

@@ -85,10 +85,10 @@ impl Emission<'_> {
                 (Op::Number(_), _) => None,
                 (Op::Sin(_) | Op::Cos(_), Some(name)) => Some(name.clone()),
                 (_, Some(name)) => Some(name.clone()),
-                (_, None) if several => {
-                    let hint = definition.hint.clone();
-                    hint.or_else(|| self.describe(id, &locals))
-                }
+                (_, None) if several => Some(match &definition.hint {
+                    Some(hint) => hint.clone(),
+                    None => self.described(id, &locals),
+                }),
                 (_, None) => {
                     depths.insert(id, depth);
                     continue;
@@ -98,11 +98,7 @@ impl Emission<'_> {
             if number && !several {
                 continue;
             }
-            let wanted = match wanted {
-                Some(name) => name,
-                None if number => self.describe(id, &locals).unwrap_or_default(),
-                None => String::new(),
-            };
+            let wanted = wanted.unwrap_or_else(|| self.described(id, &locals));
             locals.claim(id, wanted);
         }
         locals
@@ -137,11 +133,45 @@ impl Emission<'_> {
         }
     }
 
-    /// A name that says how the value is formed, if its operands have names.
+    /// A name by content: the whole formula where that is short enough, else
+    /// the kind of the operation and the first local value in it.
+    pub(super) fn described(&self, id: ValueId, locals: &Locals) -> String {
+        if let Some(name) = self.describe(id, locals) {
+            return name;
+        }
+        let kind = match self.op(id) {
+            Op::Add(..) | Op::Sub(..) => "sum",
+            Op::Div(..) => "quotient",
+            Op::Neg(_) => "opposite",
+            Op::Sqrt(_) => "root",
+            _ => "product",
+        };
+        match self.first_local(id, locals) {
+            Some(name) if name.len() <= LONGEST_NAME => format!("{kind}_with_{name}"),
+            _ => kind.to_owned(),
+        }
+    }
+
+    /// Name of the first local value that a value is written with, numbers aside.
+    fn first_local<'l>(&self, id: ValueId, locals: &'l Locals) -> Option<&'l str> {
+        let mut operands = self.op(id).operands();
+        operands.find_map(
+            |operand| match (self.op(operand), locals.names.get(&operand)) {
+                (Op::Number(_), _) => None,
+                (_, Some(name)) => Some(name.as_str()),
+                (_, None) => self.first_local(operand, locals),
+            },
+        )
+    }
+
+    /// A name that says how the value is formed, if that is short enough.
     pub(super) fn describe(&self, id: ValueId, locals: &Locals) -> Option<String> {
         let name = |operand: ValueId| match self.op(operand) {
             Op::Constant(constant) => Some(self.program.setup.get(*constant).name.clone()),
-            _ => locals.names.get(&operand).cloned(),
+            _ => match locals.names.get(&operand) {
+                Some(name) => Some(name.clone()),
+                None => self.describe(operand, locals),
+            },
         };
         let described = match self.op(id) {
             Op::Number(number) => constant_names::number(number),
@@ -168,11 +198,6 @@ impl Locals {
 
     /// A name that no local has, `wanted` or `wanted` with a number.
     pub(super) fn fresh(&mut self, wanted: String) -> String {
-        let wanted = if wanted.is_empty() {
-            "shared".to_owned()
-        } else {
-            wanted
-        };
         let mut name = wanted.clone();
         while !self.used.insert(name.clone()) {
             let number = self.numbers.entry(wanted.clone()).or_insert(2);

@@ -46,7 +46,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// About how many lines of formatted code this is.
+    /// Estimated number of lines of formatted code.
     fn height(&self) -> usize {
         self.tokens.to_string().len().div_ceil(WIDTH)
     }

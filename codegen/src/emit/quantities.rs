@@ -108,7 +108,7 @@ fn joined(
     (quote!(#first #(#operator #rest)*), whole)
 }
 
-/// In parentheses where the place asks for a tighter binding.
+/// Puts a value in parentheses where its place asks for a tighter binding.
 pub(super) fn enclosed((value, binding): (TokenStream, Binding), place: Binding) -> TokenStream {
     match binding < place {
         true => quote!((#value)),

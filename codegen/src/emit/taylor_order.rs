@@ -203,8 +203,8 @@ impl<'e> Recurrences<'e> {
             for value in self.read_again(id) {
                 let leaf = matches!(self.emission.op(value), Op::Constant(_) | Op::Number(_));
                 if !leaf && !self.locals.names.contains_key(&value) {
-                    let name = self.emission.describe(value, &self.locals);
-                    self.locals.claim(value, name.unwrap_or_default());
+                    let name = self.emission.described(value, &self.locals);
+                    self.locals.claim(value, name);
                 }
             }
         }
@@ -239,9 +239,8 @@ impl<'e> Recurrences<'e> {
                 _ => unreachable!("other operations are linear"),
             };
             let known = self.locals.names.get(&id).cloned();
-            let known = known.or_else(|| self.emission.describe(id, &self.locals));
-            let wanted = known.map_or_else(|| "sum".to_owned(), |name| format!("sum_{name}"));
-            let name = ident(&self.locals.fresh(wanted));
+            let known = known.unwrap_or_else(|| self.emission.described(id, &self.locals));
+            let name = ident(&self.locals.fresh(format!("sum_{known}")));
             self.sums.push(ProductSum {
                 of: op,
                 name,

@@ -1,4 +1,4 @@
-//! From positions to the Lagrangian and the Euler–Lagrange equations
+//! Derivation of the Lagrangian and the Euler–Lagrange equations from positions
 //! (physics §1), in the absolute angles.
 
 use super::algebra::Formula;

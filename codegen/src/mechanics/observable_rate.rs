@@ -1,14 +1,15 @@
 //! Rates of change of observables, by two routes (docs/physics.md §7).
 //!
-//! From coordinates and velocities, by the chain rule along the motion:
+//! The first starts from coordinates and velocities and takes the chain rule
+//! along the motion:
 //!
 //! ```text
 //! dF/dt = Σ ∂F/∂q_i v_i + Σ ∂F/∂p_i (∂L/∂q_i + Q_i) + Σ ∂F/∂v_i a_i
 //! ```
 //!
 //! with the accelerations a that the equations of motion are solved for, and
-//! friction and drag Q. From coordinates and momenta, by the Poisson bracket of
-//! F(q, p, v(q, p)) with H. Because M v = p, a velocity in F counts as
+//! friction and drag Q. The second starts from coordinates and momenta and takes
+//! the Poisson bracket of F(q, p, v(q, p)) with H. Because M v = p, a velocity in F counts as
 //! ∂v/∂p = M⁻¹ and ∂v/∂q_i = −M⁻¹ (∂_i M) v, so that with M y = ∂F/∂v
 //!
 //! ```text

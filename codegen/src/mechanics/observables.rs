@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// Quantities of the user's own and what their formulas refer to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observables {
-    /// In the order of the description.
+    /// The observables, in the order of the description.
     pub list: Vec<ObservableFormulas>,
     /// Functions of whole expressions; arguments hold earlier ones only.
     pub functions: BTreeMap<SymbolId, FunctionOf>,

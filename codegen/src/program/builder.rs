@@ -90,8 +90,8 @@ impl Builder {
         id
     }
 
-    /// Says what a value is, without giving it a line of its own: code that
-    /// needs a name for it takes this one. The first hint stays.
+    /// Gives a value a name without a line of its own: code that needs a name
+    /// for it takes this one. The first hint stays.
     pub(super) fn hint(&mut self, id: ValueId, name: &str) {
         if let Op::Neg(inner) = *self.op(id) {
             return self.hint(inner, &format!("minus_{name}"));

@@ -1,6 +1,7 @@
-//! Dead code: what an entry point does not need is not in it.
+//! Dead code: an entry point holds nothing that it does not need.
 //!
-//! Exact: what is left out has no effect. Linear in the program's length.
+//! Exact: the operations that are left out have no effect. Linear in the
+//! program's length.
 
 use super::{Definition, Op, Program, ValueId};
 

@@ -45,15 +45,15 @@ impl Lowering<'_> {
 
 /// The arguments and doors of one frame.
 struct Ways<'a> {
-    /// From coordinates and velocities.
+    /// Supply from coordinates and velocities.
     motion: Door<'a>,
-    /// From coordinates and momenta.
+    /// Supply from coordinates and momenta.
     phase: Door<'a>,
     velocities: [Argument; 2],
     momenta: [Argument; 2],
     /// Arguments from which the accelerations are computed.
     rates: Vec<Argument>,
-    /// On nested trees, what solves with the mass matrix.
+    /// The solver with the mass matrix, on nested trees.
     nested: Option<NestedObservables<'a>>,
 }
 

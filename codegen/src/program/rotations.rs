@@ -7,7 +7,7 @@ use crate::mechanics::expression::SymbolId;
 
 /// 1 − cos and sin of an angle.
 #[derive(Clone, Copy)]
-pub(super) struct Rotation {
+pub(super) struct VersineSine {
     pub(super) versine: ValueId,
     pub(super) sine: ValueId,
 }
@@ -24,7 +24,11 @@ impl Lowering<'_> {
     }
 
     /// With s, c of half the angle: sin = 2 s c, vers = 2 s².
-    pub(super) fn by_half_angle(&mut self, door: &mut Door<'_>, coordinate: SymbolId) -> Rotation {
+    pub(super) fn by_half_angle(
+        &mut self,
+        door: &mut Door<'_>,
+        coordinate: SymbolId,
+    ) -> VersineSine {
         let angle = self.symbol(door, coordinate);
         let code = &self.mechanics.symbols.get(coordinate).code;
         let name = code.strip_prefix("theta_").unwrap_or(code);
@@ -42,7 +46,7 @@ impl Lowering<'_> {
         let square = builder.mul(sin, sin);
         let versine = builder.mul(two, square);
         builder.name(versine, &format!("vers_{name}"));
-        Rotation { versine, sine }
+        VersineSine { versine, sine }
     }
 
     /// The rotation by a sum of coordinates with integer weights.
@@ -50,9 +54,9 @@ impl Lowering<'_> {
         &mut self,
         door: &mut Door<'_>,
         combination: &[(SymbolId, i64)],
-    ) -> Rotation {
+    ) -> VersineSine {
         let zero = self.builder.integer(0);
-        let mut total = Rotation {
+        let mut total = VersineSine {
             versine: zero,
             sine: zero,
         };
@@ -70,7 +74,7 @@ impl Lowering<'_> {
 
     /// vers(a + b) = vers a + vers b − vers a vers b + sin a sin b,
     /// sin(a + b) = sin a (1 − vers b) + sin b (1 − vers a).
-    fn compose(&mut self, a: Rotation, b: Rotation) -> Rotation {
+    fn compose(&mut self, a: VersineSine, b: VersineSine) -> VersineSine {
         let builder = &mut self.builder;
         let one = builder.integer(1);
         let sum = builder.add(a.versine, b.versine);
@@ -83,6 +87,6 @@ impl Lowering<'_> {
         let first = builder.mul(a.sine, cos_b);
         let second = builder.mul(b.sine, cos_a);
         let sine = builder.add(first, second);
-        Rotation { versine, sine }
+        VersineSine { versine, sine }
     }
 }

@@ -64,7 +64,7 @@ mod tests {
     use super::factor;
     use crate::exact::Rational;
 
-    /// By exact arithmetic.
+    /// Relative rounding error of a number, by exact arithmetic.
     fn rounding(number: &Rational) -> f64 {
         let (high, low) = number.to_parts();
         (low / high).abs()

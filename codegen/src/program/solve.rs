@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub(super) type Matrix = BTreeMap<(usize, usize), ValueId>;
 
 impl Builder {
-    /// x with M x = b. `names` name the unknowns; the pivots d and the
+    /// x with M x = b. `names` name the unknowns; the reduced inertias d and the
     /// multipliers l of the elimination are named after them.
     pub(super) fn solve(
         &mut self,
@@ -23,12 +23,12 @@ impl Builder {
         let one = self.integer(1);
         let mut multipliers: Matrix = BTreeMap::new();
         for k in (0..n).rev() {
-            let pivot = match matrix.get(&(k, k)) {
-                Some(&pivot) => self.name(pivot, &format!("pivot_{}", names[k])),
+            let reduced = match matrix.get(&(k, k)) {
+                Some(&value) => self.name(value, &format!("reduced_inertia_{}", names[k])),
                 None => unreachable!("no diagonal entry {k} in a positive definite matrix"),
             };
-            let inverse = self.div(one, pivot);
-            self.name(inverse, &format!("inverse_pivot_{}", names[k]));
+            let inverse = self.div(one, reduced);
+            self.name(inverse, &format!("inverse_reduced_inertia_{}", names[k]));
             let row: Vec<(usize, ValueId)> = (0..k)
                 .filter_map(|i| matrix.get(&(k, i)).map(|&value| (i, value)))
                 .collect();

@@ -35,9 +35,9 @@ pub(super) struct BodyShape {
 /// A length that must be positive.
 #[derive(Clone, Copy)]
 pub(super) struct Condition {
-    /// In words.
+    /// Name of the length, in words.
     pub(super) what: &'static str,
-    /// In numbers.
+    /// Its value.
     pub(super) value: fn(&GivenProperties) -> Quantity,
 }
 

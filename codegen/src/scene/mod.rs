@@ -302,13 +302,14 @@ pub struct Requests {
 /// differ in the definition of a sector's kinetic energy.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct BudgetRequest {
-    /// From the momenta and the sector's block of the mass matrix at rest.
+    /// Energies from the momenta and the sector's block of the mass matrix at
+    /// rest.
     pub rest: bool,
-    /// From the momenta and the block at the configuration.
+    /// Energies from the momenta and the block at the configuration.
     pub canonical: bool,
-    /// By Parseval from the velocities of the centres of mass.
+    /// Energies by Parseval from the velocities of the centres of mass.
     pub parseval: bool,
-    /// From the velocities and the block at the configuration.
+    /// Energies from the velocities and the block at the configuration.
     pub velocity: bool,
     /// Energy transfer from each sector to each other, by Parseval.
     pub matrix: bool,

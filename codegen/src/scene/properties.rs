@@ -17,7 +17,7 @@ pub(super) struct Properties {
     pub(super) body: Body,
     /// The rule, where there is one.
     pub(super) rule: Option<GenerationRule>,
-    /// All that is given, the body's properties included.
+    /// All properties that are given, the body's included.
     pub(super) given: GivenProperties,
 }
 
@@ -26,7 +26,7 @@ const POINTS: &[&str] = &["com", "joint", "at"];
 
 /// Properties that a link may and must have.
 pub(super) struct LinkKind {
-    /// In words: "a link", "a `rod`".
+    /// Name of the kind: "a link", "a `rod`".
     text: String,
     shape: Option<&'static BodyShape>,
     is_rule: bool,

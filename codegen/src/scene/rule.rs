@@ -26,14 +26,14 @@ pub(super) struct GenerationRule {
 /// Form of the code of a rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Code {
-    /// In loops over generations.
+    /// Loops over generations.
     Loops,
-    /// Link by link.
+    /// Statements for each link.
     Unrolled,
 }
 
 impl Code {
-    /// By its name in the attribute.
+    /// The form of that name in the attribute.
     fn named(name: &str) -> Option<Self> {
         match name {
             "loops" => Some(Self::Loops),

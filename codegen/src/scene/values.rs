@@ -10,7 +10,7 @@ use crate::report::{Message, Report};
 
 /// Use of a value.
 pub(super) struct Usage<'a> {
-    /// In words, as in "mass of `child`".
+    /// Name of the value, as in "mass of `child`".
     pub(super) what: String,
     /// Its unit; empty for a pure number.
     pub(super) unit: &'a str,

@@ -1,4 +1,4 @@
-//! Many pendulums in the lanes of vector registers.
+//! Integration of many pendulums in the lanes of vector registers.
 
 use std::slice::ChunksExact;
 
@@ -13,9 +13,10 @@ impl Ensemble<'_> {
     /// at a time on each thread as the widest vector registers of the machine
     /// have lanes: eight in `f64` with AVX-512.
     ///
-    /// By [`Taylor`](crate::integrate::Taylor), for models that say `emit(taylor)`,
-    /// or by [`Dop853`](crate::integrate::Dop853), [`Dopri5`](crate::integrate::Dopri5)
-    /// or [`Verner98`](crate::integrate::Verner98).
+    /// The method is [`Taylor`](crate::integrate::Taylor), for models that say
+    /// `emit(taylor)`, or [`Dop853`](crate::integrate::Dop853),
+    /// [`Dopri5`](crate::integrate::Dopri5) or
+    /// [`Verner98`](crate::integrate::Verner98).
     ///
     /// States are absolute angles (rad), then angular velocities (rad/s), as for
     /// [`AbsoluteAngles`](crate::system::AbsoluteAngles). Each trajectory has its own steps, chosen by the rules
@@ -219,7 +220,7 @@ impl Ensemble<'_> {
             .collect()
     }
 
-    /// Every case through the times to the end, in their order.
+    /// Takes every case through the times to the end, in their order.
     fn in_lanes<T, P, M>(
         &self,
         method: &M,

@@ -75,7 +75,7 @@ impl Default for Ensemble<'_> {
 }
 
 impl<'a> Ensemble<'a> {
-    /// On as many threads as the system offers, without progress.
+    /// Takes as many threads as the system offers, without progress.
     pub fn new() -> Self {
         Self {
             threads: None,
@@ -83,7 +83,7 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// On so many threads, though not more than there are items.
+    /// Takes `threads` threads, though not more than there are items.
     pub fn threads(self, threads: NonZeroUsize) -> Self {
         Self {
             threads: Some(threads),

@@ -68,7 +68,7 @@ fn order_two_and_an_energy_that_does_not_drift() {
     assert!(early < 5e-3 && late < 1.1 * early, "{early} {late}");
 }
 
-/// There and back again.
+/// The method returns to the start when time runs back.
 #[test]
 fn it_is_symmetric() {
     let pair = Pair { friction: 0.0 };

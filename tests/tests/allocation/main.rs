@@ -43,7 +43,7 @@ fn of_two(mut call: impl FnMut()) -> [u64; 2] {
     [between - start, ALLOCATIONS.with(Cell::get) - between]
 }
 
-/// In one piece.
+/// A tree in one piece.
 #[branched_pendulum(
     gravity = 9.80665,
     tree: generations(count = 10, branching = 2, shape = rod, mass = 0.12, length = 0.3,
@@ -52,7 +52,7 @@ fn of_two(mut call: impl FnMut()) -> [u64; 2] {
 )]
 struct Whole;
 
-/// In parts.
+/// A tree in parts.
 #[branched_pendulum(
     gravity = 9.80665,
     tree: generations(count = 15, branching = 2, shape = rod, mass = 0.12, length = 0.3,
@@ -61,7 +61,7 @@ struct Whole;
 )]
 struct Parts;
 
-/// In a table.
+/// A tree in a table.
 #[branched_pendulum(
     gravity = 9.80665,
     code = loops,

@@ -292,11 +292,12 @@ impl<'b> SymmetricTree<'b> {
         let mut ratios = Vec::new();
         for &orbit in orbits.iter().rev() {
             let own = name(self, orbit);
-            let pivot = block[&(orbit, orbit)].clone();
-            self.series.hint(&pivot, &format!("block_pivot_{own}"));
-            let inverse = self.series.reciprocal(&pivot);
+            let reduced = block[&(orbit, orbit)].clone();
             self.series
-                .hint(&inverse, &format!("inverse_block_pivot_{own}"));
+                .hint(&reduced, &format!("block_reduced_inertia_{own}"));
+            let inverse = self.series.reciprocal(&reduced);
+            self.series
+                .hint(&inverse, &format!("inverse_block_reduced_inertia_{own}"));
             let row: Vec<(usize, TruncatedSeries)> = orbits
                 .iter()
                 .filter(|&&above| above < orbit)

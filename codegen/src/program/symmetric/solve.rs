@@ -41,10 +41,10 @@ impl SymmetricTree<'_> {
         let mut inverses = Vec::new();
         let mut ratios = Vec::new();
         for orbit in (0..self.orbits.len()).rev() {
-            let pivot = matrix[&(orbit, orbit)].clone();
-            self.named(&pivot, "pivot");
-            let inverse = self.reciprocal(&pivot);
-            self.named(&inverse, "inverse_pivot");
+            let reduced = matrix[&(orbit, orbit)].clone();
+            self.named(&reduced, "reduced_inertia");
+            let inverse = self.reciprocal(&reduced);
+            self.named(&inverse, "inverse_reduced_inertia");
             let row: Vec<(usize, SymmetricField)> = (0..orbit)
                 .filter_map(|above| Some((above, matrix.get(&(orbit, above))?.clone())))
                 .collect();

@@ -11,7 +11,8 @@ pub struct ErrorCurve {
     pub receiver: &'static str,
     /// The truncated forms, in the order of [`ErrorPoint::errors`].
     pub forms: Vec<TransferForm>,
-    /// By growing amplitude; amplitudes at which no energy flows are left out.
+    /// The points by growing amplitude; amplitudes at which no energy flows are
+    /// left out.
     pub points: Vec<ErrorPoint>,
 }
 

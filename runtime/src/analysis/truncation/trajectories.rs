@@ -25,7 +25,7 @@ pub struct AlongTrajectories {
     /// Symmetric coordinates at the release, rad. Small differences start from
     /// the disturbances instead.
     pub release: Vec<f64>,
-    /// Every small difference at the start, rad, one motion each.
+    /// Value of every small difference at the start, rad, one motion each.
     pub disturbances: Vec<f64>,
     /// Time followed after each release, s.
     pub duration: f64,

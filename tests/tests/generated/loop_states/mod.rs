@@ -24,7 +24,7 @@ struct Binary;
 )]
 struct Deep;
 
-/// With all forces, in three subtrees.
+/// A tree with all forces, in three subtrees.
 #[branched_pendulum(
     gravity = 9.80665,
     tree: generations(count = 6, branching = 3, shape = rod, mass = 0.12, length = 0.3,
@@ -48,7 +48,7 @@ struct Star;
 )]
 struct Chain;
 
-/// In a table, 104 links.
+/// A tree in a table, 104 links.
 #[branched_pendulum(
     gravity = 9.80665,
     code = loops,
@@ -61,7 +61,7 @@ struct Chain;
 )]
 struct Bush;
 
-/// In a table, with forces.
+/// A tree in a table, with forces.
 #[branched_pendulum(
     gravity = 9.80665,
     code = loops,
