@@ -14,9 +14,12 @@ pub(crate) trait Interpolant<T> {
     /// State at the end of the step.
     fn end(&self) -> &[T];
 
-    /// Makes what [`value`](Self::value) needs; called once, before the first
-    /// of them. Returns the number of evaluations of the right-hand side.
-    fn prepare(&mut self) -> Result<u64, DenseError<T>>;
+    /// Prepares [`value`](Self::value); called once, before the first of them.
+    /// Returns the number of evaluations of the right-hand side: none, unless the
+    /// method says otherwise.
+    fn prepare(&mut self) -> Result<u64, DenseError<T>> {
+        Ok(0)
+    }
 
     /// Writes the solution at the fraction `fraction` of the step, from 0 to 1.
     fn value(&self, fraction: T, out: &mut [T]);

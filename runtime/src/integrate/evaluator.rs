@@ -12,6 +12,8 @@ use crate::system::{Ode, State, Workspace};
 pub(crate) struct Evaluator<'a, T, O: ?Sized> {
     ode: &'a O,
     dimension: usize,
+    /// Number of evaluations so far.
+    pub(crate) evaluations: u64,
     workspace: Workspace<T>,
 }
 
@@ -21,6 +23,7 @@ impl<'a, T: Real, O: Ode<T> + ?Sized> Evaluator<'a, T, O> {
         Self {
             ode,
             dimension,
+            evaluations: 0,
             workspace: Workspace::new(),
         }
     }
@@ -34,6 +37,7 @@ impl<'a, T: Real, O: Ode<T> + ?Sized> Evaluator<'a, T, O> {
     /// Writes the rates of `state`, finite or not.
     #[inline(always)]
     pub(crate) fn write(&mut self, time: T, state: &[T], rates: &mut [T]) {
+        self.evaluations += 1;
         self.ode.rates_with(&mut self.workspace, time, state, rates);
     }
 

@@ -7,9 +7,7 @@
 //!
 //! | method | order | dense output | steps | for |
 //! |---|---|---|---|---|
-//! | [`Dopri5`] | 5(4) | 4 | adaptive | tolerances above 1e-5 |
-//! | [`Dop853`] | 8(5,3) | 7 | adaptive | most things |
-//! | [`Verner98`] | 9(8) | 8 | adaptive | tolerances below 1e-10 |
+//! | [`ExplicitRungeKutta`]: [`Dop853`] and others | 5 to 9 | 4 to 8 | adaptive | most things |
 //! | [`Taylor`] | by tolerance | that of the method | adaptive | tolerances down to rounding |
 //! | [`Rk4`] | 4 | 3 | fixed | comparison |
 //! | [`Gauss`] | 2, 4, 6, 8 | 1 to 4 | fixed | energy over long times |
@@ -39,9 +37,7 @@ mod taylor;
 pub use dense::{DenseError, DenseStep};
 pub use error::{InputError, Inseparable, IntegrationError};
 pub use events::{Crossing, Event, Occurrence};
-pub use explicit::{
-    Dop853, Dopri5, DormandPrince5, DormandPrince8, ExplicitRungeKutta, Verner9, Verner98,
-};
+pub use explicit::*;
 pub use fixed::{Gauss, GaussOrder, Projected, Rk4, Solver, StoermerVerlet};
 pub use integrator::Integrator;
 #[cfg(feature = "std")]

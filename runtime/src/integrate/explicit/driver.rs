@@ -154,31 +154,33 @@ impl<'a, M: Pair, T: Real, O: Ode<T> + ?Sized> Run<'a, M, T, O> {
             time: self.time,
             step: direction * euler,
         };
-        self.report.evaluations += 1;
         let change = stages.euler_change(system, span);
-        let change = change.map_err(|place| self.non_finite(place))?;
+        let change = self.counted(change)?;
         Ok(first.refined(euler, change, M::CONTROL.order))
     }
 
     /// Evaluates the rates at the start.
     pub(super) fn evaluate_start(&mut self) -> Result<(), IntegrationError<T>> {
-        self.report.evaluations += 1;
         let evaluated = self.stages.evaluate_start(&mut self.system, self.time);
-        evaluated.map_err(|place| self.non_finite(place))
+        self.counted(evaluated)
     }
 
     /// Makes the stages and the end of a step.
     pub(super) fn make(&mut self, span: Span<T>) -> Result<(), IntegrationError<T>> {
-        self.report.evaluations += M::STAGES as u64 - 1;
         let made = self.stages.make::<M, _>(&mut self.system, span);
-        made.map_err(|place| self.non_finite(place))
+        self.counted(made)
     }
 
     /// Evaluates the rates at the end of the step, at time `time`.
     fn evaluate_end(&mut self, time: T) -> Result<(), IntegrationError<T>> {
-        self.report.evaluations += 1;
         let evaluated = self.stages.evaluate_end::<M, _>(&mut self.system, time);
-        evaluated.map_err(|place| self.non_finite(place))
+        self.counted(evaluated)
+    }
+
+    /// Takes what became of evaluations, and their number, to the account.
+    fn counted<A>(&mut self, outcome: Result<A, NonFinite<T>>) -> Result<A, IntegrationError<T>> {
+        self.report.evaluations = self.system.evaluations;
+        outcome.map_err(|place| self.non_finite(place))
     }
 
     /// The last accepted state.

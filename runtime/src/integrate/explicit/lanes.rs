@@ -227,7 +227,8 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> Stepper<R> for PairInLanes<'_, M, P
             runs.evaluations[lane] += (stages - M::STAGES - 1) as u64;
             return Ok(());
         }
-        Err(self.failed_stage(lane, runs.span(lane), stages))
+        let failed = self.failed_stage(lane, M::STAGES + 2, stages);
+        Err(self.place(lane, runs.span(lane), failed))
     }
 
     #[inline(always)]
@@ -253,12 +254,13 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
     ) -> bool {
         let span = runs.span(lane);
         runs.next_step[lane] = runs.step[lane];
-        runs.evaluations[lane] += M::STAGES as u64 - 1;
         if !stages.is_finite() {
-            let place = self.failed_stage(lane, span, M::STAGES);
-            self.fail(runs, lane, place);
+            let failed = self.failed_stage(lane, 2, M::STAGES);
+            runs.evaluations[lane] += failed as u64 - 1;
+            self.fail(runs, lane, self.place(lane, span, failed));
             return false;
         }
+        runs.evaluations[lane] += M::STAGES as u64 - 1;
         let finite = self.finite_end[lane].is_finite();
         if M::ERROR_USES_END && finite && !self.judge_end(runs, lane, end_rates) {
             return false;
@@ -306,18 +308,17 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
         runs.non_finite(lane, place, last);
     }
 
-    /// Time and state of the first stage whose rates are not finite in a lane,
-    /// at the latest `last`.
+    /// The first stage from `first` to `last` whose rates are not finite in a lane.
     #[cold]
-    fn failed_stage(
-        &self,
-        lane: usize,
-        span: Span<R::Lane>,
-        last: usize,
-    ) -> (R::Lane, Vec<R::Lane>) {
-        let (stages, n) = (&self.stages, 2 * P::LINKS);
+    fn failed_stage(&self, lane: usize, first: usize, last: usize) -> usize {
         let failed = |stage: &usize| !numbers(self.system.checks[stage - 1])[lane].is_finite();
-        let stage = (2..last).find(failed).unwrap_or(last);
+        (first..last).find(failed).unwrap_or(last)
+    }
+
+    /// Time and state of a stage in a lane.
+    #[cold]
+    fn place(&self, lane: usize, span: Span<R::Lane>, stage: usize) -> (R::Lane, Vec<R::Lane>) {
+        let (stages, n) = (&self.stages, 2 * P::LINKS);
         // Operations as in the step, for equal bits.
         let span = Span {
             time: R::splat(span.time),

@@ -1,4 +1,7 @@
-//! Explicit Runge–Kutta pairs: one driver, one file of coefficients each.
+//! Explicit Runge–Kutta pairs: a table of coefficients and an estimate each.
+//!
+//! [`stages`] has the arithmetic of a step, for one state or for one in each lane;
+//! [`driver`] the step loop of one trajectory, [`lanes`] the steps of many.
 
 mod dense_output;
 mod dop853;
@@ -97,8 +100,15 @@ pub type Verner98<T> = ExplicitRungeKutta<Verner9, T>;
 
 /// An adaptive explicit Runge–Kutta method: an embedded pair and options.
 ///
-/// Used by the names of its pairs: [`Dopri5`], [`Dop853`], [`Verner98`]. All
-/// memory is allocated when a run starts; steps allocate nothing.
+/// Used by the names of its pairs:
+///
+/// | pair | order | dense output | for |
+/// |---|---|---|---|
+/// | [`Dopri5`] | 5(4) | 4 | tolerances above 1e-5 |
+/// | [`Dop853`] | 8(5,3) | 7 | most things |
+/// | [`Verner98`] | 9(8) | 8 | tolerances below 1e-10 |
+///
+/// All memory is allocated when a run starts; steps allocate nothing.
 ///
 /// Same input, same target, same bits: nothing in a run depends on anything
 /// but its arguments. A run that an observer or the step limit has stopped

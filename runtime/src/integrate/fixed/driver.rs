@@ -27,27 +27,17 @@ impl<T> From<NonFinite<T>> for Failure<T> {
 }
 
 /// A method with fixed steps at work: its memory, and how it makes a step.
-pub(super) trait FixedStepper<T: Real, O: ?Sized> {
+pub(super) trait FixedStepper<T: Real, O: ?Sized>: Interpolant<T> {
     /// Evaluates what the first step needs; `time` is that of the start.
-    fn begin(
-        &mut self,
-        system: &mut Evaluator<'_, T, O>,
-        time: T,
-        report: &mut Report<T>,
-    ) -> Result<(), Failure<T>>;
+    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), Failure<T>>;
 
-    /// Makes a step of length `step` (negative: backwards) from `time` and
-    /// counts its evaluations.
+    /// Makes a step of length `step` (negative: backwards) from `time`.
     fn make(
         &mut self,
         system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
-        report: &mut Report<T>,
     ) -> Result<(), Failure<T>>;
-
-    /// The step that was made, as a polynomial.
-    fn interpolant(&mut self) -> &mut dyn Interpolant<T>;
 
     /// Makes the end of the step the start of the next.
     fn advance(&mut self);
@@ -104,7 +94,9 @@ impl<T: Real> Grid<T> {
                 report: ended(report, StopReason::StepTooSmall),
             });
         }
-        if let Err(failure) = stepper.begin(&mut system, time, &mut report) {
+        let begun = stepper.begin(&mut system, time);
+        report.evaluations = system.evaluations;
+        if let Err(failure) = begun {
             return Err(self.failed(failure, start.clone(), report, self.step));
         }
         // The end of step k of the grid is start + k step: rounding does not
@@ -133,18 +125,20 @@ impl<T: Real> Grid<T> {
                 time + direction * length
             };
 
-            let state = |stepper: &mut S| State {
+            let state = |stepper: &S| State {
                 time,
-                values: stepper.interpolant().start().to_vec(),
+                values: stepper.start().to_vec(),
             };
             if report.accepted + report.rejected >= self.step_limit {
                 return Err(IntegrationError::StepLimit {
                     limit: self.step_limit,
-                    last: state(&mut stepper),
+                    last: state(&stepper),
                     report: ended(report, StopReason::StepLimit),
                 });
             }
-            match stepper.make(&mut system, time, direction * made, &mut report) {
+            let outcome = stepper.make(&mut system, time, direction * made);
+            report.evaluations = system.evaluations;
+            match outcome {
                 Ok(()) => {}
                 // Rates that are not finite may be those of an iterate far off.
                 Err(_) if halved < self.halvings && T::from_f64(0.5) * length > lost => {
@@ -154,13 +148,13 @@ impl<T: Real> Grid<T> {
                     continue;
                 }
                 Err(failure) => {
-                    let last = state(&mut stepper);
+                    let last = state(&stepper);
                     return Err(self.failed(failure, last, report, made));
                 }
             }
             report.accept(made);
             let flow = observer(&mut DenseStep::new(
-                stepper.interpolant(),
+                &mut stepper,
                 &mut report,
                 time,
                 end_time,
@@ -187,7 +181,7 @@ impl<T: Real> Grid<T> {
             return Ok(Solution {
                 state: State {
                     time,
-                    values: stepper.interpolant().start().to_vec(),
+                    values: stepper.start().to_vec(),
                 },
                 report: ended(report, stop),
             });

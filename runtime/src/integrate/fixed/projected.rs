@@ -12,7 +12,7 @@ use crate::integrate::dense::{DenseError, DenseStep, Interpolant};
 use crate::integrate::error::{InputError, IntegrationError};
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
-use crate::integrate::report::{Report, Solution};
+use crate::integrate::report::Solution;
 use crate::scalar::Real;
 use crate::system::{FirstIntegral, Ode, State};
 
@@ -169,7 +169,7 @@ impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T>> Integrator<T, O>
 }
 
 /// A method whose end of a step may be moved.
-pub(super) trait Corrected<T: Real, O: ?Sized>: FixedStepper<T, O> + Interpolant<T> {
+pub(super) trait Corrected<T: Real, O: ?Sized>: FixedStepper<T, O> {
     /// True if the values inside a step follow its end when that is moved.
     const FOLLOWS: bool;
 
@@ -179,7 +179,6 @@ pub(super) trait Corrected<T: Real, O: ?Sized>: FixedStepper<T, O> + Interpolant
         system: &mut Evaluator<'_, T, O>,
         time: T,
         correction: &[T],
-        report: &mut Report<T>,
     ) -> Result<(), Failure<T>>;
 }
 
@@ -250,12 +249,7 @@ impl<T: Real, I: FirstIntegral<T>> Projection<'_, T, I> {
 impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> FixedStepper<T, O>
     for ProjectedStepper<'_, T, S, I>
 {
-    fn begin(
-        &mut self,
-        system: &mut Evaluator<'_, T, O>,
-        time: T,
-        report: &mut Report<T>,
-    ) -> Result<(), Failure<T>> {
+    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), Failure<T>> {
         let Projection {
             integral,
             level,
@@ -267,7 +261,7 @@ impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> FixedStepper<T
         if !level.is_finite() {
             return Err(NonFinite::new(time, start).into());
         }
-        self.steps.begin(system, time, report)
+        self.steps.begin(system, time)
     }
 
     fn make(
@@ -275,17 +269,12 @@ impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> FixedStepper<T
         system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
-        report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
-        self.steps.make(system, time, step, report)?;
+        self.steps.make(system, time, step)?;
         let end_time = time + step;
         self.projection.project(end_time, self.steps.end())?;
         let correction = &self.projection.correction;
-        self.steps.correct(system, end_time, correction, report)
-    }
-
-    fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
-        self
+        self.steps.correct(system, end_time, correction)
     }
 
     fn advance(&mut self) {

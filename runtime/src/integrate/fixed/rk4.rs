@@ -6,11 +6,11 @@ use core::ops::ControlFlow;
 
 use super::driver::{Failure, FixedStepper, Grid};
 use super::projected::Corrected;
-use crate::integrate::dense::{DenseError, DenseStep, Interpolant};
+use crate::integrate::dense::{DenseStep, Interpolant};
 use crate::integrate::error::IntegrationError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
-use crate::integrate::report::{Report, Solution};
+use crate::integrate::report::Solution;
 use crate::integrate::request::all_finite;
 use crate::scalar::Real;
 use crate::system::{Ode, State};
@@ -108,13 +108,7 @@ impl<T: Real> Rk4Stepper<T> {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for Rk4Stepper<T> {
-    fn begin(
-        &mut self,
-        system: &mut Evaluator<'_, T, O>,
-        time: T,
-        report: &mut Report<T>,
-    ) -> Result<(), Failure<T>> {
-        report.evaluations += 1;
+    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), Failure<T>> {
         Ok(system.evaluate(time, &self.start, &mut self.start_rates)?)
     }
 
@@ -123,7 +117,6 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for Rk4Stepper<T> {
         system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
-        report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
         self.step = step;
         let half = T::from_f64(0.5) * step;
@@ -139,7 +132,6 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for Rk4Stepper<T> {
             for (i, value) in self.stage.iter_mut().enumerate() {
                 *value = self.start[i] + length * self.rates[i];
             }
-            report.evaluations += 1;
             system.evaluate(at, &self.stage, &mut self.rates)?;
             for (sum, &rate) in self.sum.iter_mut().zip(&self.rates) {
                 *sum += weight * rate;
@@ -152,12 +144,7 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for Rk4Stepper<T> {
         if !all_finite(&self.end) {
             return Err(NonFinite::new(end_time, &self.end).into());
         }
-        report.evaluations += 1;
         Ok(system.evaluate(end_time, &self.end, &mut self.end_rates)?)
-    }
-
-    fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
-        self
     }
 
     fn advance(&mut self) {
@@ -174,12 +161,10 @@ impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Rk4Stepper<T> {
         system: &mut Evaluator<'_, T, O>,
         time: T,
         correction: &[T],
-        report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
         for (end, &correction) in self.end.iter_mut().zip(correction) {
             *end += correction;
         }
-        report.evaluations += 1;
         Ok(system.evaluate(time, &self.end, &mut self.end_rates)?)
     }
 }
@@ -191,10 +176,6 @@ impl<T: Real> Interpolant<T> for Rk4Stepper<T> {
 
     fn end(&self) -> &[T] {
         &self.end
-    }
-
-    fn prepare(&mut self) -> Result<u64, DenseError<T>> {
-        Ok(0)
     }
 
     /// y + s (Δy + r (d₁ + s (d₂ − d₁))) with d₁ = h k₀ − Δy, d₂ = Δy − h k₁,

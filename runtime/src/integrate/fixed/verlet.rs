@@ -5,11 +5,11 @@ use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
 use super::driver::{Failure, FixedStepper, Grid};
-use crate::integrate::dense::{DenseError, DenseStep, Interpolant};
+use crate::integrate::dense::{DenseStep, Interpolant};
 use crate::integrate::error::{InputError, Inseparable, IntegrationError};
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
-use crate::integrate::report::{Report, Solution};
+use crate::integrate::report::Solution;
 use crate::integrate::request::{all_finite, check_start};
 use crate::scalar::{Real, Scalar};
 use crate::system::{Canonical, CanonicalVariables, Ode, State};
@@ -197,13 +197,7 @@ impl<T: Real> VerletStepper<T> {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for VerletStepper<T> {
-    fn begin(
-        &mut self,
-        system: &mut Evaluator<'_, T, O>,
-        time: T,
-        report: &mut Report<T>,
-    ) -> Result<(), Failure<T>> {
-        report.evaluations += 1;
+    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), Failure<T>> {
         Ok(system.evaluate(time, &self.start, &mut self.start_rates)?)
     }
 
@@ -212,7 +206,6 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for VerletStepper<T> {
         system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
-        report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
         let n = self.start.len() / 2;
         let half = T::from_f64(0.5) * step;
@@ -222,13 +215,11 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for VerletStepper<T> {
             self.stage[k] = self.start[k] + half * self.start_rates[k];
         }
         // q at h = q + h v(p at h/2)
-        report.evaluations += 1;
         system.evaluate(time + half, &self.stage, &mut self.rates)?;
         for k in 0..n {
             self.stage[k] = self.start[k] + step * self.rates[k];
         }
         // p at h = p at h/2 + h/2 F(q at h)
-        report.evaluations += 1;
         system.write(time + step, &self.stage, &mut self.end_rates);
         self.end.copy_from_slice(&self.stage);
         for k in n..2 * n {
@@ -238,10 +229,6 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for VerletStepper<T> {
             return Ok(());
         }
         Err(NonFinite::new(time + step, &self.end).into())
-    }
-
-    fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
-        self
     }
 
     fn advance(&mut self) {
@@ -257,10 +244,6 @@ impl<T: Real> Interpolant<T> for VerletStepper<T> {
 
     fn end(&self) -> &[T] {
         &self.end
-    }
-
-    fn prepare(&mut self) -> Result<u64, DenseError<T>> {
-        Ok(0)
     }
 
     fn value(&self, fraction: T, out: &mut [T]) {

@@ -4,7 +4,6 @@ use super::Solver;
 use super::stepper::GaussStepper;
 use crate::integrate::evaluator::Evaluator;
 use crate::integrate::fixed::driver::Failure;
-use crate::integrate::report::Report;
 use crate::scalar::{Real, Scalar};
 use crate::system::Ode;
 
@@ -32,13 +31,12 @@ impl<T: Real> GaussStepper<T> {
         system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
-        report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
-        self.evaluate(system, time, step, report)?;
+        self.evaluate(system, time, step)?;
         core::mem::swap(&mut self.rates, &mut self.change);
         if self.solver == Solver::Newton && self.newton_step != step {
             self.newton_step = T::ZERO;
-            self.differentiate(system, time, step, report)?;
+            self.differentiate(system, time, step)?;
         }
         let rounding = T::from_f64(ROUNDING) * T::EPSILON;
         let noise = T::from_f64(NOISE) * T::EPSILON;
@@ -46,7 +44,7 @@ impl<T: Real> GaussStepper<T> {
         let (mut without_progress, mut last) = (0, best);
         for round in 1..=self.iteration_limit {
             self.increments(step);
-            if let Err(failure) = self.evaluate(system, time, step, report) {
+            if let Err(failure) = self.evaluate(system, time, step) {
                 // An iterate that ran away says nothing about the equations.
                 if last > T::from_f64(RUNAWAY) {
                     return self.give_up(round, last);
@@ -105,7 +103,6 @@ impl<T: Real> GaussStepper<T> {
         system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
-        report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
         let n = self.start.len();
         for (i, &node) in self.table.nodes.iter().enumerate() {
@@ -114,7 +111,6 @@ impl<T: Real> GaussStepper<T> {
             }
             let rates = &mut self.change[i * n..(i + 1) * n];
             let at = time + T::from_f64(node) * step;
-            report.evaluations += 1;
             if let Err(place) = system.evaluate(at, &self.stage, rates) {
                 self.newton_step = T::ZERO;
                 return Err(place.into());
@@ -152,12 +148,10 @@ impl<T: Real> GaussStepper<T> {
         system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
-        report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
         let (n, s) = (self.start.len(), self.table.nodes.len());
         let middle = time + T::from_f64(0.5) * step;
         self.stage.copy_from_slice(&self.start);
-        report.evaluations += n as u64 + 1;
         system.write(middle, &self.stage, &mut self.other);
         let root = Scalar::sqrt(T::EPSILON);
         for column in 0..n {

@@ -5,12 +5,11 @@ use alloc::vec::Vec;
 
 use super::tables::Table;
 use super::{Gauss, Solver};
-use crate::integrate::dense::{DenseError, Interpolant};
+use crate::integrate::dense::Interpolant;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::fixed::driver::{Failure, FixedStepper};
 use crate::integrate::fixed::linear::Factored;
 use crate::integrate::fixed::projected::Corrected;
-use crate::integrate::report::Report;
 use crate::integrate::request::all_finite;
 use crate::integrate::sum::two_sum;
 use crate::scalar::Real;
@@ -136,13 +135,7 @@ fn integral<T: Real>(table: &Table, j: usize, x: T) -> T {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for GaussStepper<T> {
-    fn begin(
-        &mut self,
-        system: &mut Evaluator<'_, T, O>,
-        time: T,
-        report: &mut Report<T>,
-    ) -> Result<(), Failure<T>> {
-        report.evaluations += 1;
+    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), Failure<T>> {
         Ok(system.evaluate(time, &self.start, &mut self.other)?)
     }
 
@@ -151,13 +144,12 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for GaussStepper<T> {
         system: &mut Evaluator<'_, T, O>,
         time: T,
         step: T,
-        report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
         self.guess(step);
-        if let Err(failure) = self.solve(system, time, step, report) {
+        if let Err(failure) = self.solve(system, time, step) {
             // The rates of a failed step say nothing: begin anew.
             self.step = T::ZERO;
-            FixedStepper::<T, O>::begin(self, system, time, report)?;
+            FixedStepper::<T, O>::begin(self, system, time)?;
             return Err(failure);
         }
         self.step = step;
@@ -166,10 +158,6 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for GaussStepper<T> {
             return Ok(());
         }
         Err(NonFinite::new(time + step, &self.end).into())
-    }
-
-    fn interpolant(&mut self) -> &mut dyn Interpolant<T> {
-        self
     }
 
     fn advance(&mut self) {
@@ -186,7 +174,6 @@ impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for GaussStepper<T> {
         _system: &mut Evaluator<'_, T, O>,
         _time: T,
         correction: &[T],
-        _report: &mut Report<T>,
     ) -> Result<(), Failure<T>> {
         let ends = self.end.iter_mut().zip(&mut self.end_residue);
         for ((end, residue), &correction) in ends.zip(correction) {
@@ -203,10 +190,6 @@ impl<T: Real> Interpolant<T> for GaussStepper<T> {
 
     fn end(&self) -> &[T] {
         &self.end
-    }
-
-    fn prepare(&mut self) -> Result<u64, DenseError<T>> {
-        Ok(0)
     }
 
     /// The collocation polynomial.
