@@ -45,7 +45,7 @@ pub use fuse::Fused;
 use passes::PASSES;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
-pub use taylor::Expansion;
+pub use taylor::TaylorOutputs;
 pub use verify::Fault;
 
 use crate::exact::Rational;
