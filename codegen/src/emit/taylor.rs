@@ -8,15 +8,16 @@ use super::taylor_order::Recurrences;
 use super::tokens::{Binding, ident};
 use crate::exact::Rational;
 use crate::program::{Argument, Entry, Op, TaylorOutputs, ValueId};
+use crate::scene::LinkId;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
     pub(super) fn taylor_coefficients(&self, entry: &Entry) -> TokenStream {
-        let expansion = TaylorOutputs::of_outputs(&entry.outputs, &self.mechanics.absolute);
-        let recurrences = Recurrences::new(self, entry, &expansion.bias);
+        let outputs = TaylorOutputs::of(&entry.outputs, self.scene.links.len());
+        let recurrences = Recurrences::new(self, entry, &outputs.bias);
         let locals = &recurrences.locals;
-        let start = recurrences.start(&expansion);
+        let start = recurrences.start(&outputs);
         let needed = self.program.needed(&start.outputs);
         let gathered = self.gathered(&start, &needed);
         let whole = gathered.whole;
@@ -42,34 +43,26 @@ impl Emission<'_> {
             ),
             false => {
                 let lines = lines.into_iter().map(|line| line.tokens);
-                let (sines, cosines) = (list(&expansion.sines), list(&expansion.cosines));
+                let (sines, cosines) = (list(&outputs.sines), list(&outputs.cosines));
                 (lines.collect(), quote!(sines: #sines, cosines: #cosines))
             }
         };
-        let bias_0 = list(&expansion.bias);
-        let (inertias, weights) = (list(&expansion.inertias), list(&expansion.weights));
-        let lateral_weights = list(&expansion.lateral_weights);
+        let bias_0 = list(&outputs.bias);
+        let inertias = list(&outputs.inertias);
+        let [weights, lateral_weights] = outputs.weights.each_ref().map(|values| list(values));
+        let pairs = |[along, lateral]: &[Vec<ValueId>; 2]| {
+            let pairs = along.iter().zip(lateral).map(|(&x, &y)| list(&[x, y]));
+            quote!([#(#pairs),*])
+        };
+        let (moments, attachments) = (pairs(&outputs.moments), pairs(&outputs.attachments));
         let runtime = self.runtime();
-        let couplings = expansion.couplings.iter().map(|(links, [cosine, sine])| {
-            let [row, column] = links.map(Literal::usize_unsuffixed);
-            let cosine = self.bound(*cosine, locals, Binding::Sum);
-            let sine = if *self.op(*sine) == Op::Number(Rational::from(0)) {
-                quote!(::core::option::Option::None)
-            } else {
-                let sine = self.bound(*sine, locals, Binding::Sum);
-                quote!(::core::option::Option::Some(#sine))
-            };
-            quote! {
-                #runtime::taylor::Coupling { links: [#row, #column], cosine: #cosine, sine: #sine }
-            }
-        });
         let (links, quads) = (self.links(), self.quads());
         let (rows, bias) = match recurrences.is_empty() {
             true => (
                 TokenStream::new(),
                 quote! {
                     ::core::option::Option::None::<
-                        fn(&#runtime::taylor::Known<T, #links>) -> [T; #links],
+                        fn(&#runtime::taylor::KnownOrder<T, #links>) -> [T; #links],
                     >
                 },
             ),
@@ -81,7 +74,8 @@ impl Emission<'_> {
                 )
             }
         };
-        let docs = self.taylor_docs(entry, &expansion, recurrences.count());
+        let connectivity = self.connectivity(&outputs);
+        let docs = self.taylor_docs(entry, &outputs, recurrences.count());
         let name = ident(&entry.name);
         let time = entry
             .arguments
@@ -98,6 +92,7 @@ impl Emission<'_> {
                 coefficients: &mut [[[T; #links]; 2]],
                 work: &mut [#runtime::taylor::Quad<T>],
             ) {
+                #connectivity
                 #(#inputs)*
                 #lines
                 let start = #runtime::taylor::Start {
@@ -106,15 +101,16 @@ impl Emission<'_> {
                     #sines,
                     bias: #bias_0,
                 };
-                let tree = #runtime::taylor::Tree {
+                let constants = #runtime::taylor::LinkConstants {
                     inertias: #inertias,
-                    couplings: &[#(#couplings),*],
+                    moments: #moments,
+                    attachments: #attachments,
                     weights: #weights,
                     lateral_weights: #lateral_weights,
                 };
                 #rows
-                #runtime::taylor::expand::<T, #links, #quads, _>(
-                    &start, &tree, coefficients, work, #bias,
+                #runtime::taylor::expand::<T, Tree, #links, #quads, _>(
+                    &start, &constants, coefficients, work, #bias,
                 );
             }
         }
@@ -125,9 +121,28 @@ impl Emission<'_> {
         Literal::usize_unsuffixed(self.scene.links.len().div_ceil(4))
     }
 
-    fn taylor_docs(&self, entry: &Entry, expansion: &TaylorOutputs, sums: usize) -> TokenStream {
+    /// The type that says which link hangs on which.
+    fn connectivity(&self, outputs: &TaylorOutputs) -> TokenStream {
+        let (runtime, links) = (self.runtime(), self.links());
+        let parents = self.scene.links.iter().map(|link| {
+            let LinkId(parent) = link.parent.unwrap_or(LinkId(0));
+            Literal::usize_unsuffixed(parent)
+        });
+        let sides = [&outputs.moments[1], &outputs.attachments[1]];
+        let zero = Op::Number(Rational::from(0));
+        let lateral = sides.into_iter().flatten().any(|&id| *self.op(id) != zero);
+        quote! {
+            struct Tree;
+            impl #runtime::taylor::Connectivity<#links> for Tree {
+                const PARENTS: [usize; #links] = [#(#parents),*];
+                const LATERAL: bool = #lateral;
+            }
+        }
+    }
+
+    fn taylor_docs(&self, entry: &Entry, outputs: &TaylorOutputs, sums: usize) -> TokenStream {
         let mut lines = self.meaning(entry.purpose);
-        let start = [&expansion.sines, &expansion.cosines, &expansion.bias];
+        let start = [&outputs.sines, &outputs.cosines, &outputs.bias];
         let operations = self
             .program
             .operations(&start.into_iter().flatten().copied().collect::<Vec<_>>());
@@ -137,7 +152,7 @@ impl Emission<'_> {
         }
         lines.push(String::new());
         lines.push(format!(
-            "Cost of order 0: {operations}, and the inverse of the mass matrix. Each order k: {products}, of k terms each."
+            "Cost of order 0: {operations}, and one elimination along the tree. Each order k: {products}, of k terms each."
         ));
         doc_lines(&lines)
     }
@@ -150,9 +165,9 @@ impl Emission<'_> {
         let Some(entry) = entry else {
             unreachable!("the request makes the entry");
         };
-        let expansion = TaylorOutputs::of_outputs(&entry.outputs, &self.mechanics.absolute);
+        let outputs = TaylorOutputs::of(&entry.outputs, self.scene.links.len());
         let links = self.links();
-        let rows = Recurrences::new(self, entry, &expansion.bias).room();
+        let rows = Recurrences::new(self, entry, &outputs.bias).room();
         let time = self.time_name();
         let argument = self.mechanics.drive.as_ref().map(|_| quote!(time,));
         let body = self.with_arrays(

@@ -61,8 +61,8 @@ impl<'e> Recurrences<'e> {
     pub(super) fn new(emission: &'e Emission<'e>, entry: &'e Entry, bias: &'e [ValueId]) -> Self {
         let links = emission.scene.links.len();
         let needed = with_partners(emission, bias);
-        let expansion = TaylorOutputs::of_outputs(&entry.outputs, &emission.mechanics.absolute);
-        let mut outputs = roots(&expansion);
+        let roots = TaylorOutputs::of(&entry.outputs, links).roots();
+        let mut outputs = roots;
         let number = |id: &ValueId| matches!(emission.op(*id), Op::Number(_));
         outputs.extend(bias.iter().filter(|id| !number(id)));
         let all = emission.program.needed(&outputs);
@@ -115,9 +115,9 @@ impl<'e> Recurrences<'e> {
 
     /// The entry for order 0: what starts the expansion, and what is read again
     /// in order k.
-    pub(super) fn start(&self, expansion: &TaylorOutputs) -> Entry {
-        let mut outputs = roots(expansion);
-        outputs.extend(&expansion.bias);
+    pub(super) fn start(&self, of_all: &TaylorOutputs) -> Entry {
+        let mut outputs = of_all.roots();
+        outputs.extend(&of_all.bias);
         for &id in &self.needed {
             outputs.extend(self.read_again(id));
         }
@@ -303,10 +303,4 @@ fn with_partners(emission: &Emission<'_>, bias: &[ValueId]) -> Vec<ValueId> {
         outputs.extend(found.map(|(_, id)| ValueId(id)));
     }
     emission.program.needed(&outputs)
-}
-
-/// Values from which an expansion starts.
-fn roots(expansion: &TaylorOutputs) -> Vec<ValueId> {
-    let lists = [&expansion.sines, &expansion.cosines];
-    lists.into_iter().flatten().copied().collect()
 }

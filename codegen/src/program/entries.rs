@@ -35,7 +35,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> (Vec<Entry>
         list.drive(mechanics, drive);
     }
     if scene.requests.taylor {
-        list.taylor(mechanics);
+        list.taylor(scene, mechanics);
     }
     (list.entries, choice)
 }

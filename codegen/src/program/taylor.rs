@@ -1,8 +1,9 @@
 //! The program behind the Taylor coefficients of the motion.
 //!
 //! The recurrences of the runtime know the equation of motion but for its
-//! constants: mass matrix A cos(θ_i − θ_j) + B sin(θ_i − θ_j), its centrifugal
-//! terms, and gravity. What else stands in it is a program of its own.
+//! constants: those of the articulated recursion, from which the mass matrix and its
+//! centrifugal terms follow, and gravity. What else stands in it is a program of its
+//! own.
 
 use super::entries::EntryList;
 use super::lower::Door;
@@ -10,8 +11,9 @@ use super::{Argument, Purpose, Shape, ValueId, scale};
 use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{Frame, Mechanics, Trigonometric};
+use crate::scene::{LinkId, Scene};
 
-/// Outputs of the entry by their meaning; links in their order.
+/// The outputs of the entry; links in their order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TaylorOutputs {
     /// sin θ.
@@ -20,75 +22,62 @@ pub struct TaylorOutputs {
     pub cosines: Vec<ValueId>,
     /// Diagonal of the mass matrix.
     pub inertias: Vec<ValueId>,
-    /// Torque of gravity by the sine of the angle.
-    pub weights: Vec<ValueId>,
-    /// Torque of gravity by the cosine of the angle.
-    pub lateral_weights: Vec<ValueId>,
-    /// Rows and columns of the mass matrix outside its diagonal, with A and B.
-    pub couplings: Vec<([usize; 2], [ValueId; 2])>,
+    /// First moment of the mass that the link carries, along and across; zero of the
+    /// root, whose pivot it does not move.
+    pub moments: [Vec<ValueId>; 2],
+    /// Where the link hangs on its parent, along and across; zero of the root.
+    pub attachments: [Vec<ValueId>; 2],
+    /// Torque of gravity by the sine and by the cosine of the angle.
+    pub weights: [Vec<ValueId>; 2],
     /// The rest of the equation of motion.
     pub bias: Vec<ValueId>,
 }
 
 impl TaylorOutputs {
-    /// The outputs of the entry taken apart: `links` of each kind, then the
-    /// couplings between `pairs`, then the rest.
-    pub(crate) fn of_outputs(outputs: &[ValueId], frame: &Frame) -> Self {
-        let links = frame.coordinates.len();
-        let pairs = couplings(frame);
-        let mut outputs = outputs.iter().copied();
-        let mut take = |count: usize| outputs.by_ref().take(count).collect::<Vec<_>>();
-        let [sines, cosines, inertias, weights, lateral_weights, bias] =
-            std::array::from_fn(|_| take(links));
-        let values = take(2 * pairs.len());
-        let couplings = pairs
-            .iter()
-            .zip(values.chunks_exact(2))
-            .map(|(&(row, column, _), pair)| ([row, column], [pair[0], pair[1]]))
-            .collect();
+    /// The outputs of the entry taken apart: as many of each kind as there are
+    /// `links`, then the rest.
+    pub(crate) fn of(outputs: &[ValueId], links: usize) -> Self {
+        let mut lists = outputs.chunks(links);
+        let mut next = || lists.next().unwrap_or_default().to_vec();
         Self {
-            sines,
-            cosines,
-            inertias,
-            weights,
-            lateral_weights,
-            couplings,
-            bias,
+            sines: next(),
+            cosines: next(),
+            inertias: next(),
+            moments: [next(), next()],
+            attachments: [next(), next()],
+            weights: [next(), next()],
+            bias: next(),
         }
     }
 
-    fn outputs(&self) -> Vec<ValueId> {
+    /// Returns what an expansion starts from: sines, then cosines.
+    pub(crate) fn roots(&self) -> Vec<ValueId> {
+        [&self.sines, &self.cosines]
+            .into_iter()
+            .flatten()
+            .copied()
+            .collect()
+    }
+
+    fn list(&self) -> Vec<ValueId> {
         let Self {
             sines,
             cosines,
             inertias,
-            weights,
-            lateral_weights,
-            couplings,
+            moments: [moments, lateral_moments],
+            attachments: [attachments, lateral_attachments],
+            weights: [weights, lateral_weights],
             bias,
         } = self;
-        let lists = [sines, cosines, inertias, weights, lateral_weights, bias];
-        let couplings = couplings.iter().flat_map(|(_, pair)| pair);
-        lists
-            .into_iter()
-            .flatten()
-            .chain(couplings)
-            .copied()
-            .collect()
+        let state = [sines, cosines, inertias, moments, lateral_moments];
+        let rest = [attachments, lateral_attachments, weights, lateral_weights];
+        let lists = state.into_iter().chain(rest).chain([bias]);
+        lists.flatten().copied().collect()
     }
 }
 
-/// Entries of the mass matrix outside its diagonal.
-fn couplings(frame: &Frame) -> Vec<(usize, usize, &Expr)> {
-    let entries = frame.mass.iter();
-    let outside = entries.filter(|entry| entry.row != entry.column);
-    outside
-        .map(|entry| (entry.row, entry.column, &entry.value))
-        .collect()
-}
-
 impl EntryList<'_, '_> {
-    pub(super) fn taylor(&mut self, mechanics: &Mechanics) {
+    pub(super) fn taylor(&mut self, scene: &Scene, mechanics: &Mechanics) {
         let frame = &mechanics.absolute;
         let motion = self
             .entries
@@ -100,45 +89,36 @@ impl EntryList<'_, '_> {
         let arguments = motion.arguments.clone();
         let mut door = Door::new(frame, Argument::Theta, Some(Argument::Omega), None);
         let zero = self.lowering.builder.integer(0);
-        let links = frame.coordinates.len();
-        let (mut sines, mut cosines) = (Vec::new(), Vec::new());
-        for (link, name) in self.lowering.coordinate_names(frame).iter().enumerate() {
-            let angle = self.lowering.builder.input(Argument::Theta, link);
-            let (sine, cosine) = (
-                self.lowering.builder.sin(angle),
-                self.lowering.builder.cos(angle),
-            );
-            sines.push(self.lowering.builder.name(sine, &format!("sin_{name}")));
-            cosines.push(self.lowering.builder.name(cosine, &format!("cos_{name}")));
-        }
-        let mut expansion = TaylorOutputs {
-            sines,
-            cosines,
-            inertias: vec![zero; links],
-            weights: vec![zero; links],
-            lateral_weights: vec![zero; links],
-            couplings: Vec::new(),
+        let zeros = || vec![zero; frame.coordinates.len()];
+        let mut outputs = TaylorOutputs {
+            sines: Vec::new(),
+            cosines: Vec::new(),
+            inertias: Vec::new(),
+            moments: [zeros(), zeros()],
+            attachments: [zeros(), zeros()],
+            weights: [zeros(), zeros()],
             bias: Vec::new(),
         };
-        for entry in &frame.mass {
-            if entry.row == entry.column {
-                expansion.inertias[entry.row] = self.lowering.expr(&mut door, &entry.value);
-            }
-        }
-        for (row, column, value) in couplings(frame) {
-            let mut pair = [zero; 2];
-            for term in value.terms() {
-                let (place, constant) = match between(mechanics, frame, term, row, column) {
-                    Some((Between::Cosine, constant)) => (0, constant),
-                    Some((Between::Sine, constant)) => (1, constant),
-                    None => unreachable!("an entry of the mass matrix is derived in this form"),
-                };
-                let constant = self.lowering.expr(&mut door, &constant);
-                pair[place] = self.lowering.builder.add(pair[place], constant);
-            }
-            expansion.couplings.push(([row, column], pair));
+        for (link, name) in self.lowering.coordinate_names(frame).iter().enumerate() {
+            let builder = &mut self.lowering.builder;
+            let angle = builder.input(Argument::Theta, link);
+            let (sine, cosine) = (builder.sin(angle), builder.cos(angle));
+            outputs
+                .sines
+                .push(builder.name(sine, &format!("sin_{name}")));
+            outputs
+                .cosines
+                .push(builder.name(cosine, &format!("cos_{name}")));
         }
         for (link, bias) in frame.bias.iter().enumerate() {
+            let joint = &mechanics.articulation.joints[scene.links[link].orbit.0];
+            let inertia = self.lowering.expr(&mut door, &joint.inertia);
+            outputs.inertias.push(inertia);
+            for component in (0..2).filter(|_| link > 0) {
+                let mut at = |expr| self.lowering.expr(&mut door, expr);
+                outputs.moments[component][link] = at(&joint.moment[component]);
+                outputs.attachments[component][link] = at(&joint.pivot[component]);
+            }
             let mut rest = Vec::new();
             for term in bias.terms() {
                 if is_centrifugal(mechanics, term) {
@@ -147,10 +127,7 @@ impl EntryList<'_, '_> {
                 match gravity(mechanics, frame, term, link) {
                     Some((function, constant)) => {
                         let constant = self.lowering.expr(&mut door, &constant);
-                        let place = match function {
-                            Between::Sine => &mut expansion.weights[link],
-                            Between::Cosine => &mut expansion.lateral_weights[link],
-                        };
+                        let place = &mut outputs.weights[function as usize][link];
                         *place = self.lowering.builder.add(*place, constant);
                     }
                     None => rest.push(term.clone()),
@@ -162,42 +139,42 @@ impl EntryList<'_, '_> {
                 _ => Expr::Sum(rest),
             };
             let rest = self.lowering.expr(&mut door, &rest);
-            expansion.bias.push(rest);
+            outputs.bias.push(rest);
         }
-        self.normalize(&mut expansion);
-        let mut outputs = expansion.outputs();
+        self.choose_units(scene, &mut outputs);
+        let mut list = outputs.list();
         // The recurrence of a sine or cosine needs both.
         let builder = &mut self.lowering.builder;
-        for id in builder.needed(&expansion.bias) {
-            outputs.extend(builder.partner(id));
+        for id in builder.needed(&outputs.bias) {
+            list.extend(builder.partner(id));
         }
         self.push(
             "taylor_coefficients",
             Purpose::TaylorCoefficients,
             &arguments,
-            outputs,
+            list,
             Shape::Vector,
         );
     }
-}
 
-impl EntryList<'_, '_> {
-    /// Multiplies the equation of motion by a factor, which changes nothing but
-    /// rounding. Where its constants are known, by the one with which they round
-    /// least; else it is divided by the moment of inertia of the last link: one
-    /// rounded constant less is one error less in long motions.
-    fn normalize(&mut self, expansion: &mut TaylorOutputs) {
-        let factor = self.factor(expansion);
+    /// Chooses units of length and of mass, which change nothing but rounding: one
+    /// rounded constant less is one error less in long motions. A unit of length is the distance
+    /// from which the last link hangs. Where all constants are known, the unit of mass is
+    /// the one with which they round least; else the moment of inertia of the last
+    /// link is one.
+    fn choose_units(&mut self, scene: &Scene, outputs: &mut TaylorOutputs) {
+        self.choose_length(scene, outputs);
+        let factor = self.factor(scene, outputs);
         let builder = &mut self.lowering.builder;
         let TaylorOutputs {
             sines: _,
             cosines: _,
             inertias,
+            moments,
+            attachments: _,
             weights,
-            lateral_weights,
-            couplings,
             bias,
-        } = expansion;
+        } = outputs;
         let Some(&unit) = inertias.last() else {
             unreachable!("a tree has links");
         };
@@ -206,10 +183,8 @@ impl EntryList<'_, '_> {
             let number = builder.number(factor);
             builder.called(number, "scaled")
         });
-        let couplings = couplings.iter_mut().flat_map(|(_, pair)| pair);
-        let constants = [inertias, weights, lateral_weights];
-        let constants = constants.into_iter().flatten().chain(couplings);
-        for value in constants.chain(bias) {
+        let constants = [inertias, bias].into_iter().chain(moments).chain(weights);
+        for value in constants.flatten() {
             *value = match factor {
                 Some(factor) => builder.mul(*value, factor),
                 None => builder.div(*value, unit),
@@ -217,80 +192,62 @@ impl EntryList<'_, '_> {
         }
     }
 
-    /// The factor for constants that are all known.
-    fn factor(&mut self, expansion: &TaylorOutputs) -> Option<Rational> {
+    /// Measures lengths in that from which the last link hangs, if there is one.
+    fn choose_length(&mut self, scene: &Scene, outputs: &mut TaylorOutputs) {
         let builder = &mut self.lowering.builder;
-        let couplings = &expansion.couplings;
-        let pairs = couplings.iter().flat_map(|(_, pair)| pair);
-        let lists = [
-            &expansion.inertias,
-            &expansion.weights,
-            &expansion.lateral_weights,
+        let last = outputs.attachments.iter().filter_map(|list| list.last());
+        let mut usable = last.filter(|length| builder.is_never_zero(**length, scene));
+        let Some(&length) = usable.next() else { return };
+        let names = [
+            ("moment", "attachment"),
+            ("lateral_moment", "lateral_attachment"),
         ];
-        let mut exact = |id: &ValueId| builder.exact(*id);
-        let constants = lists.into_iter().flatten().chain(pairs).map(&mut exact);
-        let mut constants = constants.collect::<Option<Vec<_>>>()?;
+        for (component, (moment, attachment)) in names.into_iter().enumerate() {
+            for (link, template) in scene.links.iter().enumerate() {
+                let orbit = &scene.orbits[template.orbit.0].name;
+                let place = &mut outputs.moments[component][link];
+                let value = builder.mul(*place, length);
+                *place = builder.called(value, &format!("{moment}_{orbit}"));
+                let place = &mut outputs.attachments[component][link];
+                let value = builder.div(*place, length);
+                *place = builder.called(value, &format!("{attachment}_{orbit}"));
+            }
+        }
+    }
+
+    /// The factor for constants that are all known.
+    fn factor(&mut self, scene: &Scene, outputs: &TaylorOutputs) -> Option<Rational> {
+        let builder = &mut self.lowering.builder;
+        let exact = |id: &ValueId| builder.exact(*id);
+        let lists = [&outputs.inertias].into_iter();
+        let lists = lists.chain(&outputs.moments).chain(&outputs.weights);
+        let mut constants = lists.flatten().map(exact).collect::<Option<Vec<_>>>()?;
         constants.retain(|constant| !constant.is_zero());
         // The elimination of a link without children divides by its inertia.
-        let pairs = couplings.iter().map(|(links, _)| links);
-        let parents: Vec<usize> = pairs.map(|[i, j]| *i.min(j)).collect();
-        let links = expansion.inertias.iter().enumerate();
-        let leaves = links.filter(|(link, _)| !parents.contains(link));
-        let divisors = leaves
-            .map(|(_, inertia)| exact(inertia))
-            .collect::<Option<Vec<_>>>()?;
-        scale::factor(&constants, &divisors)
+        let parents: Vec<_> = scene.links.iter().map(|link| link.parent).collect();
+        let links = outputs.inertias.iter().enumerate();
+        let leaves = links.filter(|(link, _)| !parents.contains(&Some(LinkId(*link))));
+        let divisors = leaves.map(|(_, inertia)| exact(inertia));
+        scale::factor(&constants, &divisors.collect::<Option<Vec<_>>>()?)
     }
 }
 
-/// Function of an angle that multiplies a constant.
+/// The function of an angle that multiplies a constant.
 #[derive(Clone, Copy)]
-enum Between {
-    Cosine,
+enum GravityTerm {
     Sine,
+    Cosine,
 }
 
-/// A term c cos(θ_i − θ_j) or c sin(θ_i − θ_j).
-fn between(
-    mechanics: &Mechanics,
-    frame: &Frame,
-    term: &Expr,
-    row: usize,
-    column: usize,
-) -> Option<(Between, Expr)> {
-    let (i, j) = (frame.coordinates[row], frame.coordinates[column]);
-    constant_times(mechanics, term, |meaning| match meaning {
-        Trigonometric::CosBetween(a, b) if [a, b] == [i, j] || [a, b] == [j, i] => {
-            Some((Between::Cosine, false))
-        }
-        Trigonometric::SinBetween(a, b) if [a, b] == [i, j] => Some((Between::Sine, false)),
-        Trigonometric::SinBetween(a, b) if [a, b] == [j, i] => Some((Between::Sine, true)),
-        _ => None,
-    })
-}
-
-/// A term c sin θ_i or c cos θ_i of the equation of link i.
+/// Returns the function and the constant of a term c sin θ_i or c cos θ_i of the
+/// equation of link i.
 fn gravity(
     mechanics: &Mechanics,
     frame: &Frame,
     term: &Expr,
     link: usize,
-) -> Option<(Between, Expr)> {
+) -> Option<(GravityTerm, Expr)> {
     let angle = frame.coordinates[link];
-    constant_times(mechanics, term, |meaning| match meaning {
-        Trigonometric::Sin(a) if a == angle => Some((Between::Sine, false)),
-        Trigonometric::Cos(a) if a == angle => Some((Between::Cosine, false)),
-        _ => None,
-    })
-}
-
-/// A term that is a constant times one function that `wanted` knows, perhaps
-/// with the opposite sign.
-fn constant_times(
-    mechanics: &Mechanics,
-    term: &Expr,
-    wanted: impl Fn(Trigonometric) -> Option<(Between, bool)>,
-) -> Option<(Between, Expr)> {
     let mut found = None;
     let mut constant = Vec::new();
     for factor in term.factors() {
@@ -298,7 +255,11 @@ fn constant_times(
             Expr::Symbol(symbol)
                 if found.is_none() && role(mechanics, *symbol) == Role::Trigonometric =>
             {
-                found = Some(wanted(mechanics.trigonometry[symbol])?);
+                found = match mechanics.trigonometry[symbol] {
+                    Trigonometric::Sin(a) if a == angle => Some(GravityTerm::Sine),
+                    Trigonometric::Cos(a) if a == angle => Some(GravityTerm::Cosine),
+                    _ => return None,
+                };
             }
             other => {
                 let mut is_constant = true;
@@ -313,20 +274,16 @@ fn constant_times(
             }
         }
     }
-    let (function, opposite) = found?;
-    if opposite {
-        constant.insert(0, Expr::Number((-1_i64).into()));
-    }
     let constant = match constant.len() {
         0 => Expr::Number(1_i64.into()),
         1 => constant.remove(0),
         _ => Expr::Product(constant),
     };
-    Some((function, constant))
+    Some((found?, constant))
 }
 
-/// Returns true if a term has the square of a velocity: the recurrences form
-/// these with the mass matrix, of whose derivatives they are made.
+/// Returns true if a term has the square of a velocity: the recurrences form these
+/// with the mass matrix, of whose derivatives they are made.
 fn is_centrifugal(mechanics: &Mechanics, term: &Expr) -> bool {
     term.factors().iter().any(|factor| match factor {
         Expr::Power(base, 2) => match base.as_ref() {

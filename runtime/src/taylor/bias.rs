@@ -1,24 +1,24 @@
 //! What else stands in the equation of motion, order by order.
 
-use super::expand::Known;
+use super::expand::KnownOrder;
 
 /// The coefficients of the bias.
 pub(super) trait Bias<T, const N: usize> {
-    /// Whether there are any beyond order 0.
+    /// True if there are any beyond order 0.
     const MOVES: bool;
 
-    /// Those of one order.
-    fn at(&mut self, known: &Known<T, N>) -> [T; N];
+    /// Returns those of one order.
+    fn at(&mut self, known: &KnownOrder<T, N>) -> [T; N];
 }
 
 /// Those that a function gives.
 pub(super) struct Moving<F>(pub(super) F);
 
-impl<T, F: FnMut(&Known<T, N>) -> [T; N], const N: usize> Bias<T, N> for Moving<F> {
+impl<T, F: FnMut(&KnownOrder<T, N>) -> [T; N], const N: usize> Bias<T, N> for Moving<F> {
     const MOVES: bool = true;
 
     #[inline(always)]
-    fn at(&mut self, known: &Known<T, N>) -> [T; N] {
+    fn at(&mut self, known: &KnownOrder<T, N>) -> [T; N] {
         (self.0)(known)
     }
 }
@@ -30,7 +30,7 @@ impl<T: Copy, const N: usize> Bias<T, N> for Constant {
     const MOVES: bool = false;
 
     #[inline(always)]
-    fn at(&mut self, known: &Known<T, N>) -> [T; N] {
+    fn at(&mut self, known: &KnownOrder<T, N>) -> [T; N] {
         known.theta
     }
 }

@@ -3,25 +3,58 @@
 //! Let γ + iσ = e^(i(θ−θ₀)) for each link, θ₀ its angle at the start, and
 //! C + iS the second derivative of that. The equation of motion is
 //!
-//! γ_i X_i − σ_i Y_i + bias_i = 0, X = M S − T C, Y = M C + T S,
+//! γ_i X_i − σ_i Y_i + bias_i = 0,
 //!
-//! with M_ij = A_ij cos(θ_i − θ_j) + B_ij sin(θ_i − θ_j), the mass matrix, and
-//! T_ij = A_ij sin(θ_i − θ_j) − B_ij cos(θ_i − θ_j), both at the start. X and Y
-//! are the force, times its lever, on each link, across and along what it was at
-//! the start, its own inertia and its weight included. Four products of series a
-//! link are all there is, for a tree of any shape and depth.
+//! where X and Y are the force on the link, times its lever, across and along what
+//! it was at the start, its own inertia and its weight included. They are linear in
+//! the C and S of all links, with coefficients of the start. Four products of series
+//! a link are all there is, for a tree of any shape and depth.
 //!
-//! In each order X follows from the equation, C from lower orders, and then
-//! S = M⁻¹ (X + T C): one inverse serves all orders. From order 28 on, which is that of
-//! tolerances near rounding, the S of order 0 is refined once more.
+//! In each order X follows from the equation, C from lower orders, and then S and Y
+//! by [`elimination`](super::elimination) along the tree: its factors, formed once,
+//! serve all orders. From order 28 on, which is that of tolerances near rounding,
+//! the S of order 0 is refined once more.
 
-use super::bias::{Constant, Moving};
-use super::lanes;
-use super::levers::Coupling;
-use super::orders::{MATRICES, Orders};
-use super::quad::Quad;
-use super::rows::SERIES;
+use super::bias::{Bias, Constant, Moving};
+use super::dense::Matrices;
+use super::elimination::Elimination;
+use super::orders::Orders;
+use super::quad::{OneLink, Quad};
+use super::series::SERIES;
 use crate::scalar::Scalar;
+
+/// Which link of a tree hangs on which.
+pub trait Connectivity<const N: usize> {
+    /// The parent of each link, which comes before it; of the root, link 0, nothing
+    /// is asked.
+    const PARENTS: [usize; N];
+
+    /// False if centres of mass and pivots lie on the links' axes: then all second
+    /// components of moments and attachments are zero.
+    const LATERAL: bool;
+
+    /// True for links that others hang on.
+    #[doc(hidden)]
+    const CARRIES: [bool; N] = {
+        let mut carries = [false; N];
+        let mut link = 1;
+        while link < N {
+            carries[Self::PARENTS[link]] = true;
+            link += 1;
+        }
+        carries
+    };
+
+    /// Fails to compile where a parent comes behind its child.
+    #[doc(hidden)]
+    const ORDERED: () = {
+        let mut link = 1;
+        while link < N {
+            assert!(Self::PARENTS[link] < link, "parents come before children");
+            link += 1;
+        }
+    };
+}
 
 /// Where an expansion starts.
 #[derive(Clone, Copy, Debug)]
@@ -38,23 +71,28 @@ pub struct Start<'a, T, const N: usize> {
     pub bias: [T; N],
 }
 
-/// What stays the same in all expansions of a tree.
+/// Constants of a tree's equation of motion, in any units of mass and length that
+/// go together.
 #[derive(Clone, Copy, Debug)]
-pub struct Tree<'a, T, const N: usize> {
-    /// Diagonal of the mass matrix, kg m².
+pub struct LinkConstants<T, const N: usize> {
+    /// M: the diagonal of the mass matrix.
     pub inertias: [T; N],
-    /// The mass matrix outside the diagonal.
-    pub couplings: &'a [Coupling<T>],
-    /// G_i of the torque −G_i sin θ_i − F_i cos θ_i of gravity, J.
+    /// (h, e): the first moment, about the link's pivot, of the mass that the link
+    /// carries, along and across.
+    pub moments: [[T; 2]; N],
+    /// (ℓ, w): where the link hangs on its parent, from the parent's pivot, along and
+    /// across. That of the root does not count.
+    pub attachments: [[T; 2]; N],
+    /// G of the torque −G sin θ − F cos θ of gravity.
     pub weights: [T; N],
-    /// F_i of the same, J.
+    /// F of the same.
     pub lateral_weights: [T; N],
 }
 
 /// Coefficients of one order of what a torque may depend on, of all links.
 #[derive(Clone, Copy, Debug)]
-pub struct Known<T, const N: usize> {
-    /// Which order.
+pub struct KnownOrder<T, const N: usize> {
+    /// Number of the order.
     pub order: usize,
     /// Of the angles.
     pub theta: [T; N],
@@ -66,41 +104,39 @@ pub struct Known<T, const N: usize> {
     pub cosines: [T; N],
 }
 
-/// Quads that [`expand`] works in, for `links` links and polynomials of order
-/// `order`.
+/// Number of quads that [`expand`] works in, for `links` links and polynomials of
+/// order `order`.
 #[must_use]
 pub const fn workspace(links: usize, order: usize) -> usize {
-    links.div_ceil(4) * (SERIES * (order + 1) + MATRICES * links)
+    links.div_ceil(4) * SERIES * (order + 1)
 }
 
 /// Writes the Taylor coefficients of the motion from `start`, order by order:
-/// those of the angles, then those of the angular velocities. `M` must be
+/// those of the angles, then those of the angular velocities. `Q` must be
 /// ⌈N/4⌉.
 ///
 /// `bias`, if there is one, returns the coefficient of an order of
 /// [`Start::bias`]. It is called with every order from 1 on, in turn.
 ///
-/// Where `M` or the length of `work` ([`workspace`]) does not fit, or a
-/// coupling names a link that is not there, all coefficients are NaN.
+/// Where `Q` or the length of `work` ([`workspace`]) does not fit, all coefficients
+/// are NaN.
 ///
-/// Complexity: O(n² + n p) for each of p orders of n links, and O(n³) for the
-/// inverse. Uses AVX2 and FMA for `f64` where the machine has them: results
-/// there differ by rounding from those elsewhere.
+/// Complexity: O(n p) for each of p orders of n links. Uses AVX2 and FMA for `f64`
+/// where the machine has them: results there differ by rounding from those
+/// elsewhere.
 #[inline(always)]
-pub fn expand<T: Scalar, const N: usize, const M: usize, F>(
+pub fn expand<T: Scalar, C: Connectivity<N>, const N: usize, const Q: usize, F>(
     start: &Start<'_, T, N>,
-    tree: &Tree<'_, T, N>,
+    constants: &LinkConstants<T, N>,
     coefficients: &mut [[[T; N]; 2]],
     work: &mut [Quad<T>],
     bias: Option<F>,
 ) where
-    F: FnMut(&Known<T, N>) -> [T; N],
+    F: FnMut(&KnownOrder<T, N>) -> [T; N],
 {
+    const { C::ORDERED };
     let order = coefficients.len().saturating_sub(1);
-    let (vectors, _) = work.as_chunks_mut::<M>();
-    let mut links = tree.couplings.iter().flat_map(|coupling| coupling.links);
-    let fits = M == N.div_ceil(4) && links.all(|link| link < N);
-    if !fits || vectors.len() * M < workspace(N, order) {
+    if Q != N.div_ceil(4) || work.len() < workspace(N, order) {
         coefficients
             .as_flattened_mut()
             .as_flattened_mut()
@@ -112,32 +148,53 @@ pub fn expand<T: Scalar, const N: usize, const M: usize, F>(
         // Velocities of order 1 follow.
         *row = [*angles, *start.omega];
     }
+    match bias {
+        Some(bias) => run::<T, C, _, N, Q>(start, constants, coefficients, work, Moving(bias)),
+        None => run::<T, C, _, N, Q>(start, constants, coefficients, work, Constant),
+    }
+}
+
+/// Up to so many links matrices are faster than the elimination, for one state: µs for an
+/// expansion to order 22, by matrices and by elimination, 0.35 and 0.39 of three links, 0.83 and 0.92 of
+/// seven, 2.5 and 3.0 of fifteen, 8.1 and 5.7 of thirty-one.
+const MATRICES: usize = 15;
+
+/// Runs the orders in packs of links, or link by link where a number is several
+/// already.
+#[inline(always)]
+fn run<T: Scalar, C: Connectivity<N>, B: Bias<T, N>, const N: usize, const Q: usize>(
+    start: &Start<'_, T, N>,
+    constants: &LinkConstants<T, N>,
+    coefficients: &mut [[[T; N]; 2]],
+    work: &mut [Quad<T>],
+    bias: B,
+) {
+    let (vectors, _) = work.as_chunks_mut::<Q>();
+    let (rows, _) = vectors.as_chunks_mut::<SERIES>();
     if T::SEVERAL {
-        let (rows, _) = vectors.as_chunks_mut::<SERIES>();
-        lanes::Orders {
+        type Lanes<'a, T, C, B, const N: usize, const Q: usize> =
+            Orders<'a, T, C, B, Elimination<T, Q>, N, Q, N>;
+        Lanes::<T, C, B, N, Q>::new(start, constants, coefficients, rows, bias)
+            .form::<OneLink<T>>();
+    } else if N <= MATRICES {
+        type Small<'a, T, C, B, const N: usize, const Q: usize> =
+            Orders<'a, T, C, B, Matrices<T, N, Q>, N, Q, Q>;
+        T::run_packs(Small::<T, C, B, N, Q>::new(
             start,
-            tree,
+            constants,
             coefficients,
             rows,
             bias,
-        }
-        .run();
-        return;
-    }
-    match bias {
-        Some(bias) => T::run_packs(Orders {
+        ));
+    } else {
+        type Large<'a, T, C, B, const N: usize, const Q: usize> =
+            Orders<'a, T, C, B, Elimination<T, Q>, N, Q, Q>;
+        T::run_packs(Large::<T, C, B, N, Q>::new(
             start,
-            tree,
+            constants,
             coefficients,
-            vectors,
-            bias: Moving(bias),
-        }),
-        None => T::run_packs(Orders {
-            start,
-            tree,
-            coefficients,
-            vectors,
-            bias: Constant,
-        }),
+            rows,
+            bias,
+        ));
     }
 }

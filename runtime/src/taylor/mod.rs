@@ -10,19 +10,20 @@
 //! [`integrate::Taylor`]: crate::integrate::Taylor
 
 mod bias;
+mod dense;
+mod elimination;
 mod expand;
-mod lanes;
-mod levers;
-mod matrix;
+mod linear;
 mod orders;
 mod quad;
 mod reciprocal;
 mod refine;
-mod rows;
+mod series;
 mod sums;
+#[cfg(test)]
+mod tests;
 
-pub use expand::{Known, Start, Tree, expand, workspace};
-pub use levers::Coupling;
+pub use expand::{Connectivity, KnownOrder, LinkConstants, Start, expand, workspace};
 pub use quad::Quad;
 #[doc(hidden)]
 pub use quad::{Kernel, Pack};

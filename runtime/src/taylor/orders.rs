@@ -5,92 +5,130 @@
 //!
 //! X\[k\] = Σ_{0<j≤k} (σ\[j\] Y\[k−j\] − γ\[j\] X\[k−j\]) − bias\[k\],
 //! C\[k\] = −(k+1) Σ_{0≤j≤k} ω\[j\] σ\[k+1−j\],
-//! S\[k\] = M⁻¹ (X\[k\] + T C\[k\]), Y\[k\] = M C\[k\] + T S\[k\],
-//! α\[k\] = S\[k\] − (k+1) Σ_{0≤j<k} ω\[j\] γ\[k+1−j\].
+//! α\[k\] = S\[k\] − (k+1) Σ_{0≤j<k} ω\[j\] γ\[k+1−j\],
 //!
-//! Everything on the right is of lower orders. What order k − 1 has to do with it
-//! is written apart, so that the sums are ready when that is.
+//! and S\[k\] and Y\[k\] follow by [`elimination`](super::elimination). Everything
+//! on the right is of lower orders. What order k − 1 has to do with it is written
+//! apart, so that the sums are ready when that is.
 
 use super::bias::Bias;
-use super::expand::{Known, Start, Tree};
-use super::levers::Levers;
-use super::matrix::{Vector, add_product, invert, numbers, packs, product};
+use super::elimination::Column;
+use super::expand::{Connectivity, KnownOrder, LinkConstants, Start};
+use super::linear::LinearSystem;
 use super::quad::{Kernel, Pack, Quad};
 use super::reciprocal::Reciprocal;
 use super::refine::residual;
-use super::rows::{SERIES, sums};
+use super::series::{Row, SeriesSums};
 use crate::scalar::Scalar;
-
-/// Matrices that the orders share, each of as many columns as there are links.
-pub(super) const MATRICES: usize = 5;
+use core::marker::PhantomData;
 
 /// From this order on the accelerations at the start are refined: the order for
 /// tolerances of 1e-13, below which rounding is most of the error.
 const REFINED: usize = 28;
 
-/// The orders of an expansion from 1 on.
-pub(super) struct Orders<'a, T, B, const N: usize, const M: usize> {
-    pub(super) start: &'a Start<'a, T, N>,
-    pub(super) tree: &'a Tree<'a, T, N>,
-    pub(super) coefficients: &'a mut [[[T; N]; 2]],
-    pub(super) vectors: &'a mut [Vector<T, M>],
-    pub(super) bias: B,
+/// The orders of an expansion from 1 on, of N links in Q quads of memory and M packs.
+pub(super) struct Orders<'a, T, C, B, L, const N: usize, const Q: usize, const M: usize> {
+    start: &'a Start<'a, T, N>,
+    constants: &'a LinkConstants<T, N>,
+    coefficients: &'a mut [[[T; N]; 2]],
+    rows: &'a mut [Row<T, Q>],
+    bias: B,
+    /// The tree's connectivity, and how its equations are solved.
+    kind: PhantomData<(C, L)>,
 }
 
-impl<T: Scalar, B: Bias<T, N>, const N: usize, const M: usize> Kernel<T>
-    for Orders<'_, T, B, N, M>
+impl<T, C, B, L, const N: usize, const Q: usize, const M: usize> Kernel<T>
+    for Orders<'_, T, C, B, L, N, Q, M>
+where
+    T: Scalar,
+    C: Connectivity<N>,
+    B: Bias<T, N>,
+    L: LinearSystem<T, N>,
 {
+    #[inline(always)]
+    fn run<P: Pack<T>>(self) {
+        self.form::<P>();
+    }
+}
+
+impl<'a, T, C, B, L, const N: usize, const Q: usize, const M: usize> Orders<'a, T, C, B, L, N, Q, M>
+where
+    T: Scalar,
+    C: Connectivity<N>,
+    B: Bias<T, N>,
+    L: LinearSystem<T, N>,
+{
+    #[inline(always)]
+    pub(super) fn new(
+        start: &'a Start<'a, T, N>,
+        constants: &'a LinkConstants<T, N>,
+        coefficients: &'a mut [[[T; N]; 2]],
+        rows: &'a mut [Row<T, Q>],
+        bias: B,
+    ) -> Self {
+        Self {
+            start,
+            constants,
+            coefficients,
+            rows,
+            bias,
+            kind: PhantomData,
+        }
+    }
+
+    /// Forms them, in M packs. No closure takes part but the caller's: what is not
+    /// inlined is compiled without the registers. For the same reason the bias is
+    /// asked for in one place.
     // One index into all vectors at once.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    fn run<P: Pack<T>>(self) {
+    pub(super) fn form<P: Pack<T>>(self) {
         let Self {
             start,
-            tree,
+            constants,
             coefficients,
-            vectors,
+            rows,
             mut bias,
+            kind: _,
         } = self;
-        let (along, vectors) = vectors.split_at_mut(N);
-        let (across, vectors) = vectors.split_at_mut(N);
-        let (mass, vectors) = vectors.split_at_mut(N);
-        let (inverse, vectors) = vectors.split_at_mut(N);
-        let (turning, vectors) = vectors.split_at_mut(N);
-        let (rows, _) = vectors.as_chunks_mut::<SERIES>();
-        let levers = Levers::<T, N, M>::new(tree.couplings, along, across);
-        levers.matrices::<P>(start, &tree.inertias, [mass, inverse, turning]);
-        invert::<T, P, N, M>(inverse);
+        let last = coefficients.len().saturating_sub(1);
+        let system = L::new::<C, P>(start, constants);
 
         // Order 0, and 1 of ω, γ, σ.
         let zero = P::splat(T::from_f64(0.0));
-        let omega: [P; M] = packs(start.omega);
-        let first_bias: [P; M] = packs(&start.bias);
-        let weight = Weight::<P, M>::new(start, tree);
+        let omega: [P; M] = packs::<T, P, N, Q, M>(start.omega);
+        let first_bias: [P; M] = packs::<T, P, N, Q, M>(&start.bias);
+        let weight = Weight::<P, M>::new::<T, N, Q>(start, constants);
         let (mut x, mut c, mut s_rest) = ([zero; M], [zero; M], [zero; M]);
-        let mut sum = [zero; M];
+        let mut force = [zero; M];
         for m in 0..M {
             // X with the weight in it.
             x[m] = zero.minus(first_bias[m]);
-            sum[m] = x[m].minus(weight.across[m]);
+            force[m] = x[m].minus(weight.across[m]);
             c[m] = zero.minus_product(omega[m], omega[m]);
             let row = [omega[m], zero, omega[m], zero, zero];
             for (series, value) in rows[0].iter_mut().zip(row) {
-                value.store(&mut series[m]);
+                value.store(series, m);
             }
         }
-        let sum = add_product::<T, P, N, M>(&sum, turning, &c);
-        let mut s = product::<T, P, N, M>(inverse, &sum);
-        let last = coefficients.len().saturating_sub(1);
+        let [mut s, mut y] = system.solve::<C, P, M>(&force, &c);
         if last >= REFINED {
-            let rest = residual::<T, P, N, M>(start, tree, &levers, &s);
-            s = add_product::<T, P, N, M>(&s, inverse, &rest);
+            let rest = residual::<T, C, P::Single, N, Q>(start, constants, &column(&s));
+            let rest = loaded(&rest);
+            let [more_s, more_y] = system.solve::<C, P, M>(&rest, &[zero; M]);
+            for m in 0..M {
+                s[m] = s[m].plus(more_s[m]);
+                y[m] = y[m].plus(more_y[m]);
+            }
         }
-        // M C, and the weight that belongs to Y.
-        let mut mass_c = add_product::<T, P, N, M>(&weight.along, mass, &c);
+        for m in 0..M {
+            y[m] = y[m].plus(weight.along[m]);
+        }
 
         let one = T::from_f64(1.0);
         let mut number = one;
         let mut over_next = Reciprocal::<P>::of(one);
+        let [mut sums, mut next_sums] = [[SeriesSums::<P>::none::<T>(); M]; 2];
         for k in 1..last {
             let over_k = over_next;
             let over_both = Reciprocal::<P>::of(number * (number + one));
@@ -102,56 +140,59 @@ impl<T: Scalar, B: Bias<T, N>, const N: usize, const M: usize> Kernel<T>
 
             // X and C as far as they do not depend on S[k−1] and α[k−1]: there
             // was time for them while these were formed.
+            if !T::SEVERAL {
+                for m in 0..M {
+                    sums[m] = SeriesSums::of(&lower[1..], m);
+                }
+            } else if k % 2 == 1 {
+                for m in 0..M {
+                    [sums[m], next_sums[m]] = SeriesSums::pair(lower, m);
+                }
+            } else {
+                sums = next_sums;
+                for m in 0..M {
+                    sums[m].complete(lower, m);
+                }
+            }
             let (mut x_next, mut c_next, mut s_rest_next) = ([zero; M], [zero; M], [zero; M]);
-            let mut slowing = [zero; M];
+            let mut theta = [Quad::splat(T::from_f64(0.0)); Q];
             for m in 0..M {
-                let sums = sums::<T, P, M>(&lower[1..], m);
-                x_next[m] = sums.force;
                 // ω/k, ω (k+1)/k, ω (k+2)/k
                 let rate = over_k.times(omega[m]);
                 let rate_1 = omega[m].plus(rate);
-                slowing[m] = rate_1.plus(rate);
-                s_rest_next[m] = factor.times(sums.omega_cos).plus_product(rate, c[m]);
+                let slowing = rate_1.plus(rate);
+                s_rest_next[m] = factor.times(sums[m].omega_cos).plus_product(rate, c[m]);
                 c_next[m] = rate_1
                     .times(s_rest[m])
-                    .minus_product(factor, sums.omega_sin);
-            }
+                    .minus_product(factor, sums[m].omega_sin)
+                    .minus_product(slowing, s[m]);
+                x_next[m] = sums[m].force().plus_product(omega[m], y[m]);
 
-            let mut y = product::<T, P, N, M>(turning, &s);
-            for m in 0..M {
-                y[m] = y[m].plus(mass_c[m]);
-                x_next[m] = x_next[m].plus_product(omega[m], y[m]);
-                c_next[m] = c_next[m].minus_product(slowing[m], s[m]);
-            }
-            mass_c = product::<T, P, N, M>(mass, &c_next);
-            let mut theta = [Quad([T::from_f64(0.0); 4]); M];
-            for m in 0..M {
                 let alpha = s[m].minus(s_rest[m]);
                 let (cos, sin) = (over_both.times(c[m]), over_both.times(s[m]));
                 let new = [over_k.times(alpha), cos, sin, x[m], y[m]];
                 for (series, value) in row.iter_mut().zip(new) {
-                    value.store(&mut series[m]);
+                    value.store(series, m);
                 }
-                over_both.times(alpha).store(&mut theta[m]);
+                over_both.times(alpha).store(&mut theta, m);
             }
             numbers(&row[0], &mut coefficients[k][1]);
             numbers(&theta, &mut coefficients[k + 1][0]);
             if B::MOVES {
-                let known = known::<T, P, N, M>(k, start, &coefficients[k], &lower[k - 1]);
-                let others: [P; M] = packs(&bias.at(&known));
+                let known = known::<T, P, N, Q, M>(k, start, &coefficients[k], &lower[k - 1]);
+                let others: [P; M] = packs::<T, P, N, Q, M>(&bias.at(&known));
                 for m in 0..M {
                     x_next[m] = x_next[m].minus(others[m]);
                 }
             }
-            let sum = add_product::<T, P, N, M>(&x_next, turning, &c_next);
-            s = product::<T, P, N, M>(inverse, &sum);
+            [s, y] = system.solve::<C, P, M>(&x_next, &c_next);
             (x, c, s_rest) = (x_next, c_next, s_rest_next);
         }
         if last > 0 {
-            let mut omega = [Quad([T::from_f64(0.0); 4]); M];
+            let mut omega = [Quad::splat(T::from_f64(0.0)); Q];
             for m in 0..M {
                 let alpha = s[m].minus(s_rest[m]);
-                over_next.times(alpha).store(&mut omega[m]);
+                over_next.times(alpha).store(&mut omega, m);
             }
             numbers(&omega, &mut coefficients[last][1]);
         }
@@ -167,14 +208,17 @@ struct Weight<P, const M: usize> {
 
 impl<P, const M: usize> Weight<P, M> {
     #[inline(always)]
-    fn new<T: Scalar, const N: usize>(start: &Start<'_, T, N>, tree: &Tree<'_, T, N>) -> Self
+    fn new<T: Scalar, const N: usize, const Q: usize>(
+        start: &Start<'_, T, N>,
+        constants: &LinkConstants<T, N>,
+    ) -> Self
     where
         P: Pack<T>,
     {
-        let cosines: [P; M] = packs(&start.cosines);
-        let sines: [P; M] = packs(&start.sines);
-        let weights: [P; M] = packs(&tree.weights);
-        let lateral: [P; M] = packs(&tree.lateral_weights);
+        let cosines: [P; M] = packs::<T, P, N, Q, M>(&start.cosines);
+        let sines: [P; M] = packs::<T, P, N, Q, M>(&start.sines);
+        let weights: [P; M] = packs::<T, P, N, Q, M>(&constants.weights);
+        let lateral: [P; M] = packs::<T, P, N, Q, M>(&constants.lateral_weights);
         let (mut across, mut along) = (cosines, sines);
         for m in 0..M {
             across[m] = weights[m]
@@ -190,29 +234,69 @@ impl<P, const M: usize> Weight<P, M> {
 
 /// What a torque may depend on, in order k; `row` has γ and σ of that order.
 #[inline(always)]
-fn known<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
+fn known<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
     k: usize,
     start: &Start<'_, T, N>,
     [theta, omega]: &[[T; N]; 2],
-    row: &[Vector<T, M>; SERIES],
-) -> Known<T, N> {
-    let c0: [P; M] = packs(&start.cosines);
-    let s0: [P; M] = packs(&start.sines);
+    row: &Row<T, Q>,
+) -> KnownOrder<T, N> {
+    let c0: [P; M] = packs::<T, P, N, Q, M>(&start.cosines);
+    let s0: [P; M] = packs::<T, P, N, Q, M>(&start.sines);
     let (mut sine, mut cosine) = (row[2], row[1]);
     for m in 0..M {
-        let (cos, sin) = (P::load(&row[1][m]), P::load(&row[2][m]));
+        let (cos, sin) = (P::load(&row[1], m), P::load(&row[2], m));
         let (upright, level) = (c0[m].times(cos), c0[m].times(sin));
-        level.plus_product(s0[m], cos).store(&mut sine[m]);
-        upright.minus_product(s0[m], sin).store(&mut cosine[m]);
+        level.plus_product(s0[m], cos).store(&mut sine, m);
+        upright.minus_product(s0[m], sin).store(&mut cosine, m);
     }
     let (mut sines, mut cosines) = (*theta, *theta);
     numbers(&sine, &mut sines);
     numbers(&cosine, &mut cosines);
-    Known {
+    KnownOrder {
         order: k,
         theta: *theta,
         omega: *omega,
         sines,
         cosines,
+    }
+}
+
+/// Numbers of all links as packs, zero where there is no link.
+#[inline(always)]
+fn packs<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
+    numbers: &[T; N],
+) -> [P; M] {
+    let mut column = [Quad::splat(T::from_f64(0.0)); Q];
+    for (i, number) in numbers.iter().enumerate() {
+        column[i / 4].0[i % 4] = *number;
+    }
+    loaded(&column)
+}
+
+/// The packs of a column.
+#[inline(always)]
+fn loaded<T: Scalar, P: Pack<T>, const Q: usize, const M: usize>(column: &Column<T, Q>) -> [P; M] {
+    let mut packs = [P::splat(T::from_f64(0.0)); M];
+    for (m, pack) in packs.iter_mut().enumerate() {
+        *pack = P::load(column, m);
+    }
+    packs
+}
+
+/// The column of packs.
+#[inline(always)]
+fn column<T: Scalar, P: Pack<T>, const Q: usize, const M: usize>(packs: &[P; M]) -> Column<T, Q> {
+    let mut column = [Quad::splat(T::from_f64(0.0)); Q];
+    for (m, pack) in packs.iter().enumerate() {
+        pack.store(&mut column, m);
+    }
+    column
+}
+
+/// The numbers of all links.
+#[inline(always)]
+fn numbers<T: Scalar, const N: usize, const Q: usize>(column: &Column<T, Q>, out: &mut [T; N]) {
+    for (i, out) in out.iter_mut().enumerate() {
+        *out = column[i / 4].0[i % 4];
     }
 }

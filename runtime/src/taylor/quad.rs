@@ -19,14 +19,17 @@ impl<T: Scalar> Quad<T> {
     }
 }
 
-/// The arithmetic of four numbers at once, in registers.
+/// The arithmetic of the numbers of one or more links at once, in registers.
 pub trait Pack<T>: Copy {
-    /// The same number four times.
+    /// The same arithmetic for one link.
+    type Single: Pack<T>;
+
+    /// The same number for each link.
     fn splat(value: T) -> Self;
-    /// From memory.
-    fn load(quad: &Quad<T>) -> Self;
+    /// From memory: the pack with this index.
+    fn load(numbers: &[Quad<T>], index: usize) -> Self;
     /// To memory.
-    fn store(self, quad: &mut Quad<T>);
+    fn store(self, numbers: &mut [Quad<T>], index: usize);
     /// Sum.
     fn plus(self, other: Self) -> Self;
     /// Difference.
@@ -37,26 +40,30 @@ pub trait Pack<T>: Copy {
     fn plus_product(self, a: Self, b: Self) -> Self;
     /// `self` − a b, rounded once or twice.
     fn minus_product(self, a: Self, b: Self) -> Self;
-    /// Element `LANE` in all places.
-    fn broadcast<const LANE: usize>(self) -> Self;
+    /// 1 / `self`.
+    fn reciprocal(self) -> Self;
+    /// The number of the link with this index in the pack, for each.
+    fn broadcast<const INDEX: usize>(self) -> Self;
 }
 
 /// For every number type: operation by operation. Loops and no closures: what
 /// is not inlined into a function with wider registers is slow.
 impl<T: Scalar> Pack<T> for Quad<T> {
+    type Single = OneLink<T>;
+
     #[inline(always)]
     fn splat(value: T) -> Self {
         Self([value; 4])
     }
 
     #[inline(always)]
-    fn load(quad: &Quad<T>) -> Self {
-        *quad
+    fn load(numbers: &[Quad<T>], index: usize) -> Self {
+        numbers[index]
     }
 
     #[inline(always)]
-    fn store(self, quad: &mut Quad<T>) {
-        *quad = self;
+    fn store(self, numbers: &mut [Quad<T>], index: usize) {
+        numbers[index] = self;
     }
 
     #[inline(always)]
@@ -105,8 +112,76 @@ impl<T: Scalar> Pack<T> for Quad<T> {
     }
 
     #[inline(always)]
-    fn broadcast<const LANE: usize>(self) -> Self {
-        Self([self.0[LANE]; 4])
+    fn reciprocal(self) -> Self {
+        let mut result = self;
+        for i in 0..4 {
+            result.0[i] = T::from_f64(1.0) / self.0[i];
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn broadcast<const INDEX: usize>(self) -> Self {
+        Self([self.0[INDEX]; 4])
+    }
+}
+
+/// The number of one link, perhaps of several states at once.
+#[derive(Clone, Copy)]
+#[allow(unreachable_pub)]
+pub struct OneLink<T>(T);
+
+impl<T: Scalar> Pack<T> for OneLink<T> {
+    type Single = Self;
+
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Self(value)
+    }
+
+    #[inline(always)]
+    fn load(numbers: &[Quad<T>], index: usize) -> Self {
+        Self(numbers[index / 4].0[index % 4])
+    }
+
+    #[inline(always)]
+    fn store(self, numbers: &mut [Quad<T>], index: usize) {
+        numbers[index / 4].0[index % 4] = self.0;
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        Self(self.0 - other.0)
+    }
+
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        Self(self.0 * other.0)
+    }
+
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        Self(a.0.mul_add(b.0, self.0))
+    }
+
+    #[inline(always)]
+    fn minus_product(self, a: Self, b: Self) -> Self {
+        Self((-a.0).mul_add(b.0, self.0))
+    }
+
+    #[inline(always)]
+    fn reciprocal(self) -> Self {
+        Self(T::from_f64(1.0) / self.0)
+    }
+
+    #[inline(always)]
+    fn broadcast<const INDEX: usize>(self) -> Self {
+        self
     }
 }
 
@@ -134,8 +209,8 @@ pub trait Kernel<T> {
 #[allow(unsafe_code)]
 mod machine {
     use core::arch::x86_64::{
-        __m256d, _mm256_add_pd, _mm256_fmadd_pd, _mm256_fnmadd_pd, _mm256_load_pd, _mm256_mul_pd,
-        _mm256_permute4x64_pd, _mm256_set1_pd, _mm256_store_pd, _mm256_sub_pd,
+        __m256d, _mm256_add_pd, _mm256_div_pd, _mm256_fmadd_pd, _mm256_fnmadd_pd, _mm256_load_pd,
+        _mm256_mul_pd, _mm256_permute4x64_pd, _mm256_set1_pd, _mm256_store_pd, _mm256_sub_pd,
     };
 
     use super::{Kernel, Pack, Quad};
@@ -179,6 +254,8 @@ mod machine {
     // include these, alone. Loads and stores go through
     // references to 32 bytes that are aligned to 32 bytes, `Quad<f64>`.
     impl Pack<f64> for Register {
+        type Single = FusedNumber;
+
         #[inline(always)]
         fn splat(value: f64) -> Self {
             // SAFETY: see above.
@@ -186,15 +263,15 @@ mod machine {
         }
 
         #[inline(always)]
-        fn load(quad: &Quad<f64>) -> Self {
+        fn load(numbers: &[Quad<f64>], index: usize) -> Self {
             // SAFETY: see above.
-            Self(unsafe { _mm256_load_pd(quad.0.as_ptr()) })
+            Self(unsafe { _mm256_load_pd(numbers[index].0.as_ptr()) })
         }
 
         #[inline(always)]
-        fn store(self, quad: &mut Quad<f64>) {
+        fn store(self, numbers: &mut [Quad<f64>], index: usize) {
             // SAFETY: see above.
-            unsafe { _mm256_store_pd(quad.0.as_mut_ptr(), self.0) }
+            unsafe { _mm256_store_pd(numbers[index].0.as_mut_ptr(), self.0) }
         }
 
         #[inline(always)]
@@ -228,16 +305,80 @@ mod machine {
         }
 
         #[inline(always)]
-        fn broadcast<const LANE: usize>(self) -> Self {
+        fn reciprocal(self) -> Self {
+            // SAFETY: see above.
+            Self(unsafe { _mm256_div_pd(_mm256_set1_pd(1.0), self.0) })
+        }
+
+        #[inline(always)]
+        fn broadcast<const INDEX: usize>(self) -> Self {
             // SAFETY: see above.
             Self(unsafe {
-                match LANE {
+                match INDEX {
                     0 => _mm256_permute4x64_pd::<0b00_00_00_00>(self.0),
                     1 => _mm256_permute4x64_pd::<0b01_01_01_01>(self.0),
                     2 => _mm256_permute4x64_pd::<0b10_10_10_10>(self.0),
                     _ => _mm256_permute4x64_pd::<0b11_11_11_11>(self.0),
                 }
             })
+        }
+    }
+
+    /// One number whose products are fused with the sums they go into.
+    #[derive(Clone, Copy)]
+    struct FusedNumber(f64);
+
+    impl Pack<f64> for FusedNumber {
+        type Single = Self;
+
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            Self(value)
+        }
+
+        #[inline(always)]
+        fn load(numbers: &[Quad<f64>], index: usize) -> Self {
+            Self(numbers[index / 4].0[index % 4])
+        }
+
+        #[inline(always)]
+        fn store(self, numbers: &mut [Quad<f64>], index: usize) {
+            numbers[index / 4].0[index % 4] = self.0;
+        }
+
+        #[inline(always)]
+        fn plus(self, other: Self) -> Self {
+            Self(self.0 + other.0)
+        }
+
+        #[inline(always)]
+        fn minus(self, other: Self) -> Self {
+            Self(self.0 - other.0)
+        }
+
+        #[inline(always)]
+        fn times(self, other: Self) -> Self {
+            Self(self.0 * other.0)
+        }
+
+        #[inline(always)]
+        fn plus_product(self, a: Self, b: Self) -> Self {
+            Self(a.0.mul_add(b.0, self.0))
+        }
+
+        #[inline(always)]
+        fn minus_product(self, a: Self, b: Self) -> Self {
+            Self((-a.0).mul_add(b.0, self.0))
+        }
+
+        #[inline(always)]
+        fn reciprocal(self) -> Self {
+            Self(1.0 / self.0)
+        }
+
+        #[inline(always)]
+        fn broadcast<const INDEX: usize>(self) -> Self {
+            self
         }
     }
 }

@@ -6,104 +6,94 @@
 //! what is wrong (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd
 //! edition, SIAM 2002, section 12.1, with the residual in twice the precision).
 //!
-//! With U = (sin θ)'' = α cos θ − ω² sin θ and V = −(cos θ)'' = α sin θ + ω² cos θ,
-//! what is left of the equation of link i is
+//! With U + iV = v (α + iω²), that is U = (sin θ)'' and V = −(cos θ)'', the pivots'
+//! accelerations a_c = a + (ℓ + i w) (U + iV), the forces F = (h + i e) (U + iV) + Σ F_c
+//! and the levers' product D + iE = (h − i e) a + Σ (ℓ − i w) F_c, sums over the
+//! children c, what is left of a link's equation is
 //!
-//! −bias_i − D_i α_i − (G_i + Σ_j A_ij V_j + B_ij U_j) sin θ_i
-//!   − (F_i + Σ_j A_ij U_j − B_ij V_j) cos θ_i.
+//! −bias − M α − (F + D) cos θ − (G + E) sin θ
 
-use super::expand::{Start, Tree};
-use super::levers::Levers;
-use super::matrix::{Vector, packs};
+use super::elimination::Column;
+use super::expand::{Connectivity, LinkConstants, Start};
 use super::quad::{Pack, two_sum};
 use crate::scalar::Scalar;
 
-/// What accelerations leave of the equation of motion, N m in the units of the
-/// tree's constants.
+/// Returns what accelerations leave of the equation of motion, in the units of the
+/// tree's constants, link by link.
 #[inline(always)]
-pub(super) fn residual<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
+pub(super) fn residual<T, C, P, const N: usize, const Q: usize>(
     start: &Start<'_, T, N>,
-    tree: &Tree<'_, T, N>,
-    levers: &Levers<'_, T, N, M>,
-    accelerations: &[P; M],
-) -> [P; M] {
-    let zero = P::splat(T::from_f64(0.0));
-    let sines: [P; M] = packs(&start.sines);
-    let cosines: [P; M] = packs(&start.cosines);
-    let omega: [P; M] = packs(start.omega);
-    let weights: [P; M] = packs(&tree.weights);
-    let lateral: [P; M] = packs(&tree.lateral_weights);
-    let nothing = Parts {
-        high: zero,
-        low: zero,
-    };
-    let (mut u, mut v, mut minus_v) = ([nothing; M], [nothing; M], [nothing; M]);
-    let (mut down, mut aside) = ([nothing; M], [nothing; M]);
-    for m in 0..M {
-        let (sin, cos, alpha) = (sines[m], cosines[m], accelerations[m]);
-        let square = product(omega[m], omega[m]);
-        u[m] = plus_product(product(cos, alpha), zero.minus(sin), square);
-        v[m] = plus_product(product(sin, alpha), cos, square);
-        minus_v[m] = Parts {
-            high: zero.minus(v[m].high),
-            low: zero.minus(v[m].low),
-        };
-        down[m] = Parts {
-            high: weights[m],
-            low: zero,
-        };
-        aside[m] = Parts {
-            high: lateral[m],
-            low: zero,
-        };
+    constants: &LinkConstants<T, N>,
+    accelerations: &Column<T, Q>,
+) -> Column<T, Q>
+where
+    T: Scalar,
+    C: Connectivity<N>,
+    P: Pack<T>,
+{
+    let zero = Parts::whole::<T>(P::splat(T::from_f64(0.0)));
+    // U + iV, a, Σ F_c and D + iE.
+    let [mut turning, mut fall, mut pull, mut lever] = [[[zero; 2]; N]; 4];
+    for i in 0..N {
+        let alpha = P::load(accelerations, i);
+        let (cos, sin) = (P::splat(start.cosines[i]), P::splat(start.sines[i]));
+        let omega = P::splat(start.omega[i]);
+        let square = Parts::product::<T>(omega, omega);
+        turning[i] = [
+            Parts::product::<T>(cos, alpha).plus_product::<T>(zero.high.minus(sin), square),
+            Parts::product::<T>(sin, alpha).plus_product::<T>(cos, square),
+        ];
+        if i > 0 {
+            let parent = C::PARENTS[i];
+            let attachment = constants.attachments[i];
+            fall[i] = plus_turned::<T, C, P, N>(fall[parent], attachment, turning[parent]);
+        }
     }
-    add_products::<T, P, N, M>(&mut down, levers.along, &v);
-    add_products::<T, P, N, M>(&mut aside, levers.along, &u);
-    if let Some(across) = levers.across {
-        add_products::<T, P, N, M>(&mut down, across, &u);
-        add_products::<T, P, N, M>(&mut aside, across, &minus_v);
-    }
-    let inertias: [P; M] = packs(&tree.inertias);
-    let bias: [P; M] = packs(&start.bias);
-    let mut rest = [zero; M];
-    for m in 0..M {
-        let own = Parts {
-            high: bias[m],
-            low: zero,
-        };
-        let alpha = Parts {
-            high: accelerations[m],
-            low: zero,
-        };
-        let own = plus_product(own, inertias[m], alpha);
-        let own = plus_product(own, sines[m], down[m]);
-        let sum = plus_product(own, cosines[m], aside[m]);
-        rest[m] = zero.minus(sum.high).minus(sum.low);
+    let mut rest = *accelerations;
+    for i in (0..N).rev() {
+        let [h, e] = constants.moments[i];
+        let [aside, down] = plus_turned::<T, C, P, N>(lever[i], [h, -e], fall[i]);
+        let number = |value: T| Parts::whole::<T>(P::splat(value));
+        let (cos, sin) = (P::splat(start.cosines[i]), P::splat(start.sines[i]));
+        let alpha = Parts::whole::<T>(P::load(accelerations, i));
+        let sum = number(start.bias[i])
+            .plus_product::<T>(P::splat(constants.inertias[i]), alpha)
+            .plus_product::<T>(sin, down.plus::<T>(number(constants.weights[i])))
+            .plus_product::<T>(cos, aside.plus::<T>(number(constants.lateral_weights[i])));
+        let left = zero.high.minus(sum.high).minus(sum.low);
+        left.store(&mut rest, i);
+        if i > 0 {
+            let parent = C::PARENTS[i];
+            let force = plus_turned::<T, C, P, N>(pull[i], [h, e], turning[i]);
+            let [l, w] = constants.attachments[i];
+            lever[parent] = plus_turned::<T, C, P, N>(lever[parent], [l, -w], force);
+            for x in 0..2 {
+                pull[parent][x] = pull[parent][x].plus::<T>(force[x]);
+            }
+        }
     }
     rest
 }
 
-/// Adds the matrix with these columns times x.
+/// `base` + (p + i q) x
 #[inline(always)]
-fn add_products<T: Scalar, P: Pack<T>, const N: usize, const M: usize>(
-    sums: &mut [Parts<P>; M],
-    columns: &[Vector<T, M>],
-    x: &[Parts<P>; M],
-) {
-    for (columns, x) in columns[..N].chunks(4).zip(x) {
-        let (high, low) = (x.high, x.low);
-        let lanes = [
-            (high.broadcast::<0>(), low.broadcast::<0>()),
-            (high.broadcast::<1>(), low.broadcast::<1>()),
-            (high.broadcast::<2>(), low.broadcast::<2>()),
-            (high.broadcast::<3>(), low.broadcast::<3>()),
-        ];
-        for (column, (high, low)) in columns.iter().zip(lanes) {
-            for (sum, entries) in sums.iter_mut().zip(column) {
-                *sum = plus_product(*sum, P::load(entries), Parts { high, low });
-            }
-        }
+fn plus_turned<T: Scalar, C: Connectivity<N>, P: Pack<T>, const N: usize>(
+    base: [Parts<P>; 2],
+    [p, q]: [T; 2],
+    x: [Parts<P>; 2],
+) -> [Parts<P>; 2] {
+    let p = P::splat(p);
+    let sum = [
+        base[0].plus_product::<T>(p, x[0]),
+        base[1].plus_product::<T>(p, x[1]),
+    ];
+    if !C::LATERAL {
+        return sum;
     }
+    [
+        sum[0].plus_product::<T>(P::splat(-q), x[1]),
+        sum[1].plus_product::<T>(P::splat(q), x[0]),
+    ]
 }
 
 /// Numbers in two parts. What products and sums lose is of the size of the second
@@ -115,22 +105,45 @@ struct Parts<P> {
     low: P,
 }
 
-/// a b
-#[inline(always)]
-fn product<T: Scalar, P: Pack<T>>(a: P, b: P) -> Parts<P> {
-    let (high, zero) = (a.times(b), P::splat(T::from_f64(0.0)));
-    let low = zero.minus(high).plus_product(a, b);
-    Parts { high, low }
-}
+impl<P: Copy> Parts<P> {
+    #[inline(always)]
+    fn whole<T: Scalar>(high: P) -> Self
+    where
+        P: Pack<T>,
+    {
+        let low = P::splat(T::from_f64(0.0));
+        Self { high, low }
+    }
 
-/// `base` + a x
-#[inline(always)]
-fn plus_product<T: Scalar, P: Pack<T>>(base: Parts<P>, a: P, x: Parts<P>) -> Parts<P> {
-    let term = product(a, x.high);
-    let (high, rounding) = two_sum(base.high, term.high);
-    let low = base
-        .low
-        .plus(rounding)
-        .plus(term.low.plus_product(a, x.low));
-    Parts { high, low }
+    #[inline(always)]
+    fn plus<T: Scalar>(self, other: Self) -> Self
+    where
+        P: Pack<T>,
+    {
+        let (high, rounding) = two_sum(self.high, other.high);
+        let low = self.low.plus(rounding).plus(other.low);
+        Self { high, low }
+    }
+
+    /// a b
+    #[inline(always)]
+    fn product<T: Scalar>(a: P, b: P) -> Self
+    where
+        P: Pack<T>,
+    {
+        let (high, zero) = (a.times(b), P::splat(T::from_f64(0.0)));
+        let low = zero.minus(high).plus_product(a, b);
+        Self { high, low }
+    }
+
+    /// `self` + a x
+    #[inline(always)]
+    fn plus_product<T: Scalar>(self, a: P, x: Self) -> Self
+    where
+        P: Pack<T>,
+    {
+        let Self { high, low } = Self::product::<T>(a, x.high);
+        let low = low.plus_product(a, x.low);
+        self.plus::<T>(Self { high, low })
+    }
 }

@@ -4,10 +4,15 @@ use core::ops::ControlFlow;
 
 use branched_pendulum::integrate::InputError;
 use branched_pendulum::prelude::*;
-use branched_pendulum::taylor::{self, Known, Quad, Start, Tree};
+use branched_pendulum::taylor::{self, Connectivity, KnownOrder, LinkConstants, Quad, Start};
 
 /// θ'' = −sin θ, by the recurrences that emitted code consists of.
 struct Mathematical;
+
+impl Connectivity<1> for Mathematical {
+    const PARENTS: [usize; 1] = [0];
+    const LATERAL: bool = false;
+}
 
 impl<T: Scalar> Ode<T> for Mathematical {
     fn dimension(&self) -> usize {
@@ -36,18 +41,20 @@ impl<T: Scalar> TaylorOde<T> for Mathematical {
             bias: [T::from_f64(0.0)],
         };
         let one = T::from_f64(1.0);
-        let tree = Tree {
+        let zero = T::from_f64(0.0);
+        let constants = LinkConstants {
             inertias: [one],
-            couplings: &[],
+            moments: [[zero; 2]],
+            attachments: [[zero; 2]],
             weights: [one],
-            lateral_weights: [T::from_f64(0.0)],
+            lateral_weights: [zero],
         };
-        taylor::expand::<T, 1, 1, _>(
+        taylor::expand::<T, Self, 1, 1, _>(
             &start,
-            &tree,
+            &constants,
             coefficients,
             work,
-            None::<fn(&Known<T, 1>) -> [T; 1]>,
+            None::<fn(&KnownOrder<T, 1>) -> [T; 1]>,
         );
     }
 }

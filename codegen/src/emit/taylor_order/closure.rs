@@ -69,7 +69,7 @@ impl Recurrences<'_> {
             false => quote!(T::from_f64(0.0)),
         });
         quote! {
-            |#known: &#runtime::taylor::Known<T, #links>| {
+            |#known: &#runtime::taylor::KnownOrder<T, #links>| {
                 #counter
                 #numbers
                 #time

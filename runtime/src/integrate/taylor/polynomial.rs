@@ -146,19 +146,19 @@ fn window<T: Real, const W: usize>(values: &[T], first: usize) -> [T; W] {
 #[inline(always)]
 fn load<T: Real, P: Pack<T>, const W: usize>(values: &[T], first: usize) -> P {
     let values = window::<T, W>(values, first);
-    let mut quad = Quad([T::ZERO; 4]);
-    quad.0[..W].copy_from_slice(&values);
-    P::load(&quad)
+    let mut quad = [Quad([T::ZERO; 4])];
+    quad[0].0[..W].copy_from_slice(&values);
+    P::load(&quad, 0)
 }
 
 #[inline(always)]
 fn store<T: Real, P: Pack<T>, const W: usize>(pack: P, values: &mut [T], first: usize) {
-    let mut quad = Quad([T::ZERO; 4]);
-    pack.store(&mut quad);
+    let mut quad = [Quad([T::ZERO; 4])];
+    pack.store(&mut quad, 0);
     if let Some(place) = values
         .get_mut(first..)
         .and_then(<[T]>::first_chunk_mut::<W>)
     {
-        place.copy_from_slice(&quad.0[..W]);
+        place.copy_from_slice(&quad[0].0[..W]);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::scalar::Scalar;
 use crate::system::{Cast, Pendulum, TaylorPendulum};
-use crate::taylor::{self, Coupling, Known, Quad, Start, Tree};
+use crate::taylor::{self, Connectivity, KnownOrder, LinkConstants, Quad, Start};
 
 /// Two lopsided links with friction, the first driven.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +17,13 @@ pub(super) struct Lopsided<T> {
     pub(super) friction: T,
     /// Scales how far the centres of mass lie off the links' axes.
     pub(super) lateral: T,
+}
+
+struct Pair;
+
+impl Connectivity<2> for Pair {
+    const PARENTS: [usize; 2] = [0, 0];
+    const LATERAL: bool = true;
 }
 
 const INERTIA: f64 = 1.0;
@@ -135,23 +142,21 @@ impl<T: Scalar> TaylorPendulum<T> for Lopsided<T> {
                 friction * omega[1] + check,
             ],
         };
-        let tree = Tree {
+        let constants = LinkConstants {
             inertias: [T::from_f64(INERTIA), self.inertia],
-            couplings: &[Coupling {
-                links: [0, 1],
-                cosine: T::from_f64(ALONG),
-                sine: Some(T::from_f64(ACROSS)),
-            }],
+            // M_01 is the first moment of the second link at a distance of one.
+            moments: [[0.0, 0.0], [ALONG, ACROSS]].map(|moment| moment.map(T::from_f64)),
+            attachments: [[1.0, 0.0]; 2].map(|place| place.map(T::from_f64)),
             weights: WEIGHTS.map(T::from_f64),
             lateral_weights: LATERAL.map(|weight| self.lateral * T::from_f64(weight)),
         };
         let (rows, _) = coefficients.as_chunks_mut::<2>();
         let (rows, _) = rows.as_chunks_mut::<2>();
-        let bias = |known: &Known<T, 2>| {
+        let bias = |known: &KnownOrder<T, 2>| {
             let [first, second] = known.omega.map(|omega| friction * omega);
             [first - drive(known.order), second]
         };
-        taylor::expand::<T, 2, 1, _>(&start, &tree, rows, work, Some(bias));
+        taylor::expand::<T, Pair, 2, 1, _>(&start, &constants, rows, work, Some(bias));
     }
 
     #[inline(always)]

@@ -1,9 +1,15 @@
 use crate::scalar::{Lanes, Scalar};
-use crate::taylor::expand::{Known, Start, Tree, expand, workspace};
-use crate::taylor::levers::Coupling;
+use crate::taylor::expand::{Connectivity, KnownOrder, LinkConstants, Start, expand, workspace};
 use crate::taylor::quad::Quad;
 
-/// A tree of six links that lean on each other, and a torque that depends on
+struct Six;
+
+impl Connectivity<6> for Six {
+    const PARENTS: [usize; 6] = [0, 0, 0, 1, 2, 2];
+    const LATERAL: bool = true;
+}
+
+/// A tree of six lopsided links, and a torque that depends on
 /// all there is.
 fn coefficients<T: Scalar>(orders: usize, state: impl Fn(usize) -> T) -> Vec<[[T; 6]; 2]> {
     let number = T::from_f64;
@@ -25,31 +31,18 @@ fn coefficients<T: Scalar>(orders: usize, state: impl Fn(usize) -> T) -> Vec<[[T
         cosines,
         bias: torque(sines, cosines, omega, theta),
     };
-    let couplings = [
-        [0, 1],
-        [0, 2],
-        [1, 3],
-        [0, 3],
-        [2, 4],
-        [0, 4],
-        [2, 5],
-        [0, 5],
-    ];
-    let couplings = couplings.map(|links| Coupling {
-        links,
-        cosine: number(0.03 * (links[0] + links[1]) as f64),
-        sine: (links[1] % 2 == 0).then(|| number(0.02 * links[1] as f64)),
-    });
-    let tree = Tree {
+    let constants = LinkConstants {
         inertias: core::array::from_fn(|i| number(1.0 - 0.1 * i as f64)),
-        couplings: &couplings,
+        moments: core::array::from_fn(|i| [0.2, -0.03 * i as f64].map(number)),
+        attachments: core::array::from_fn(|i| [0.5, 0.05 * i as f64].map(number)),
         weights: core::array::from_fn(|i| number(5.0 - 0.5 * i as f64)),
         lateral_weights: core::array::from_fn(|i| number(0.1 * i as f64)),
     };
     let mut rows = vec![[[number(f64::NAN); 6]; 2]; orders];
     let mut work = vec![Quad([number(f64::NAN); 4]); workspace(6, orders)];
-    let bias = |known: &Known<T, 6>| torque(known.sines, known.cosines, known.omega, known.theta);
-    expand::<T, 6, 2, _>(&start, &tree, &mut rows, &mut work, Some(bias));
+    let bias =
+        |known: &KnownOrder<T, 6>| torque(known.sines, known.cosines, known.omega, known.theta);
+    expand::<T, Six, 6, 2, _>(&start, &constants, &mut rows, &mut work, Some(bias));
     rows
 }
 

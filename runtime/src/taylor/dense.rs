@@ -1,0 +1,189 @@
+//! The equations of motion of one order, solved by matrices.
+//!
+//! X = M S − T C and Y = M C + T S, with the mass matrix
+//! M_ij = A_ij cos(θ_i − θ_j) + B_ij sin(θ_i − θ_j) and
+//! T_ij = A_ij sin(θ_i − θ_j) − B_ij cos(θ_i − θ_j) at the start, where
+//! A_ij + i B_ij = (ℓ − i w) (h + i e) for the moment (h, e) of a link j and the place
+//! (ℓ, w) on its ancestor i from which the branch with it hangs. One inverse serves all
+//! orders: S = M⁻¹ (X + T C).
+
+// One index into all arrays at once.
+#![allow(clippy::needless_range_loop)]
+
+use super::elimination::Column;
+use super::expand::{Connectivity, LinkConstants, Start};
+use super::linear::LinearSystem;
+use super::quad::{Pack, Quad};
+use crate::scalar::Scalar;
+
+/// The matrices of a start, by columns.
+pub(super) struct Matrices<T, const N: usize, const Q: usize> {
+    mass: [Column<T, Q>; N],
+    inverse: [Column<T, Q>; N],
+    turning: [Column<T, Q>; N],
+}
+
+impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<T, N, Q> {
+    #[inline(always)]
+    fn new<C: Connectivity<N>, P: Pack<T>>(
+        start: &Start<'_, T, N>,
+        constants: &LinkConstants<T, N>,
+    ) -> Self {
+        let empty = [[Quad::splat(T::from_f64(0.0)); Q]; N];
+        let (mut mass, mut turning) = (empty, empty);
+        let (sines, cosines) = (&start.sines, &start.cosines);
+        for j in 0..N {
+            mass[j][j / 4].0[j % 4] = constants.inertias[j];
+            let [h, e] = constants.moments[j];
+            let mut branch = j;
+            while branch > 0 {
+                let i = C::PARENTS[branch];
+                let [l, w] = constants.attachments[branch];
+                let cos_between = cosines[i] * cosines[j] + sines[i] * sines[j];
+                let sin_between = sines[i] * cosines[j] - cosines[i] * sines[j];
+                let mut entry = l * h * cos_between;
+                let mut slope = l * h * sin_between;
+                if C::LATERAL {
+                    let (along, across) = (w * e, l * e - w * h);
+                    entry = entry + along * cos_between + across * sin_between;
+                    slope = slope + along * sin_between - across * cos_between;
+                }
+                mass[j][i / 4].0[i % 4] = entry;
+                mass[i][j / 4].0[j % 4] = entry;
+                turning[j][i / 4].0[i % 4] = slope;
+                turning[i][j / 4].0[j % 4] = -slope;
+                branch = i;
+            }
+        }
+        let mut inverse = mass;
+        invert::<T, P, N, Q>(&mut inverse);
+        Self {
+            mass,
+            inverse,
+            turning,
+        }
+    }
+
+    #[inline(always)]
+    fn solve<C: Connectivity<N>, P: Pack<T>, const M: usize>(
+        &self,
+        force: &[P; M],
+        cosine: &[P; M],
+    ) -> [[P; M]; 2] {
+        let sum = add_product::<T, P, N, Q, M>(force, &self.turning, cosine);
+        let s = product::<T, P, N, Q, M>(&self.inverse, &sum);
+        let y = product::<T, P, N, Q, M>(&self.mass, cosine);
+        [s, add_product::<T, P, N, Q, M>(&y, &self.turning, &s)]
+    }
+}
+
+/// The matrix with these N columns times x.
+#[inline(always)]
+fn product<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
+    columns: &[Column<T, Q>],
+    x: &[P; M],
+) -> [P; M] {
+    let zero = [P::splat(T::from_f64(0.0)); M];
+    add_product::<T, P, N, Q, M>(&zero, columns, x)
+}
+
+/// `base` + the matrix with these N columns times x.
+#[inline(always)]
+fn add_product<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
+    base: &[P; M],
+    columns: &[Column<T, Q>],
+    x: &[P; M],
+) -> [P; M] {
+    let mut sum = *base;
+    for (columns, x) in columns[..N].chunks(4).zip(x) {
+        let lanes = [
+            x.broadcast::<0>(),
+            x.broadcast::<1>(),
+            x.broadcast::<2>(),
+            x.broadcast::<3>(),
+        ];
+        for (column, lane) in columns.iter().zip(&lanes) {
+            for (m, sum) in sum.iter_mut().enumerate() {
+                *sum = sum.plus_product(P::load(column, m), *lane);
+            }
+        }
+    }
+    sum
+}
+
+/// Replaces a symmetric positive definite matrix of N columns by its inverse:
+/// Gauss and Jordan's elimination from the last unknown to the first, in the form
+/// that keeps the symmetry (sweeps), without an exchange of rows.
+#[inline(always)]
+fn invert<T: Scalar, P: Pack<T>, const N: usize, const Q: usize>(columns: &mut [Column<T, Q>]) {
+    let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+    for k in (0..N).rev() {
+        let (pack, lane) = (k / 4, k % 4);
+        let inverse = one / columns[k][pack].0[lane];
+        // Column k, with −1 in row k: subtracted from the others with their
+        // factors, it eliminates them and leaves the factor in row k.
+        let mut eliminating = columns[k];
+        eliminating[pack].0[lane] = -one;
+        let mut column = [P::splat(zero); Q];
+        for (m, value) in column.iter_mut().enumerate() {
+            *value = P::load(&eliminating, m);
+        }
+        let mut others = [Quad::splat(one)];
+        others[0].0[lane] = zero;
+        let others = P::load(&others, 0);
+        for (j, target) in columns[..N].iter_mut().enumerate() {
+            if j == k {
+                continue;
+            }
+            let factor = P::splat(target[pack].0[lane] * inverse);
+            for m in 0..Q {
+                let mut value = P::load(target, m);
+                if m == pack {
+                    value = value.times(others);
+                }
+                value.minus_product(factor, column[m]).store(target, m);
+            }
+        }
+        let inverse = P::splat(inverse);
+        for m in 0..Q {
+            column[m].times(inverse).store(&mut columns[k], m);
+        }
+    }
+    // Sweeps leave the opposite.
+    let entries = columns[..N].as_flattened_mut();
+    for m in 0..N * Q {
+        P::splat(zero).minus(P::load(entries, m)).store(entries, m);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{invert, product};
+    use crate::taylor::quad::Quad;
+
+    /// 1/(i + j + 1) + δ_ij, of which the inverse is checked by a product.
+    #[test]
+    fn inverse_times_matrix_is_one() {
+        let entry = |i: usize, j: usize| 1.0 / (i + j + 1) as f64 + f64::from(u8::from(i == j));
+        let matrix: [[Quad<f64>; 2]; 6] = core::array::from_fn(|j| {
+            core::array::from_fn(|m| {
+                Quad(core::array::from_fn(|i| {
+                    if 4 * m + i < 6 {
+                        entry(4 * m + i, j)
+                    } else {
+                        0.0
+                    }
+                }))
+            })
+        });
+        let mut inverse = matrix;
+        invert::<f64, Quad<f64>, 6, 2>(&mut inverse);
+        for (j, column) in matrix.iter().enumerate() {
+            let unit: [Quad<f64>; 2] = product::<f64, Quad<f64>, 6, 2, 2>(&inverse, column);
+            for i in 0..6 {
+                let expected = f64::from(u8::from(i == j));
+                assert!((unit[i / 4].0[i % 4] - expected).abs() < 1e-15, "{unit:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,399 @@
+//! The equations of motion of one order, solved by elimination along the tree.
+//!
+//! This is the articulated recursion of physics §10, (10.4) to (10.8), where what
+//! stands for ω̇ and −ω² are S and C: with v = e^(iθ) at the start, m = (h + i e) v
+//! of each link, r = (ℓ + i w) v_parent, and a the acceleration of the link's pivot,
+//!
+//! a_c = a + (S − i C) r_c, F = (S − i C) m + Σ F_c,
+//! X = M S + m·a + Σ r_c·F_c, Y = M C − m × a − Σ r_c × F_c,
+//!
+//! sums over the children c. What the matrix of this system becomes by elimination
+//! depends on the angles at the start alone and serves all orders:
+//!
+//! b = m − Σ N_c r_c, g = i m − Σ N_c i r_c, N = Σ N_c + b bᵀ/J,
+//! J = M − Σ r_c·N_c r_c, K = M − Σ r_c × N_c i r_c, q = Σ r_c × N_c r_c.
+//!
+//! With n = b/J, the forces f and the torques t that a link hands to its parent, and
+//! their sums T and F over the children, an order takes one pass from the leaves to the
+//! root and one back,
+//!
+//! τ = X − q C + T, f = F − g C + n τ, t = −r·f, e = −r × f,
+//! S = τ/J − n·a, Y = K C + q τ/J − (g + q n)·a + Σ e_c.
+//!
+//! What a link hands up without its children, and all that comes after the passes, is
+//! computed for several links at once; what goes from link to link is no more than the
+//! sums of what they hand up, and a. A single state waits for that: it is written so that
+//! few operations follow each other.
+
+use super::expand::{Connectivity, LinkConstants, Start};
+use super::linear::LinearSystem;
+use super::quad::{Pack, Quad};
+use crate::scalar::Scalar;
+
+/// A number of each link.
+pub(super) type Column<T, const Q: usize> = [Quad<T>; Q];
+
+/// A vector of each link.
+type Vectors<T, const Q: usize> = [Column<T, Q>; 2];
+
+/// The factors at a start.
+pub(super) struct Elimination<T, const Q: usize> {
+    /// 1/J
+    inverse_inertia: Column<T, Q>,
+    /// K
+    inertia_along: Column<T, Q>,
+    /// q
+    product: Column<T, Q>,
+    /// n
+    response: Vectors<T, Q>,
+    /// g
+    moment_along: Vectors<T, Q>,
+    /// g + q n
+    reduced_moment_along: Vectors<T, Q>,
+    /// r
+    reach: Vectors<T, Q>,
+    /// r·n and r × n: of −t and −e, for each X and T.
+    of_force: Vectors<T, Q>,
+    /// r·(g + q n) and r × (g + q n): of t and e, for each C.
+    of_cosine: Vectors<T, Q>,
+}
+
+impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Elimination<T, Q> {
+    /// Eliminates from the leaves to the root, link by link.
+    #[inline(always)]
+    fn new<C: Connectivity<N>, W: Pack<T>>(
+        start: &Start<'_, T, N>,
+        constants: &LinkConstants<T, N>,
+    ) -> Self {
+        let empty = [Quad::splat(T::from_f64(0.0)); Q];
+        let mut factors = Self {
+            inverse_inertia: empty,
+            inertia_along: empty,
+            product: empty,
+            response: [empty; 2],
+            moment_along: [empty; 2],
+            reduced_moment_along: [empty; 2],
+            reach: [empty; 2],
+            of_force: [empty; 2],
+            of_cosine: [empty; 2],
+        };
+        let mut links = [Link::<W::Single>::none(); N];
+        for i in 0..N {
+            let inertia = W::Single::splat(constants.inertias[i]);
+            let turn = [start.cosines[i], start.sines[i]].map(W::Single::splat);
+            let moment = turned::<T, W::Single>(constants.moments[i], turn, C::LATERAL);
+            links[i] = Link::alone::<T>(inertia, moment);
+        }
+        for i in (0..N).rev() {
+            let mut link = links[i];
+            let inverse = link.inertia.reciprocal();
+            let response = link.moment.map(|b| b.times(inverse));
+            let mut reduced = link.moment_along;
+            for x in 0..2 {
+                reduced[x] = reduced[x].plus_product(link.product, response[x]);
+            }
+            inverse.store(&mut factors.inverse_inertia, i);
+            link.inertia_along.store(&mut factors.inertia_along, i);
+            link.product.store(&mut factors.product, i);
+            store::<T, W::Single, Q>(response, &mut factors.response, i);
+            store::<T, W::Single, Q>(link.moment_along, &mut factors.moment_along, i);
+            store::<T, W::Single, Q>(reduced, &mut factors.reduced_moment_along, i);
+            if i > 0 {
+                let parent = C::PARENTS[i];
+                let turn = [start.cosines[parent], start.sines[parent]].map(W::Single::splat);
+                let reach = turned::<T, W::Single>(constants.attachments[i], turn, C::LATERAL);
+                store::<T, W::Single, Q>(reach, &mut factors.reach, i);
+                store::<T, W::Single, Q>(
+                    products::<T, W::Single>(reach, response),
+                    &mut factors.of_force,
+                    i,
+                );
+                store::<T, W::Single, Q>(
+                    products::<T, W::Single>(reach, reduced),
+                    &mut factors.of_cosine,
+                    i,
+                );
+                link.relieve::<T>(response);
+                links[parent].carry::<T>(link.relief, reach);
+            }
+        }
+        factors
+    }
+
+    #[inline(always)]
+    fn solve<C: Connectivity<N>, P: Pack<T>, const M: usize>(
+        &self,
+        force: &[P; M],
+        cosine: &[P; M],
+    ) -> [[P; M]; 2] {
+        let empty = [Quad::splat(T::from_f64(0.0)); Q];
+        let mut own = Handed {
+            torque: empty,
+            along: empty,
+            pull: [empty; 2],
+        };
+        let (mut share, mut cosines) = (empty, empty);
+        for m in 0..M {
+            let (x, c) = (force[m], cosine[m]);
+            let torque = x.minus_product(P::load(&self.product, m), c);
+            torque
+                .times(P::load(&self.inverse_inertia, m))
+                .store(&mut share, m);
+            c.store(&mut cosines, m);
+            for (side, handed) in [&mut own.torque, &mut own.along].into_iter().enumerate() {
+                P::load(&self.of_cosine[side], m)
+                    .times(c)
+                    .minus_product(P::load(&self.of_force[side], m), x)
+                    .store(handed, m);
+                P::load(&self.response[side], m)
+                    .times(torque)
+                    .minus_product(P::load(&self.moment_along[side], m), c)
+                    .store(&mut own.pull[side], m);
+            }
+        }
+        let sums = self.to_root::<C, P::Single, N>(&own);
+        let fall = self.to_leaves::<C, P::Single, N>(&share, &sums.torque, &cosines);
+
+        let (mut s, mut y) = (*force, *force);
+        for m in 0..M {
+            let inverse = P::load(&self.inverse_inertia, m);
+            let share = P::load(&share, m).plus_product(P::load(&sums.torque, m), inverse);
+            let [a_x, a_y] = load::<T, P, Q>(&fall, m);
+            let [n_x, n_y] = load::<T, P, Q>(&self.response, m);
+            s[m] = share.minus_product(n_x, a_x).minus_product(n_y, a_y);
+            let [g_x, g_y] = load::<T, P, Q>(&self.reduced_moment_along, m);
+            y[m] = P::load(&sums.along, m)
+                .plus_product(P::load(&self.inertia_along, m), cosine[m])
+                .plus_product(P::load(&self.product, m), share)
+                .minus_product(g_x, a_x)
+                .minus_product(g_y, a_y);
+        }
+        [s, y]
+    }
+}
+
+impl<T: Scalar, const Q: usize> Elimination<T, Q> {
+    /// From the leaves to the root: the sums of what the children of each link hand up,
+    /// from what each would hand up without children.
+    #[inline(always)]
+    fn to_root<C: Connectivity<N>, P: Pack<T>, const N: usize>(
+        &self,
+        own: &Handed<T, Q>,
+    ) -> Handed<T, Q> {
+        let empty = [Quad::splat(T::from_f64(0.0)); Q];
+        let mut sums = Handed {
+            torque: empty,
+            along: empty,
+            pull: [empty; 2],
+        };
+        for i in (1..N).rev() {
+            let mut torque = P::load(&own.torque, i);
+            let mut along = P::load(&own.along, i);
+            let [mut f_x, mut f_y] = load::<T, P, Q>(&own.pull, i);
+            if C::CARRIES[i] {
+                let sum = P::load(&sums.torque, i);
+                let [sum_x, sum_y] = load::<T, P, Q>(&sums.pull, i);
+                let [r_x, r_y] = load::<T, P, Q>(&self.reach, i);
+                let [n_x, n_y] = load::<T, P, Q>(&self.response, i);
+                let [across, turn] = load::<T, P, Q>(&self.of_force, i);
+                torque = torque
+                    .minus_product(r_x, sum_x)
+                    .minus_product(r_y, sum_y)
+                    .minus_product(across, sum);
+                along = along
+                    .minus_product(r_x, sum_y)
+                    .plus_product(r_y, sum_x)
+                    .minus_product(turn, sum);
+                f_x = f_x.plus(sum_x).plus_product(n_x, sum);
+                f_y = f_y.plus(sum_y).plus_product(n_y, sum);
+            }
+            let parent = C::PARENTS[i];
+            add::<T, P, Q>(&mut sums.torque, parent, torque);
+            add::<T, P, Q>(&mut sums.along, parent, along);
+            add::<T, P, Q>(&mut sums.pull[0], parent, f_x);
+            add::<T, P, Q>(&mut sums.pull[1], parent, f_y);
+        }
+        sums
+    }
+
+    /// From the root to the leaves: the accelerations a.
+    #[inline(always)]
+    fn to_leaves<C: Connectivity<N>, P: Pack<T>, const N: usize>(
+        &self,
+        share: &Column<T, Q>,
+        torque: &Column<T, Q>,
+        cosines: &Column<T, Q>,
+    ) -> Vectors<T, Q> {
+        let zero = P::splat(T::from_f64(0.0));
+        let mut fall = [[Quad::splat(T::from_f64(0.0)); Q]; 2];
+        // Of links that have children.
+        let mut sines = [zero; N];
+        for i in 0..N {
+            if i > 0 {
+                let parent = C::PARENTS[i];
+                let (s, c) = (sines[parent], P::load(cosines, parent));
+                let [r_x, r_y] = load::<T, P, Q>(&self.reach, i);
+                let [a_x, a_y] = load::<T, P, Q>(&fall, parent);
+                let a_x = a_x.plus_product(r_y, c).plus_product(r_x, s);
+                let a_y = a_y.minus_product(r_x, c).plus_product(r_y, s);
+                store::<T, P, Q>([a_x, a_y], &mut fall, i);
+            }
+            if C::CARRIES[i] {
+                let inverse = P::load(&self.inverse_inertia, i);
+                let share = P::load(share, i).plus_product(P::load(torque, i), inverse);
+                let [a_x, a_y] = load::<T, P, Q>(&fall, i);
+                let [n_x, n_y] = load::<T, P, Q>(&self.response, i);
+                sines[i] = share.minus_product(n_x, a_x).minus_product(n_y, a_y);
+            }
+        }
+        fall
+    }
+}
+
+/// What links hand to their parents, or the sums of what they get.
+struct Handed<T, const Q: usize> {
+    /// t
+    torque: Column<T, Q>,
+    /// e
+    along: Column<T, Q>,
+    /// f
+    pull: Vectors<T, Q>,
+}
+
+/// A link during the elimination: what it feels of itself and of its children.
+#[derive(Clone, Copy)]
+struct Link<P> {
+    /// J
+    inertia: P,
+    /// K
+    inertia_along: P,
+    /// q
+    product: P,
+    /// b
+    moment: [P; 2],
+    /// g
+    moment_along: [P; 2],
+    /// N_xx, N_xy, N_yy
+    relief: [P; 3],
+}
+
+impl<P: Copy> Link<P> {
+    #[inline(always)]
+    fn none<T: Scalar>() -> Self
+    where
+        P: Pack<T>,
+    {
+        let zero = P::splat(T::from_f64(0.0));
+        Self::alone(zero, [zero; 2])
+    }
+
+    /// A link without children.
+    #[inline(always)]
+    fn alone<T: Scalar>(inertia: P, [m_x, m_y]: [P; 2]) -> Self
+    where
+        P: Pack<T>,
+    {
+        let zero = P::splat(T::from_f64(0.0));
+        Self {
+            inertia,
+            inertia_along: inertia,
+            product: zero,
+            moment: [m_x, m_y],
+            moment_along: [zero.minus(m_y), m_x],
+            relief: [zero; 3],
+        }
+    }
+
+    /// Adds b bᵀ/J, where `response` is b/J.
+    #[inline(always)]
+    fn relieve<T: Scalar>(&mut self, [n_x, n_y]: [P; 2])
+    where
+        P: Pack<T>,
+    {
+        let ([b_x, b_y], [xx, xy, yy]) = (self.moment, self.relief);
+        self.relief = [
+            xx.plus_product(b_x, n_x),
+            xy.plus_product(b_x, n_y),
+            yy.plus_product(b_y, n_y),
+        ];
+    }
+
+    /// Takes what a child with this N, at this r, does to it.
+    #[inline(always)]
+    fn carry<T: Scalar>(&mut self, [xx, xy, yy]: [P; 3], [r_x, r_y]: [P; 2])
+    where
+        P: Pack<T>,
+    {
+        // N r and N i r.
+        let across = [
+            xx.times(r_x).plus_product(xy, r_y),
+            xy.times(r_x).plus_product(yy, r_y),
+        ];
+        let along = [
+            xy.times(r_x).minus_product(xx, r_y),
+            yy.times(r_x).minus_product(xy, r_y),
+        ];
+        self.inertia = self
+            .inertia
+            .minus_product(r_x, across[0])
+            .minus_product(r_y, across[1]);
+        self.inertia_along = self
+            .inertia_along
+            .minus_product(r_x, along[1])
+            .plus_product(r_y, along[0]);
+        self.product = self
+            .product
+            .plus_product(r_x, across[1])
+            .minus_product(r_y, across[0]);
+        for x in 0..2 {
+            self.moment[x] = self.moment[x].minus(across[x]);
+            self.moment_along[x] = self.moment_along[x].minus(along[x]);
+        }
+        for (sum, own) in self.relief.iter_mut().zip([xx, xy, yy]) {
+            *sum = sum.plus(own);
+        }
+    }
+}
+
+/// (p + i q) e^(iθ) of a link in this direction.
+#[inline(always)]
+fn turned<T: Scalar, P: Pack<T>>([p, q]: [T; 2], [cos, sin]: [P; 2], lateral: bool) -> [P; 2] {
+    let p = P::splat(p);
+    let [x, y] = [p.times(cos), p.times(sin)];
+    if lateral {
+        let q = P::splat(q);
+        [x.minus_product(q, sin), y.plus_product(q, cos)]
+    } else {
+        [x, y]
+    }
+}
+
+/// u·w and u × w.
+#[inline(always)]
+fn products<T: Scalar, P: Pack<T>>([u_x, u_y]: [P; 2], [w_x, w_y]: [P; 2]) -> [P; 2] {
+    [
+        u_x.times(w_x).plus_product(u_y, w_y),
+        u_x.times(w_y).minus_product(u_y, w_x),
+    ]
+}
+
+/// Adds to the number of a link.
+#[inline(always)]
+fn add<T: Scalar, P: Pack<T>, const Q: usize>(column: &mut Column<T, Q>, i: usize, value: P) {
+    P::load(column, i).plus(value).store(column, i);
+}
+
+#[inline(always)]
+fn load<T: Scalar, P: Pack<T>, const Q: usize>(vectors: &Vectors<T, Q>, i: usize) -> [P; 2] {
+    [P::load(&vectors[0], i), P::load(&vectors[1], i)]
+}
+
+#[inline(always)]
+fn store<T: Scalar, P: Pack<T>, const Q: usize>(
+    [x, y]: [P; 2],
+    vectors: &mut Vectors<T, Q>,
+    i: usize,
+) {
+    x.store(&mut vectors[0], i);
+    y.store(&mut vectors[1], i);
+}

@@ -1,0 +1,20 @@
+//! What an order asks of the equations of motion.
+
+use super::expand::{Connectivity, LinkConstants, Start};
+use super::quad::Pack;
+
+/// The equations X, Y = linear functions of S, C at a start, solved for S and Y.
+pub(super) trait LinearSystem<T, const N: usize>: Sized {
+    /// Forms what serves all orders.
+    fn new<C: Connectivity<N>, P: Pack<T>>(
+        start: &Start<'_, T, N>,
+        constants: &LinkConstants<T, N>,
+    ) -> Self;
+
+    /// Returns S and Y where X = `force` and C = `cosine`.
+    fn solve<C: Connectivity<N>, P: Pack<T>, const M: usize>(
+        &self,
+        force: &[P; M],
+        cosine: &[P; M],
+    ) -> [[P; M]; 2];
+}

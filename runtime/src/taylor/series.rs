@@ -1,0 +1,153 @@
+//! The series that an expansion keeps, and the sums of their products.
+//!
+//! Order k of a product of series is a sum over the rows j and k − j.
+
+use super::quad::{Pack, Quad};
+use crate::scalar::Scalar;
+
+/// Series that are kept: ω, γ, σ, X, Y. Row r has order r of ω, r + 1 of γ and σ,
+/// r − 1 of X and Y, so that all sums of order k run over rows j and k − j.
+pub(super) const SERIES: usize = 5;
+
+/// All series in one order.
+pub(super) type Row<T, const Q: usize> = [[Quad<T>; Q]; SERIES];
+
+/// Sums of products in one order, over 0 < j < k.
+#[derive(Clone, Copy)]
+pub(super) struct SeriesSums<P> {
+    /// Σ ω\[j\] γ\[k+1−j\]
+    pub(super) omega_cos: P,
+    /// Σ ω\[j\] σ\[k+1−j\]
+    pub(super) omega_sin: P,
+    /// Σ γ\[k+1−j\] X\[j−1\]
+    cos_x: P,
+    /// Σ σ\[k+1−j\] Y\[j−1\]
+    sin_y: P,
+}
+
+impl<P> SeriesSums<P> {
+    #[inline(always)]
+    pub(super) fn none<T: Scalar>() -> Self
+    where
+        P: Pack<T>,
+    {
+        let zero = P::splat(T::from_f64(0.0));
+        Self {
+            omega_cos: zero,
+            omega_sin: zero,
+            cos_x: zero,
+            sin_y: zero,
+        }
+    }
+
+    /// Σ σ Y − γ X
+    #[inline(always)]
+    pub(super) fn force<T: Scalar>(self) -> P
+    where
+        P: Pack<T>,
+    {
+        self.sin_y.minus(self.cos_x)
+    }
+
+    /// Returns the sums over all `rows`, each with the one as far from the other end, from
+    /// the middle outwards: what was formed last is added last. There are two partial
+    /// sums of each, so that none waits for the other: for a single state, which waits for
+    /// results more than it computes.
+    #[inline(always)]
+    pub(super) fn of<T: Scalar, const Q: usize>(rows: &[Row<T, Q>], m: usize) -> Self
+    where
+        P: Pack<T>,
+    {
+        let (early, rest) = rows.split_at(rows.len() / 2);
+        let (middle, late) = rest.split_at(rest.len() - early.len());
+        let [mut first, mut second] = [Self::none::<T>(); 2];
+        for row in middle {
+            first.add(moved(row, m), turned(row, m));
+        }
+        for (row, opposite) in early.iter().rev().zip(late) {
+            first.add(moved(row, m), turned(opposite, m));
+            second.add(moved(opposite, m), turned(row, m));
+        }
+        Self {
+            omega_cos: first.omega_cos.plus(second.omega_cos),
+            omega_sin: first.omega_sin.plus(second.omega_sin),
+            cos_x: first.cos_x.plus(second.cos_x),
+            sin_y: first.sin_y.plus(second.sin_y),
+        }
+    }
+
+    /// Returns the sums of order k, the number of `rows` and odd, and those of order
+    /// k + 1 but for their terms with the newest row. What is loaded serves both: for
+    /// several states, which compute more than they wait.
+    #[inline(always)]
+    pub(super) fn pair<T: Scalar, const Q: usize>(rows: &[Row<T, Q>], m: usize) -> [Self; 2]
+    where
+        P: Pack<T>,
+    {
+        let [mut now, mut next] = [Self::none::<T>(); 2];
+        let Some((newest, old)) = rows.split_last() else {
+            return [now, next];
+        };
+        // Row 0 has its terms elsewhere.
+        let Some((_, [first, middle @ ..])) = old.split_first() else {
+            return [now, next];
+        };
+        let mut turned = turned(newest, m);
+        for (row, opposite) in middle.iter().zip(middle.iter().rev()) {
+            let moved = moved(row, m);
+            next.add(moved, turned);
+            turned = self::turned(opposite, m);
+            now.add(moved, turned);
+        }
+        if let Some(second) = middle.first() {
+            next.add(self::moved(newest, m), self::turned(second, m));
+        } else {
+            next.add(self::moved(newest, m), self::turned(newest, m));
+        }
+        now.add(self::moved(first, m), self::turned(newest, m));
+        now.add(self::moved(newest, m), self::turned(first, m));
+        [now, next]
+    }
+
+    /// Adds the terms with the newest row.
+    #[inline(always)]
+    pub(super) fn complete<T: Scalar, const Q: usize>(&mut self, rows: &[Row<T, Q>], m: usize)
+    where
+        P: Pack<T>,
+    {
+        let [_, first, others @ ..] = rows else {
+            return;
+        };
+        let newest = others.last().unwrap_or(first);
+        self.add(moved(first, m), turned(newest, m));
+        if !others.is_empty() {
+            self.add(moved(newest, m), turned(first, m));
+        }
+    }
+
+    /// Adds the products of ω, X, Y of one row with γ, σ of another.
+    #[inline(always)]
+    fn add<T: Scalar>(&mut self, [omega, x, y]: [P; 3], [cos, sin]: [P; 2])
+    where
+        P: Pack<T>,
+    {
+        self.omega_cos = self.omega_cos.plus_product(omega, cos);
+        self.omega_sin = self.omega_sin.plus_product(omega, sin);
+        self.cos_x = self.cos_x.plus_product(cos, x);
+        self.sin_y = self.sin_y.plus_product(sin, y);
+    }
+}
+
+/// ω, X, Y
+#[inline(always)]
+fn moved<T: Scalar, P: Pack<T>, const Q: usize>(row: &Row<T, Q>, m: usize) -> [P; 3] {
+    let [omega, _, _, x, y] = row;
+    [P::load(omega, m), P::load(x, m), P::load(y, m)]
+}
+
+/// γ, σ
+#[inline(always)]
+fn turned<T: Scalar, P: Pack<T>, const Q: usize>(row: &Row<T, Q>, m: usize) -> [P; 2] {
+    let [_, cos, sin, _, _] = row;
+    [P::load(cos, m), P::load(sin, m)]
+}
