@@ -60,7 +60,7 @@ impl Emission<'_> {
                 quote!(::core::option::Option::Some(#sine))
             };
             quote! {
-                #runtime::taylor::Coupling { links: [#row, #column], cosine: #cosine, sine: #sine }
+                #runtime::emitted::taylor::Coupling { links: [#row, #column], cosine: #cosine, sine: #sine }
             }
         });
         let (links, quads) = (self.links(), self.quads());
@@ -69,7 +69,7 @@ impl Emission<'_> {
                 TokenStream::new(),
                 quote! {
                     ::core::option::Option::None::<
-                        fn(&#runtime::taylor::Known<T, #links>) -> [T; #links],
+                        fn(&#runtime::emitted::taylor::Known<T, #links>) -> [T; #links],
                     >
                 },
             ),
@@ -100,20 +100,20 @@ impl Emission<'_> {
             ) {
                 #(#inputs)*
                 #lines
-                let start = #runtime::taylor::Start {
+                let start = #runtime::emitted::taylor::Start {
                     theta,
                     omega,
                     #sines,
                     bias: #bias_0,
                 };
-                let tree = #runtime::taylor::Tree {
+                let tree = #runtime::emitted::taylor::Tree {
                     inertias: #inertias,
                     couplings: &[#(#couplings),*],
                     weights: #weights,
                     lateral_weights: #lateral_weights,
                 };
                 #rows
-                #runtime::taylor::expand::<T, #links, #quads, _>(
+                #runtime::emitted::taylor::expand::<T, #links, #quads, _>(
                     &start, &tree, coefficients, work, #bias,
                 );
             }
@@ -178,7 +178,7 @@ impl Emission<'_> {
                 }
 
                 fn taylor_workspace(order: usize) -> usize {
-                    #runtime::taylor::workspace(#links, order) #rows
+                    #runtime::emitted::taylor::workspace(#links, order) #rows
                 }
 
                 #[inline(always)]
