@@ -1,6 +1,7 @@
 //! What a drive and friction feed is what the energies gain.
 
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 use branched_pendulum_tests::scenes::driven::{Driven, DrivenParameters};
 
 fn driven() -> Driven {
