@@ -2,7 +2,6 @@
 
 use std::process::Command;
 
-use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
 use branched_pendulum_examples::integration_speed::ensemble::near_threshold;

@@ -3,12 +3,12 @@
 
 use std::process::{Command, Output};
 
-use branched_pendulum::TransferForms;
 use branched_pendulum::analysis::truncation::{
     Background, ErrorCurve, LevelCrossing, PhaseAverage, TruncationError, sector_frequencies,
 };
 use branched_pendulum::analysis::{Modes, SectorModes};
 use branched_pendulum::prelude::*;
+use branched_pendulum::{Sectors, TransferForms};
 use branched_pendulum_examples::transfer_orders::scenes::{apparatus, arms};
 use branched_pendulum_examples::transfer_orders::{Apparatus, Arms, Settings, Study, output};
 

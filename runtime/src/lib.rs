@@ -86,12 +86,15 @@ pub mod analysis;
 pub mod batch;
 #[cfg(feature = "std")]
 pub mod data;
+#[doc(hidden)]
+pub mod emitted;
 #[cfg(feature = "std")]
 pub mod ensemble;
 pub mod generations;
 pub mod integrate;
 pub mod model;
 pub mod prelude;
+mod requirements;
 pub mod scalar;
 pub mod sectors;
 mod simd;

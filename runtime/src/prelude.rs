@@ -1,18 +1,21 @@
-//! What a program that integrates pendulums uses, in one `use`.
+//! Names of a first program, in one `use`: describe a tree, integrate it, look
+//! at its energy, compute many states and many trajectories. Everything else is
+//! named by its path.
 
+pub use core::ops::ControlFlow;
+
+pub use crate::batch::Batch;
 #[cfg(feature = "macros")]
 pub use crate::branched_pendulum;
+#[cfg(feature = "std")]
+pub use crate::ensemble::Ensemble;
 pub use crate::integrate::{
     Crossing, DenseStep, Dop853, Dopri5, Event, Gauss, GaussOrder, IntegrationError, Integrator,
-    Options, Projected, Report, Rk4, Solution, Solver, StoermerVerlet, StopReason, Taylor,
-    Tolerance, Verner98,
+    Options, Report, Rk4, Solution, StoermerVerlet, StopReason, Taylor, Verner98,
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
-pub use crate::sectors::{Budget, Sectors};
 pub use crate::system::{
-    AbsoluteAngles, Canonical, CanonicalEnergy, CanonicalVariables, Cast, Energy, FirstIntegral,
-    Ode, OdeFn, Pendulum, State, SymmetricCoordinates, SymmetricPendulum, TaylorOde,
-    TaylorPendulum,
+    AbsoluteAngles, Canonical, CanonicalVariables, Energy, FirstIntegral, Ode, Pendulum, State,
+    SymmetricCoordinates, SymmetricPendulum,
 };
-pub use crate::transfer_forms::{TransferForm, TransferForms};

@@ -5,15 +5,16 @@
 // request on to the system's, unchanged, and counts it.
 #![allow(unsafe_code)]
 
-use core::ops::ControlFlow;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::num::NonZeroUsize;
 
-use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::integrate::Solver;
 use branched_pendulum::integrate::{LaneMethod, Projected, StoermerVerlet};
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::{OdeFn, TaylorOde};
 use branched_pendulum::taylor::Quad;
+use branched_pendulum::{Cast, TaylorPendulum};
 
 thread_local! {
     // Of this thread alone: the tests run side by side.

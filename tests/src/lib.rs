@@ -6,6 +6,7 @@
 #![deny(warnings, missing_docs)]
 
 pub mod oracle;
+pub mod promised;
 pub mod random;
 pub mod scenes;
 pub mod source;

@@ -269,7 +269,7 @@ impl Emission<'_> {
             Sign::NonNegative => quote!(require_non_negative),
             Sign::Positive => quote!(require_positive),
         };
-        quote!(#runtime::ParameterError::#check(#what, #value)?;)
+        quote!(#runtime::emitted::#check(#what, #value)?;)
     }
 
     /// Refuses parameters that make the mass matrix singular.
@@ -295,7 +295,7 @@ impl Emission<'_> {
             let (mass, inertia) = (double(&link.mass), double(&link.inertia));
             let (com, pivot) = (point(&link.com), point(&link.pivot));
             quote! {
-                #runtime::model::LinkBody {
+                #runtime::emitted::LinkBody {
                     what: #what,
                     parent: #parent,
                     mass: #mass,
@@ -305,7 +305,7 @@ impl Emission<'_> {
                 }
             }
         });
-        quote!(#runtime::model::require_regular(&[#(#bodies),*])?;)
+        quote!(#runtime::emitted::require_regular(&[#(#bodies),*])?;)
     }
 
     /// One reading function for each named constant.

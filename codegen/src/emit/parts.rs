@@ -232,7 +232,7 @@ impl Emission<'_> {
             let types = together(types.chain([quote!(&mut [T; #size])]).collect());
             let body = self.part_body(part, &parts, &locals);
             quote! {
-                impl<T: #runtime::Scalar> #runtime::model::Part<#number, #types> for #name<T> {
+                impl<T: #runtime::Scalar> #runtime::emitted::Part<#number, #types> for #name<T> {
                     type Output = ();
 
                     #[inline(always)]

@@ -132,7 +132,7 @@ impl Emission<'_> {
                 fn #name(
                     &self,
                     #time
-                    turns: &#runtime::scalar::Turns<T, #links>,
+                    turns: &#runtime::emitted::Turns<T, #links>,
                     theta: &impl ::core::ops::Fn(usize) -> T,
                     omega: &impl ::core::ops::Fn(usize) -> T,
                     alpha: &mut impl ::core::ops::FnMut(usize, T),

@@ -299,7 +299,7 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
                     theta: &[T; N],
                     omega: &[T; N],
                     coefficients: &mut [[[T; N]; 2]],
-                    work: &mut [#runtime::taylor::Quad<T>],
+                    work: &mut [#runtime::emitted::taylor::Quad<T>],
                 ) {
                     ::core::unimplemented!()
                 }
@@ -309,11 +309,11 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
                 fn taylor_workspace(_: usize) -> usize { 0 }
                 fn taylor_coefficients_of<#other: #runtime::Scalar>(
                     _: &#name<#other>, _: #other, _: &[#other], _: &[#other], _: &mut [#other],
-                    _: &mut [#runtime::taylor::Quad<#other>],
+                    _: &mut [#runtime::emitted::taylor::Quad<#other>],
                 ) {}
                 fn taylor_coefficients_into(
                     &self, _: T, _: &[T], _: &[T], _: &mut [T],
-                    _: &mut [#runtime::taylor::Quad<T>],
+                    _: &mut [#runtime::emitted::taylor::Quad<T>],
                 ) {}
             }
         }

@@ -62,7 +62,7 @@ impl Emission<'_> {
                 TokenStream::new(),
                 quote! {
                     ::core::option::Option::None::<
-                        fn(&#runtime::taylor::KnownOrder<T, #links>) -> [T; #links],
+                        fn(&#runtime::emitted::taylor::KnownOrder<T, #links>) -> [T; #links],
                     >
                 },
             ),
@@ -90,18 +90,18 @@ impl Emission<'_> {
                 theta: &[T; #links],
                 omega: &[T; #links],
                 coefficients: &mut [[[T; #links]; 2]],
-                work: &mut [#runtime::taylor::Quad<T>],
+                work: &mut [#runtime::emitted::taylor::Quad<T>],
             ) {
                 #connectivity
                 #(#inputs)*
                 #lines
-                let start = #runtime::taylor::Start {
+                let start = #runtime::emitted::taylor::Start {
                     theta,
                     omega,
                     #sines,
                     bias: #bias_0,
                 };
-                let constants = #runtime::taylor::LinkConstants {
+                let constants = #runtime::emitted::taylor::LinkConstants {
                     inertias: #inertias,
                     moments: #moments,
                     attachments: #attachments,
@@ -109,7 +109,7 @@ impl Emission<'_> {
                     lateral_weights: #lateral_weights,
                 };
                 #rows
-                #runtime::taylor::expand::<T, Tree, #links, #quads, _>(
+                #runtime::emitted::taylor::expand::<T, Tree, #links, #quads, _>(
                     &start, &constants, coefficients, work, #bias,
                 );
             }
@@ -133,7 +133,7 @@ impl Emission<'_> {
         let lateral = sides.into_iter().flatten().any(|&id| *self.op(id) != zero);
         quote! {
             struct Tree;
-            impl #runtime::taylor::Connectivity<#links> for Tree {
+            impl #runtime::emitted::taylor::Connectivity<#links> for Tree {
                 const PARENTS: [usize; #links] = [#(#parents),*];
                 const LATERAL: bool = #lateral;
             }
@@ -188,13 +188,13 @@ impl Emission<'_> {
                     theta: &[#other],
                     omega: &[#other],
                     coefficients: &mut [#other],
-                    work: &mut [#runtime::taylor::Quad<#other>],
+                    work: &mut [#runtime::emitted::taylor::Quad<#other>],
                 ) {
                     pendulum.taylor_coefficients_into(time, theta, omega, coefficients, work);
                 }
 
                 fn taylor_workspace(order: usize) -> usize {
-                    #runtime::taylor::workspace(#links, order) #rows
+                    #runtime::emitted::taylor::workspace(#links, order) #rows
                 }
 
                 #[inline(always)]
@@ -204,7 +204,7 @@ impl Emission<'_> {
                     theta: &[T],
                     omega: &[T],
                     coefficients: &mut [T],
-                    work: &mut [#runtime::taylor::Quad<T>],
+                    work: &mut [#runtime::emitted::taylor::Quad<T>],
                 ) {
                     #body
                 }

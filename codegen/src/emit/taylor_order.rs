@@ -157,7 +157,7 @@ impl<'e> Recurrences<'e> {
         let quads = Literal::usize_unsuffixed(self.quads());
         quote! {
             let (factors, work) =
-                #runtime::taylor::rows::<T, #quads>(work, coefficients.len());
+                #runtime::emitted::taylor::rows::<T, #quads>(work, coefficients.len());
         }
     }
 

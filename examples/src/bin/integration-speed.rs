@@ -6,6 +6,7 @@ use std::error::Error;
 use std::process::ExitCode;
 
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::TaylorOde;
 use branched_pendulum_examples::exit;
 use branched_pendulum_examples::integration_speed::ensemble::{
     Speed, friction_scan, near_threshold, scan_speeds, speeds,

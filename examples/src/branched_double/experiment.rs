@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use branched_pendulum::integrate::DenseError;
+use branched_pendulum::integrate::{DenseError, Tolerance};
 use branched_pendulum::prelude::{
-    DenseStep, Dop853, IntegrationError, Ode, Options, Real, State, SymmetricCoordinates, Tolerance,
+    DenseStep, Dop853, IntegrationError, Ode, Options, Real, State, SymmetricCoordinates,
 };
 
 use super::apparatus::{Apparatus, Flow, Sample};

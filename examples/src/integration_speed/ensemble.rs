@@ -5,7 +5,6 @@ use std::num::NonZeroUsize;
 use std::time::Instant;
 
 use branched_pendulum::ParameterError;
-use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
 

@@ -1,7 +1,6 @@
 //! Times and errors of one method at many tolerances, and the time for a given
 //! error between them.
 
-use core::ops::ControlFlow;
 use std::hint::black_box;
 use std::time::Instant;
 

@@ -3,9 +3,8 @@
 pub mod arguments;
 pub mod scenes;
 
-use std::ops::ControlFlow;
-
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::TaylorOde;
 
 /// Tolerance below which the rounding of sums is carried along.
 const COMPENSATED: f64 = 1e-12;

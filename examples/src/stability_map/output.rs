@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use branched_pendulum::data::{Column, CsvWriter};
-use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
 use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
 

@@ -1,7 +1,6 @@
 //! What became of a run.
 
-use std::ops::ControlFlow;
-
+use branched_pendulum::integrate::Solver;
 use branched_pendulum::prelude::*;
 
 use crate::branched_double::Failure;

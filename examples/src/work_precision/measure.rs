@@ -1,9 +1,9 @@
 //! Error, time and evaluations.
 
-use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::TaylorOde;
 
 use super::reference::{Problem, Tree};
 use crate::solvers::Method;

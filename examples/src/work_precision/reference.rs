@@ -2,8 +2,6 @@
 //! the paper's apparatus, and for seven rods, which the file does not have, Taylor
 //! series in numbers of twice the digits.
 
-use std::ops::ControlFlow;
-
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 

@@ -114,10 +114,8 @@ impl fmt::Display for ChartError {
                  shorten them or widen the chart"
             ),
             Self::Font => write!(f, "the embedded font cannot be read"),
-            Self::Encode(source) => write!(f, "cannot encode the PNG: {source}"),
-            Self::Io { path, source } => {
-                write!(f, "cannot write {}: {source}", path.display())
-            }
+            Self::Encode(_) => write!(f, "cannot encode the PNG"),
+            Self::Io { path, source: _ } => write!(f, "cannot write {}", path.display()),
         }
     }
 }

@@ -35,7 +35,6 @@ impl Ensemble<'_> {
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
-    /// use branched_pendulum::ensemble::Ensemble;
     /// use branched_pendulum::prelude::*;
     ///
     /// #[branched_pendulum(gravity = 9.80665, rod(mass = 0.2, com = 0.25, inertia = 4e-3))]
@@ -89,7 +88,6 @@ impl Ensemble<'_> {
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
     /// use branched_pendulum::ParameterError;
-    /// use branched_pendulum::ensemble::Ensemble;
     /// use branched_pendulum::prelude::*;
     ///
     /// #[branched_pendulum(
@@ -142,7 +140,6 @@ impl Ensemble<'_> {
     ///
     #[cfg_attr(feature = "macros", doc = "```")]
     #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
-    /// use branched_pendulum::ensemble::Ensemble;
     /// use branched_pendulum::prelude::*;
     ///
     /// #[branched_pendulum(gravity = 9.80665, rod(mass = 0.2, com = 0.25, inertia = 4e-3))]

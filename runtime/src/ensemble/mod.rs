@@ -34,8 +34,8 @@ use crate::system::{Ode, State};
 /// nowhere:
 ///
 /// ```
-/// use branched_pendulum::ensemble::Ensemble;
 /// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::OdeFn;
 ///
 /// let pendulum = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
 ///     rates[0] = y[1];

@@ -21,8 +21,8 @@ use crate::system::{Ode, State};
 /// Code that leaves the method to its caller:
 ///
 /// ```
-/// use core::ops::ControlFlow;
 /// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::OdeFn;
 ///
 /// fn at_one<O: Ode<f64>>(method: &impl Integrator<f64, O>, ode: &O)
 ///     -> Result<f64, IntegrationError<f64>> {
@@ -77,6 +77,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
     ///
     /// ```
     /// use branched_pendulum::prelude::*;
+    /// use branched_pendulum::system::OdeFn;
     ///
     /// let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| rates[0] = -y[0]);
     /// let times = [0.0, 0.5, 1.0, 2.0];
@@ -152,8 +153,8 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
     /// changes from positive to negative.
     ///
     /// ```
-    /// use core::ops::ControlFlow;
     /// use branched_pendulum::prelude::*;
+    /// use branched_pendulum::system::OdeFn;
     ///
     /// let pendulum = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
     ///     rates[0] = y[1];

@@ -20,7 +20,7 @@ use super::Pendulum;
 ///
 /// ```
 /// use branched_pendulum::prelude::*;
-/// use branched_pendulum::batch::Batch;
+/// use branched_pendulum::Cast;
 ///
 /// struct Rod<T>(T);
 ///

@@ -29,8 +29,9 @@ impl<T, F: Fn(&[T], &mut [T]) -> T> FirstIntegral<T> for F {
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
-/// use std::ops::ControlFlow;
 /// use branched_pendulum::prelude::*;
+/// use branched_pendulum::integrate::Projected;
+/// use branched_pendulum::system::CanonicalEnergy;
 ///
 /// #[branched_pendulum(
 ///     gravity = 9.80665,

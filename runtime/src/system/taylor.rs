@@ -54,6 +54,7 @@ pub trait TaylorPendulum<T: Scalar>: Cast<T> {
 ///
 /// ```
 /// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::TaylorOde;
 /// use branched_pendulum::taylor::Quad;
 ///
 /// struct Decay;

@@ -1,9 +1,10 @@
 //! Tolerances are kept, forwards, backwards, in f64 and f32.
 
 use core::f64::consts::TAU;
-use core::ops::ControlFlow;
 
+use branched_pendulum::integrate::Tolerance;
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 
 use crate::problems::{
     BranchedDouble, growth_and_decay, growth_and_decay_at, harmonic, kepler, perihelion, watch,

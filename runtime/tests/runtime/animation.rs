@@ -1,8 +1,6 @@
 //! Fixed steps as long as a frame: bounded, with and without friction, in both
 //! precisions.
 
-use core::ops::ControlFlow;
-
 use branched_pendulum::prelude::*;
 
 use crate::problems::BranchedDouble;

@@ -1,8 +1,8 @@
 //! Runs that are stopped and go on.
 
-use core::ops::ControlFlow;
-
+use branched_pendulum::integrate::Solver;
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 
 use crate::problems::{BranchedDouble, kepler, perihelion, watch};
 

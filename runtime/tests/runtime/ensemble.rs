@@ -4,8 +4,8 @@ use core::num::NonZeroUsize;
 use std::collections::BTreeSet;
 use std::sync::Mutex;
 
-use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 
 use crate::problems::{BranchedDouble, watch};
 

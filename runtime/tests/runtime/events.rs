@@ -1,9 +1,9 @@
 //! Events: found to rounding, in order, each once; by every method.
 
 use core::f64::consts::{FRAC_PI_2, PI};
-use core::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 
 use crate::problems::{harmonic, watch};
 

@@ -1,9 +1,8 @@
 //! Every way for a run to fail, provoked, with its message and last state.
 
-use core::ops::ControlFlow;
-
 use branched_pendulum::integrate::DenseError;
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 
 use crate::problems::{growth_and_decay, harmonic, watch};
 

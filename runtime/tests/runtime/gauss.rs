@@ -1,9 +1,9 @@
 //! The Gauss–Legendre methods: energy over long times, symmetry, solvers, and
 //! what happens where a step has no solution.
 
-use core::ops::ControlFlow;
-
+use branched_pendulum::integrate::Solver;
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 
 use crate::problems::{BranchedDouble, watch};
 

@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use branched_pendulum::integrate::Solver;
 use branched_pendulum::prelude::*;
 
 use crate::problems::{

@@ -1,6 +1,7 @@
 //! Problems that come with their answers.
 
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 
 /// y' = y cos t, y(0) = 1: smooth, depends on time, y = exp(sin t).
 pub(crate) fn growth_and_decay() -> impl Ode<f64> {

@@ -4,6 +4,7 @@
 use branched_pendulum::integrate::{InputError, Projected};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::CanonicalEnergy;
+use branched_pendulum::system::OdeFn;
 
 use crate::problems::{BranchedDouble, watch};
 

@@ -4,7 +4,9 @@
 use core::cell::Cell;
 
 use branched_pendulum::integrate::InputError;
+use branched_pendulum::integrate::Tolerance;
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 
 use crate::problems::{harmonic, watch};
 

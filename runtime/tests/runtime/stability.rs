@@ -6,9 +6,9 @@
 //! (`requests.rs`), time running backwards (`accuracy.rs`), the horizon of
 //! chaos (`variational.rs`).
 
-use core::ops::ControlFlow;
-
+use branched_pendulum::integrate::{Solver, Tolerance};
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 
 use crate::problems::{BranchedDouble, harmonic, watch};
 

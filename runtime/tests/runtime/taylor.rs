@@ -1,9 +1,8 @@
 //! The Taylor series method, on equations whose coefficients are known.
 
-use core::ops::ControlFlow;
-
 use branched_pendulum::integrate::InputError;
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::TaylorOde;
 use branched_pendulum::taylor::{self, Connectivity, KnownOrder, LinkConstants, Quad, Start};
 
 /// θ'' = −sin θ, by the recurrences that emitted code consists of.

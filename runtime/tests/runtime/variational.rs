@@ -8,6 +8,7 @@ use branched_pendulum::analysis::variational::{
     trusted_until,
 };
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 
 use crate::problems::{BranchedDouble, harmonic, watch};
 

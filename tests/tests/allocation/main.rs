@@ -8,7 +8,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::num::NonZeroUsize;
 
-use branched_pendulum::batch::Batch;
+use branched_pendulum::Cast;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Lane;
 

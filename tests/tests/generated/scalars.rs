@@ -1,6 +1,7 @@
 //! One body of emitted code with every scalar: lanes and batches have the bits
 //! of plain numbers, dual numbers the derivatives, double-double the digits.
 
+use branched_pendulum::Cast;
 use branched_pendulum::batch::{Batch, BatchError};
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Dual, InstructionSet, Lane, Lanes};

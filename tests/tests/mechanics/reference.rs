@@ -1,8 +1,6 @@
 //! The paper's apparatus against reference numbers from arbitrary-precision
 //! arithmetic (physics §6 and §7).
 
-use std::ops::ControlFlow;
-
 use branched_pendulum::analysis::Modes;
 use branched_pendulum::prelude::*;
 use branched_pendulum_tests::scenes::paper::Paper;

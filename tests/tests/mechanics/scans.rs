@@ -1,10 +1,8 @@
 //! Scans over parameters of an emitted model, in the lanes of vector registers.
 
-use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::integrate::{IntegrationError, LaneMethod, StopReason};
 use branched_pendulum::prelude::*;
 use branched_pendulum_tests::scenes::driven_series::{DrivenSeries, DrivenSeriesParameters};
-use std::ops::ControlFlow;
 
 use crate::taylor::PARAMETERS;
 

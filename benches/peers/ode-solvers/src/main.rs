@@ -6,6 +6,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::TaylorOde;
 use branched_pendulum_examples::integration_speed::measure::{ERRORS, Point, points, time_for};
 use branched_pendulum_examples::solvers::scenes::{Ideal, Rods};
 use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};

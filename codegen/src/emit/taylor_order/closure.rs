@@ -20,7 +20,7 @@ impl Recurrences<'_> {
         let counter = counted.then(|| quote!(let #k = #known.order;));
         let numbers = turned.then(|| {
             quote! {
-                let #order = #runtime::taylor::whole::<T>(#k);
+                let #order = #runtime::emitted::taylor::whole::<T>(#k);
                 let #inverse = T::from_f64(1.0) / #order;
             }
         });
@@ -46,7 +46,7 @@ impl Recurrences<'_> {
                 quote!(let [#(#names),*] = products[#quad].0;)
             });
             quote! {
-                let products = #runtime::taylor::sums(#k, factors);
+                let products = #runtime::emitted::taylor::sums(#k, factors);
                 #(#quads)*
             }
         });
@@ -69,7 +69,7 @@ impl Recurrences<'_> {
             false => quote!(T::from_f64(0.0)),
         });
         quote! {
-            |#known: &#runtime::taylor::KnownOrder<T, #links>| {
+            |#known: &#runtime::emitted::taylor::KnownOrder<T, #links>| {
                 #counter
                 #numbers
                 #time
@@ -89,7 +89,7 @@ impl Recurrences<'_> {
         values.resize(4 * self.quads(), quote!(T::from_f64(0.0)));
         let quads = values.chunks(4);
         quads
-            .map(|quad| quote!(#runtime::taylor::Quad([#(#quad),*])))
+            .map(|quad| quote!(#runtime::emitted::taylor::Quad([#(#quad),*])))
             .collect()
     }
 

@@ -19,6 +19,7 @@
 //! ```
 //! use branched_pendulum::analysis::variational::{WithDerivative, flow_jacobian, trusted_until};
 //! use branched_pendulum::prelude::*;
+//! use branched_pendulum::system::OdeFn;
 //!
 //! let pendulum = WithDerivative::new(
 //!     OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {

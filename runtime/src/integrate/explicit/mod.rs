@@ -50,8 +50,8 @@ pub use self::verner98::Verner9;
 /// # Examples
 ///
 /// ```
-/// use core::ops::ControlFlow;
 /// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::OdeFn;
 ///
 /// let oscillator = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
 ///     rates[0] = y[1];

@@ -48,9 +48,10 @@ use crate::system::{FirstIntegral, Ode, State};
 /// # Examples
 ///
 /// ```
-/// use core::ops::ControlFlow;
 /// use branched_pendulum::integrate::Projected;
 /// use branched_pendulum::prelude::*;
+/// use branched_pendulum::integrate::Projected;
+/// use branched_pendulum::system::OdeFn;
 ///
 /// // A pendulum: H = p²/2 − cos q.
 /// let pendulum = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {

@@ -29,8 +29,8 @@ use crate::system::{Ode, State};
 /// # Examples
 ///
 /// ```
-/// use core::ops::ControlFlow;
 /// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::OdeFn;
 ///
 /// let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| rates[0] = -y[0]);
 /// let start = State::new(0.0, vec![1.0]);

@@ -36,7 +36,6 @@ use crate::system::{Canonical, CanonicalVariables, Ode, State};
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
-/// use std::ops::ControlFlow;
 /// use branched_pendulum::integrate::{InputError, Inseparable, StoermerVerlet};
 /// use branched_pendulum::prelude::*;
 ///

@@ -100,11 +100,7 @@ impl<'a, N, T: Scalar> View<'a, N, T> {
     /// Returns the strips and their attachments, for equations of these sizes and,
     /// where this is not 0, so many copies of children everywhere; none for others.
     #[inline(always)]
-    pub(super) fn strips(
-        &self,
-        sizes: Sizes,
-        branching: usize,
-    ) -> (&'a [Strip], &'a [Attachment]) {
+    pub(super) fn strips(&self, sizes: Sizes, branching: usize) -> (&'a [Strip], &'a [Attachment]) {
         match self.sizes == sizes && (branching == 0 || branching == self.branching) {
             true => (self.strips, self.attachments),
             false => (&[], &[]),
@@ -123,7 +119,10 @@ impl<'a, N, T: Scalar> View<'a, N, T> {
         N: Copy,
         T: Simd<N>,
     {
-        let start = self.constants.as_ptr().wrapping_add(column * self.slots + at);
+        let start = self
+            .constants
+            .as_ptr()
+            .wrapping_add(column * self.slots + at);
         match <T as Simd<N>>::LANES {
             // SAFETY: the caller's. A `T` of one lane is the `N` that it holds.
             1 => unsafe { V::read(start.cast()) },

@@ -125,9 +125,22 @@ fn scratch_file() {
         let start = processor_time();
         let verdict = judge(&attribute, &item);
         let time = processor_time().saturating_sub(start);
-        let what = match verdict { Verdict::Expanded => "expanded".to_owned(), Verdict::Refused => {
-            format!("refused {}", branched_pendulum_codegen::stages(attribute, item).err().map(|(r, _)| r.render(&source)).unwrap_or_default())
-        }, Verdict::Broken(what) => what };
-        eprintln!("{path}: {time:?} {} MB {what}", peak_memory().unwrap_or(0) >> 20);
+        let what = match verdict {
+            Verdict::Expanded => "expanded".to_owned(),
+            Verdict::Refused => {
+                format!(
+                    "refused {}",
+                    branched_pendulum_codegen::stages(attribute, item)
+                        .err()
+                        .map(|(r, _)| r.render(&source))
+                        .unwrap_or_default()
+                )
+            }
+            Verdict::Broken(what) => what,
+        };
+        eprintln!(
+            "{path}: {time:?} {} MB {what}",
+            peak_memory().unwrap_or(0) >> 20
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! Driven trees, those with offsets whose energies are asked for, and those with
 //! children at several places.
 
-use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::Cast;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Dual, Lanes};
 use branched_pendulum_tests::random::Random;

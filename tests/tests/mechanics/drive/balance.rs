@@ -1,6 +1,7 @@
 //! Energies gain as much as a drive and friction feed.
 
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::OdeFn;
 use branched_pendulum_tests::scenes::driven::{Driven, DrivenParameters};
 
 fn driven() -> Driven {

@@ -1,7 +1,5 @@
 //! The method against reference trajectories and the energy.
 
-use std::ops::ControlFlow;
-
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 use branched_pendulum::system::{Cast, TaylorPendulum};

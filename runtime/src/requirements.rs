@@ -1,0 +1,140 @@
+//! Requirements on the parameters of a model: emitted constructors check them.
+
+use crate::model::ParameterError;
+
+/// Passes a finite value.
+///
+/// # Errors
+/// The error that `what` is not finite.
+pub fn require_finite(what: &'static str, value: f64) -> Result<(), ParameterError> {
+    require(what, value, "finite", true)
+}
+
+/// Passes a finite value that is not negative.
+///
+/// # Errors
+/// The error that `what` is negative or not finite.
+pub fn require_non_negative(what: &'static str, value: f64) -> Result<(), ParameterError> {
+    require(what, value, "zero or positive", value >= 0.0)
+}
+
+/// Passes a finite positive value.
+///
+/// # Errors
+/// The error that `what` is not positive or not finite.
+pub fn require_positive(what: &'static str, value: f64) -> Result<(), ParameterError> {
+    require(what, value, "positive", value > 0.0)
+}
+
+fn require(
+    what: &'static str,
+    value: f64,
+    requirement: &'static str,
+    met: bool,
+) -> Result<(), ParameterError> {
+    if met && value.is_finite() {
+        return Ok(());
+    }
+    Err(ParameterError {
+        what,
+        value,
+        requirement,
+    })
+}
+
+/// A link as [`require_regular`] sees it. SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkBody {
+    /// What is zero where the link turns without energy, for the message.
+    pub what: &'static str,
+    /// Index of the parent, which stands before the link.
+    pub parent: Option<usize>,
+    /// Mass.
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass.
+    pub inertia: f64,
+    /// Centre of mass from the link's pivot, along and across.
+    pub com: [f64; 2],
+    /// Pivot on the parent from the parent's pivot, along and across.
+    pub pivot: [f64; 2],
+}
+
+/// Passes a tree whose mass matrix is regular for all angles.
+///
+/// A link can turn about its resting pivot without kinetic energy if it has no
+/// inertia, no mass off its pivot, and every child hangs from the pivot or
+/// yields: lets its own pivot move without energy in some configuration.
+/// O(N²) for N links.
+///
+/// # Errors
+/// The error that the moment of inertia of such a link is zero.
+pub fn require_regular<const N: usize>(links: &[LinkBody; N]) -> Result<(), ParameterError> {
+    let mut yields = [false; N];
+    for (index, link) in links.iter().enumerate().rev() {
+        let firm = || {
+            links
+                .iter()
+                .zip(&yields)
+                .filter(|(child, yields)| child.parent == Some(index) && !**yields)
+                .map(|(child, _)| child.pivot)
+        };
+        let origin = [0.0, 0.0];
+        let free = link.inertia == 0.0;
+        let turns = free && (link.mass == 0.0 || link.com == origin) && firm().all(|p| p == origin);
+        if turns {
+            return Err(ParameterError {
+                what: link.what,
+                value: 0.0,
+                requirement: "positive",
+            });
+        }
+        let centre = if link.mass == 0.0 {
+            firm().next()
+        } else {
+            Some(link.com)
+        };
+        let about = centre.is_some_and(|centre| centre != origin && firm().all(|p| p == centre));
+        let unburdened = link.mass == 0.0 && firm().next().is_none();
+        if let Some(own) = yields.get_mut(index) {
+            *own = unburdened || (free && about);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn body(parent: Option<usize>, mass: f64, inertia: f64, com: f64, pivot: f64) -> LinkBody {
+        LinkBody {
+            what: "moment of inertia",
+            parent,
+            mass,
+            inertia,
+            com: [com, 0.0],
+            pivot: [pivot, 0.0],
+        }
+    }
+
+    #[test]
+    fn massless_leaves_are_refused() {
+        let root = body(None, 1.0, 0.1, 0.5, 0.0);
+        assert!(require_regular(&[root, body(Some(0), 0.0, 0.0, 0.1, 1.0)]).is_err());
+        assert!(require_regular(&[root, body(Some(0), 1.0, 0.0, 0.0, 1.0)]).is_err());
+        assert!(require_regular(&[root, body(Some(0), 1.0, 0.0, 0.1, 1.0)]).is_ok());
+        assert!(require_regular(&[root, body(Some(0), 0.0, 1e-9, 0.1, 1.0)]).is_ok());
+    }
+
+    /// Two rods without mass and one bob: in line, one velocity has no energy.
+    #[test]
+    fn a_bob_on_two_massless_rods_is_refused() {
+        let rods = [
+            body(None, 0.0, 0.0, 0.0, 0.0),
+            body(Some(0), 1.0, 0.0, 0.3, 1.0),
+        ];
+        assert!(require_regular(&rods).is_err());
+        let heavy = [body(None, 1.0, 0.0, 0.2, 0.0), rods[1]];
+        assert!(require_regular(&heavy).is_ok());
+    }
+}
