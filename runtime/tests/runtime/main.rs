@@ -23,3 +23,4 @@ mod stability;
 mod taylor;
 mod variational;
 mod verlet;
+mod workspace;

@@ -35,7 +35,7 @@ impl<M: Pair, T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for ExplicitRungeKut
                 report: Report::new(),
             });
         }
-        let mut run = Run::<M, T, O>::new(ode, &self.options, start);
+        let mut run = Trajectory::<M, T, O>::new(ode, &self.options, start);
         let direction = if end > start.time { T::ONE } else { -T::ONE };
         let mut control = StepControl::new(M::CONTROL, &self.options);
         let mut step = run.first_step(&self.options, end, direction)?;
@@ -110,7 +110,7 @@ impl<M: Pair, T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for ExplicitRungeKut
 }
 
 /// A run under way.
-pub(super) struct Run<'a, M, T, O: ?Sized> {
+pub(super) struct Trajectory<'a, M, T, O: ?Sized> {
     system: Evaluator<'a, T, O>,
     pub(super) stages: StepStages<T>,
     time: T,
@@ -118,7 +118,7 @@ pub(super) struct Run<'a, M, T, O: ?Sized> {
     pair: PhantomData<M>,
 }
 
-impl<'a, M: Pair, T: Real, O: Ode<T> + ?Sized> Run<'a, M, T, O> {
+impl<'a, M: Pair, T: Real, O: Ode<T> + ?Sized> Trajectory<'a, M, T, O> {
     /// A run of `ode` about to leave `start`.
     pub(super) fn new(ode: &'a O, options: &Options<T>, start: &State<T>) -> Self {
         Self {

@@ -334,6 +334,7 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
 
     /// The first stage and the first step of fresh trajectories. The other lanes
     /// go through it too, and keep what they have.
+    #[inline(always)]
     fn first_steps(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags) {
         let (system, stages) = (&mut self.system, &mut self.stages);
         let others = stages.start_rates().to_vec();

@@ -18,7 +18,7 @@ mod verner98;
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use self::driver::Run;
+use self::driver::Trajectory;
 use self::pair::Pair;
 pub(crate) use self::stages::Span;
 use super::dense::DenseStep;
@@ -208,7 +208,7 @@ impl<M: Pair, T: Real> ExplicitRungeKutta<M, T> {
         if !step.is_finite() {
             return Err(InputError::FixedStep { value: step }.into());
         }
-        let mut run = Run::<M, T, O>::new(ode, &self.options, start);
+        let mut run = Trajectory::<M, T, O>::new(ode, &self.options, start);
         let span = Span {
             time: start.time,
             step,

@@ -25,7 +25,7 @@ pub(crate) use self::method::Stepper;
 pub(crate) use self::models::Models;
 use self::registers::{Numbers, WIDEST, register};
 pub(crate) use self::runs::{Flags, Outcome, Runs};
-use self::samples::Samples;
+use self::samples::LaneSamples;
 use super::error::InputError;
 use super::explicit::Span;
 use super::request::{check_start, check_times};
@@ -59,17 +59,17 @@ pub(crate) fn integrate<M, P, T>(
     P: Cast<T>,
     T: Lane,
 {
-    let kernel = Lanes { task, next, done };
+    let kernel = LaneDriver { task, next, done };
     dispatch::run_in_registers(task.instructions, kernel);
 }
 
-struct Lanes<'a, M, P, T, N, D> {
+struct LaneDriver<'a, M, P, T, N, D> {
     task: &'a Task<'a, M, P, T>,
     next: N,
     done: D,
 }
 
-impl<M, P, T, N, D> RegisterKernel<T> for Lanes<'_, M, P, T, N, D>
+impl<M, P, T, N, D> RegisterKernel<T> for LaneDriver<'_, M, P, T, N, D>
 where
     M: LaneMethod<P, T>,
     P: Cast<T>,
@@ -94,7 +94,7 @@ where
         }
         let mut stepper = method.stepper::<R>(first);
         let mut runs = Runs::new();
-        let mut samples = Samples::new(dimension);
+        let mut samples = LaneSamples::new(dimension);
         let mut fresh = self.fill(&mut stepper, &mut runs);
         while runs.active.contains(&true) {
             stepper.prepare(&mut runs, &fresh);
@@ -119,7 +119,7 @@ where
     }
 }
 
-impl<M, P, T, N, D> Lanes<'_, M, P, T, N, D>
+impl<M, P, T, N, D> LaneDriver<'_, M, P, T, N, D>
 where
     M: LaneMethod<P, T>,
     P: Cast<T>,

@@ -12,12 +12,12 @@ use crate::scalar::register::Register;
 use crate::system::State;
 
 /// Room for one state in each lane.
-pub(super) struct Samples<R: Register> {
+pub(super) struct LaneSamples<R: Register> {
     values: Vec<R>,
     one: Vec<R::Lane>,
 }
 
-impl<R: Register> Samples<R> {
+impl<R: Register> LaneSamples<R> {
     pub(super) fn new(dimension: usize) -> Self {
         Self {
             values: vec![R::from_f64(0.0); dimension],
