@@ -113,8 +113,7 @@ where
         }
         let [mut s, mut y] = system.solve::<C, P, M>(&force, &c);
         if last >= REFINED {
-            let rest = residual::<T, C, P::Single, N, Q>(start, constants, &column(&s));
-            let rest = loaded(&rest);
+            let rest = residual::<T, C, P, N, Q, M>(start, constants, &s);
             let [more_s, more_y] = system.solve::<C, P, M>(&rest, &[zero; M]);
             for m in 0..M {
                 s[m] = s[m].plus(more_s[m]);
@@ -263,34 +262,18 @@ fn known<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
 
 /// Numbers of all links as packs, zero where there is no link.
 #[inline(always)]
-fn packs<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
+pub(super) fn packs<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
     numbers: &[T; N],
 ) -> [P; M] {
     let mut column = [Quad::splat(T::from_f64(0.0)); Q];
     for (i, number) in numbers.iter().enumerate() {
         column[i / 4].0[i % 4] = *number;
     }
-    loaded(&column)
-}
-
-/// The packs of a column.
-#[inline(always)]
-fn loaded<T: Scalar, P: Pack<T>, const Q: usize, const M: usize>(column: &Column<T, Q>) -> [P; M] {
     let mut packs = [P::splat(T::from_f64(0.0)); M];
     for (m, pack) in packs.iter_mut().enumerate() {
-        *pack = P::load(column, m);
+        *pack = P::load(&column, m);
     }
     packs
-}
-
-/// The column of packs.
-#[inline(always)]
-fn column<T: Scalar, P: Pack<T>, const Q: usize, const M: usize>(packs: &[P; M]) -> Column<T, Q> {
-    let mut column = [Quad::splat(T::from_f64(0.0)); Q];
-    for (m, pack) in packs.iter().enumerate() {
-        pack.store(&mut column, m);
-    }
-    column
 }
 
 /// The numbers of all links.

@@ -15,64 +15,94 @@
 
 use super::elimination::Column;
 use super::expand::{Connectivity, LinkConstants, Start};
-use super::quad::{Pack, two_sum};
+use super::orders::packs;
+use super::quad::{Pack, Quad, two_sum};
 use crate::scalar::Scalar;
 
 /// Returns what accelerations leave of the equation of motion, in the units of the
-/// tree's constants, link by link.
+/// tree's constants.
 #[inline(always)]
-pub(super) fn residual<T, C, P, const N: usize, const Q: usize>(
+pub(super) fn residual<T, C, P, const N: usize, const Q: usize, const M: usize>(
     start: &Start<'_, T, N>,
     constants: &LinkConstants<T, N>,
-    accelerations: &Column<T, Q>,
-) -> Column<T, Q>
+    accelerations: &[P; M],
+) -> [P; M]
 where
     T: Scalar,
     C: Connectivity<N>,
     P: Pack<T>,
 {
-    let zero = Parts::whole::<T>(P::splat(T::from_f64(0.0)));
-    // U + iV, a, Σ F_c and D + iE.
-    let [mut turning, mut fall, mut pull, mut lever] = [[[zero; 2]; N]; 4];
-    for i in 0..N {
-        let alpha = P::load(accelerations, i);
-        let (cos, sin) = (P::splat(start.cosines[i]), P::splat(start.sines[i]));
-        let omega = P::splat(start.omega[i]);
-        let square = Parts::product::<T>(omega, omega);
-        turning[i] = [
-            Parts::product::<T>(cos, alpha).plus_product::<T>(zero.high.minus(sin), square),
-            Parts::product::<T>(sin, alpha).plus_product::<T>(cos, square),
-        ];
-        if i > 0 {
-            let parent = C::PARENTS[i];
-            let attachment = constants.attachments[i];
-            fall[i] = plus_turned::<T, C, P, N>(fall[parent], attachment, turning[parent]);
-        }
+    let zero = P::splat(T::from_f64(0.0));
+    let [sines, cosines] = [&start.sines, &start.cosines].map(packs::<T, P, N, Q, M>);
+    let omega = packs::<T, P, N, Q, M>(start.omega);
+    // U + iV
+    let mut turning = empty::<T, Q>();
+    for m in 0..M {
+        let (sin, cos, alpha) = (sines[m], cosines[m], accelerations[m]);
+        let square = Parts::product::<T>(omega[m], omega[m]);
+        let u = Parts::product::<T>(cos, alpha).plus_product::<T>(zero.minus(sin), square);
+        let v = Parts::product::<T>(sin, alpha).plus_product::<T>(cos, square);
+        u.store::<T, Q>(&mut turning[0], m);
+        v.store::<T, Q>(&mut turning[1], m);
     }
+    let lever = levers::<T, C, P::Single, N, Q>(constants, &turning);
+    let bias = packs::<T, P, N, Q, M>(&start.bias);
+    let inertias = packs::<T, P, N, Q, M>(&constants.inertias);
+    let weights = packs::<T, P, N, Q, M>(&constants.weights);
+    let lateral = packs::<T, P, N, Q, M>(&constants.lateral_weights);
     let mut rest = *accelerations;
-    for i in (0..N).rev() {
-        let [h, e] = constants.moments[i];
-        let [aside, down] = plus_turned::<T, C, P, N>(lever[i], [h, -e], fall[i]);
-        let number = |value: T| Parts::whole::<T>(P::splat(value));
-        let (cos, sin) = (P::splat(start.cosines[i]), P::splat(start.sines[i]));
-        let alpha = Parts::whole::<T>(P::load(accelerations, i));
-        let sum = number(start.bias[i])
-            .plus_product::<T>(P::splat(constants.inertias[i]), alpha)
-            .plus_product::<T>(sin, down.plus::<T>(number(constants.weights[i])))
-            .plus_product::<T>(cos, aside.plus::<T>(number(constants.lateral_weights[i])));
-        let left = zero.high.minus(sum.high).minus(sum.low);
-        left.store(&mut rest, i);
-        if i > 0 {
-            let parent = C::PARENTS[i];
-            let force = plus_turned::<T, C, P, N>(pull[i], [h, e], turning[i]);
-            let [l, w] = constants.attachments[i];
-            lever[parent] = plus_turned::<T, C, P, N>(lever[parent], [l, -w], force);
-            for x in 0..2 {
-                pull[parent][x] = pull[parent][x].plus::<T>(force[x]);
-            }
-        }
+    for m in 0..M {
+        let aside = Parts::load::<T, Q>(&lever[0], m).plus::<T>(Parts::whole::<T>(lateral[m]));
+        let down = Parts::load::<T, Q>(&lever[1], m).plus::<T>(Parts::whole::<T>(weights[m]));
+        let sum = Parts::whole::<T>(bias[m])
+            .plus_product::<T>(inertias[m], Parts::whole::<T>(accelerations[m]))
+            .plus_product::<T>(sines[m], down)
+            .plus_product::<T>(cosines[m], aside);
+        rest[m] = zero.minus(sum.high).minus(sum.low);
     }
     rest
+}
+
+/// D + iE of all links, along the tree.
+#[inline(always)]
+fn levers<T: Scalar, C: Connectivity<N>, P: Pack<T>, const N: usize, const Q: usize>(
+    constants: &LinkConstants<T, N>,
+    turning: &[PartsColumn<T, Q>; 2],
+) -> [PartsColumn<T, Q>; 2] {
+    let zero = Parts::whole::<T>(P::splat(T::from_f64(0.0)));
+    // a, Σ F_c and D + iE.
+    let [mut fall, mut pull, mut lever] = [[[zero; 2]; N]; 3];
+    for i in 1..N {
+        let parent = C::PARENTS[i];
+        let turning = [0, 1].map(|x| Parts::load::<T, Q>(&turning[x], parent));
+        fall[i] = plus_turned::<T, C, P, N>(fall[parent], constants.attachments[i], turning);
+    }
+    for i in (1..N).rev() {
+        let parent = C::PARENTS[i];
+        let ([h, e], [l, w]) = (constants.moments[i], constants.attachments[i]);
+        lever[i] = plus_turned::<T, C, P, N>(lever[i], [h, -e], fall[i]);
+        let turning = [0, 1].map(|x| Parts::load::<T, Q>(&turning[x], i));
+        let force = plus_turned::<T, C, P, N>(pull[i], [h, e], turning);
+        lever[parent] = plus_turned::<T, C, P, N>(lever[parent], [l, -w], force);
+        for x in 0..2 {
+            pull[parent][x] = pull[parent][x].plus::<T>(force[x]);
+        }
+    }
+    let mut columns = empty::<T, Q>();
+    for (i, lever) in lever.iter().enumerate() {
+        for x in 0..2 {
+            lever[x].store::<T, Q>(&mut columns[x], i);
+        }
+    }
+    columns
+}
+
+/// First and second parts of a number of each link.
+type PartsColumn<T, const Q: usize> = [Column<T, Q>; 2];
+
+#[inline(always)]
+fn empty<T: Scalar, const Q: usize>() -> [PartsColumn<T, Q>; 2] {
+    [[[Quad::splat(T::from_f64(0.0)); Q]; 2]; 2]
 }
 
 /// `base` + (p + i q) x
@@ -113,6 +143,28 @@ impl<P: Copy> Parts<P> {
     {
         let low = P::splat(T::from_f64(0.0));
         Self { high, low }
+    }
+
+    #[inline(always)]
+    fn load<T: Scalar, const Q: usize>(column: &PartsColumn<T, Q>, i: usize) -> Self
+    where
+        P: Pack<T>,
+    {
+        let [high, low] = column;
+        Self {
+            high: P::load(high, i),
+            low: P::load(low, i),
+        }
+    }
+
+    #[inline(always)]
+    fn store<T: Scalar, const Q: usize>(self, column: &mut PartsColumn<T, Q>, i: usize)
+    where
+        P: Pack<T>,
+    {
+        let [high, low] = column;
+        self.high.store(high, i);
+        self.low.store(low, i);
     }
 
     #[inline(always)]
