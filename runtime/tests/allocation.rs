@@ -1,12 +1,9 @@
 //! No method allocates in its steps: a million of them, counted.
 
 #![cfg(feature = "std")]
-// A global allocator cannot be written without `unsafe`; this one hands every
-// request on to the system's, unchanged, and counts it.
-#![allow(unsafe_code)]
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
+mod counting;
+
 use std::num::NonZeroUsize;
 
 use branched_pendulum::integrate::Solver;
@@ -15,32 +12,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::system::{OdeFn, TaylorOde};
 use branched_pendulum::taylor::Quad;
 use branched_pendulum::{Cast, TaylorPendulum};
-
-thread_local! {
-    // Of this thread alone: the tests run side by side.
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // A thread that is ending has no counter any more.
-        let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
-fn allocations() -> u64 {
-    ALLOCATIONS.with(Cell::get)
-}
+use counting::allocations;
 
 const STEP: f64 = 1e-3;
 const STEPS: u64 = 1_000_000;

@@ -1,46 +1,22 @@
 //! Large trees and batches allocate nothing after their first evaluation, counted.
 
-// A global allocator cannot be written without `unsafe`; this one hands every
-// request on to the system's, unchanged, and counts it.
-#![allow(unsafe_code)]
+#[path = "../../../runtime/tests/counting/mod.rs"]
+mod counting;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::num::NonZeroUsize;
 
 use branched_pendulum::Cast;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Lane;
-
-thread_local! {
-    // Of this thread alone: the tests run side by side.
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // A thread that is ending has no counter any more.
-        let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
+use counting::allocations;
 
 /// Allocations of a first and of a second call.
 fn of_two(mut call: impl FnMut()) -> [u64; 2] {
-    let start = ALLOCATIONS.with(Cell::get);
+    let start = allocations();
     call();
-    let between = ALLOCATIONS.with(Cell::get);
+    let between = allocations();
     call();
-    [between - start, ALLOCATIONS.with(Cell::get) - between]
+    [between - start, allocations() - between]
 }
 
 /// A tree in one piece.

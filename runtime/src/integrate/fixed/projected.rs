@@ -50,7 +50,6 @@ use crate::system::{FirstIntegral, Ode, State};
 /// ```
 /// use branched_pendulum::integrate::Projected;
 /// use branched_pendulum::prelude::*;
-/// use branched_pendulum::integrate::Projected;
 /// use branched_pendulum::system::OdeFn;
 ///
 /// // A pendulum: H = p²/2 − cos q.
