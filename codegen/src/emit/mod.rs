@@ -174,13 +174,13 @@ fn other_scalar(model: &Ident) -> Ident {
 
 /// The tokens of `::branched_pendulum` or of what `crate = …` says.
 pub fn runtime_path(path: &crate::scene::CratePath) -> TokenStream {
-    let mut segments =
-        path.segments
-            .iter()
-            .map(|segment| match segment.strip_prefix("r#") {
-                Some(keyword) => Ident::new_raw(keyword, Span::call_site()),
-                None => Ident::new(segment, Span::call_site()),
-            });
+    let mut segments = path
+        .segments
+        .iter()
+        .map(|segment| match segment.strip_prefix("r#") {
+            Some(keyword) => Ident::new_raw(keyword, Span::call_site()),
+            None => Ident::new(segment, Span::call_site()),
+        });
     let first = segments.next();
     let lead = path.global.then(|| quote!(::));
     quote!(#lead #first #(:: #segments)*)

@@ -193,7 +193,9 @@ impl Quantity {
     pub fn is_finite(&self) -> bool {
         let mut finite = true;
         self.for_each_leaf(&mut |leaf| {
-            finite &= leaf.exact().is_none_or(|number| number.to_f64().is_finite());
+            finite &= leaf
+                .exact()
+                .is_none_or(|number| number.to_f64().is_finite());
         });
         finite
     }

@@ -21,24 +21,106 @@ const LINKS: &[&str] = &[
 ];
 
 /// Names of parameters, some of which look like something else.
-const PARAMETERS: &[&str] = &["m", "l", "g", "k", "a", "b", "w", "p", "q", "n", "x", "scale"];
+const PARAMETERS: &[&str] = &[
+    "m", "l", "g", "k", "a", "b", "w", "p", "q", "n", "x", "scale",
+];
 
 /// Names that are reserved, taken, or no names.
 const ODD_NAMES: &[&str] = &[
-    "sin", "cos", "sqrt", "t", "T", "S", "pi", "PI", "tau", "inf", "nan", "self", "Self", "crate",
-    "super", "async", "gen", "type", "r#type", "r#fn", "_", "__", "_a", "a_", "A", "mL", "é", "Ω",
-    "true", "time", "out", "new", "momenta", "theta_arm", "omega", "theta", "gravity", "inertia_arm",
-    "coupling_hand_arm", "kinetic_energy", "parameters", "generations", "links", "scaled", "shared",
-    "convert", "f64", "prismatic", "ball", "alpha", "turns", "number", "constant_0", "d", "m_1",
+    "sin",
+    "cos",
+    "sqrt",
+    "t",
+    "T",
+    "S",
+    "pi",
+    "PI",
+    "tau",
+    "inf",
+    "nan",
+    "self",
+    "Self",
+    "crate",
+    "super",
+    "async",
+    "gen",
+    "type",
+    "r#type",
+    "r#fn",
+    "_",
+    "__",
+    "_a",
+    "a_",
+    "A",
+    "mL",
+    "é",
+    "Ω",
+    "true",
+    "time",
+    "out",
+    "new",
+    "momenta",
+    "theta_arm",
+    "omega",
+    "theta",
+    "gravity",
+    "inertia_arm",
+    "coupling_hand_arm",
+    "kinetic_energy",
+    "parameters",
+    "generations",
+    "links",
+    "scaled",
+    "shared",
+    "convert",
+    "f64",
+    "prismatic",
+    "ball",
+    "alpha",
+    "turns",
+    "number",
+    "constant_0",
+    "d",
+    "m_1",
 ];
 
 /// Numbers at the edges of what is exact, representable or a number.
 const ODD_NUMBERS: &[&str] = &[
-    "0", "0.0", "1", "-1", "1e308", "1.7976931348623157e308", "1e300", "1e200", "1e155", "1e100",
-    "1e-100", "1e-155", "1e-200", "1e-300", "5e-324", "2e-324", "1e400", "1e-400", "1e401",
-    "1e99999999999", "4294967296", "340282366920938463463374607431768211456", "0x1F", "1f64",
-    "1kg", "0.1_5", "1_000", "3.141592653589793238462643383279502884197169399375105820974944",
-    "9.8 m", "\"text\"", "'c'", "true", "1/3", "(1 - 1)", "(0.1 + 0.2 - 0.3)",
+    "0",
+    "0.0",
+    "1",
+    "-1",
+    "1e308",
+    "1.7976931348623157e308",
+    "1e300",
+    "1e200",
+    "1e155",
+    "1e100",
+    "1e-100",
+    "1e-155",
+    "1e-200",
+    "1e-300",
+    "5e-324",
+    "2e-324",
+    "1e400",
+    "1e-400",
+    "1e401",
+    "1e99999999999",
+    "4294967296",
+    "340282366920938463463374607431768211456",
+    "0x1F",
+    "1f64",
+    "1kg",
+    "0.1_5",
+    "1_000",
+    "3.141592653589793238462643383279502884197169399375105820974944",
+    "9.8 m",
+    "\"text\"",
+    "'c'",
+    "true",
+    "1/3",
+    "(1 - 1)",
+    "(0.1 + 0.2 - 0.3)",
 ];
 
 /// Names of structs.
@@ -84,7 +166,13 @@ impl Grammar<'_> {
             true => self.pick(STRUCTS),
             false => "Pendulum".to_owned(),
         };
-        let before = self.pick(&["", "pub ", "pub(crate) ", "#[derive(Debug)] pub ", "/// Text.\n"]);
+        let before = self.pick(&[
+            "",
+            "pub ",
+            "pub(crate) ",
+            "#[derive(Debug)] pub ",
+            "/// Text.\n",
+        ]);
         let after = match self.is_odd() {
             true => self.pick(&[" {}", "();", "<T>;", " { a: f64 }", "", "(u8);"]),
             false => ";".to_owned(),
@@ -95,7 +183,14 @@ impl Grammar<'_> {
     fn attribute(&mut self) -> String {
         let mut entries = Vec::new();
         if self.one_in(20) {
-            let path = self.pick(&["::bp", "crate", "::r#type", "super::a::b", "self", "::a::r#fn"]);
+            let path = self.pick(&[
+                "::bp",
+                "crate",
+                "::r#type",
+                "super::a::b",
+                "self",
+                "::a::r#fn",
+            ]);
             entries.push(format!("crate = {path}"));
         }
         if !self.is_odd() {
@@ -200,12 +295,28 @@ impl Grammar<'_> {
         let mut properties: Vec<String> = needed.iter().map(|p| self.property(p)).collect();
         let (count, branching) = match self.is_odd() {
             true => (
-                self.pick(&["0", "30", "45", "64", "65", "100", "1000", "4096", "5000", "9999999999"]),
+                self.pick(&[
+                    "0",
+                    "30",
+                    "45",
+                    "64",
+                    "65",
+                    "100",
+                    "1000",
+                    "4096",
+                    "5000",
+                    "9999999999",
+                ]),
                 self.pick(&["0", "1", "1", "2", "3", "10", "4294967296", "m"]),
             ),
-            false => (self.pick(&["1", "2", "3", "4"]), self.pick(&["1", "2", "2", "3"])),
+            false => (
+                self.pick(&["1", "2", "3", "4"]),
+                self.pick(&["1", "2", "2", "3"]),
+            ),
         };
-        properties.push(format!("shape = {shape}, count = {count}, branching = {branching}"));
+        properties.push(format!(
+            "shape = {shape}, count = {count}, branching = {branching}"
+        ));
         for ratio in ["mass_ratio", "length_ratio", "friction", "spring"] {
             if self.one_in(4) {
                 properties.push(self.property(ratio));
@@ -247,7 +358,11 @@ impl Grammar<'_> {
     fn expression(&mut self, depth: usize, symbols: &[String]) -> String {
         if depth == 0 || self.one_in(4) {
             if self.is_odd() {
-                let odd = if self.one_in(2) { ODD_NAMES } else { ODD_NUMBERS };
+                let odd = if self.one_in(2) {
+                    ODD_NAMES
+                } else {
+                    ODD_NUMBERS
+                };
                 return self.pick(odd);
             }
             return match self.random.below(3) {
@@ -269,7 +384,16 @@ impl Grammar<'_> {
             5 => format!("({}) / ({})", part(self), part(self)),
             6 => {
                 let powers = match self.is_odd() {
-                    true => ["8", "-8", "9", "400", "0", "-1", "2147483647", "(-2147483648)"],
+                    true => [
+                        "8",
+                        "-8",
+                        "9",
+                        "400",
+                        "0",
+                        "-1",
+                        "2147483647",
+                        "(-2147483648)",
+                    ],
                     false => ["2", "2", "3", "-1", "4", "2", "3", "2"],
                 };
                 format!("({})^{}", part(self), self.pick(&powers))
@@ -308,14 +432,38 @@ impl Grammar<'_> {
             }
         }
         if self.one_in(5) {
-            let forms = ["", "(exact)", "(angle = 1)", "(angle = 3, amplitude = 4)", "(amplitude = 2)"];
-            let odd = ["()", "(angle = 8, amplitude = 8)", "(angle = 0)", "(rest)", "(exact = 1)"];
+            let forms = [
+                "",
+                "(exact)",
+                "(angle = 1)",
+                "(angle = 3, amplitude = 4)",
+                "(amplitude = 2)",
+            ];
+            let odd = [
+                "()",
+                "(angle = 8, amplitude = 8)",
+                "(angle = 0)",
+                "(rest)",
+                "(exact = 1)",
+            ];
             let forms = if self.is_odd() { odd } else { forms };
             requests.push(format!("transfer{}", self.pick(&forms)));
         }
         if self.one_in(5) {
-            let forms = ["", "(canonical)", "(parseval, matrix)", "(rest, velocity)", "(amplitude = 2)"];
-            let odd = ["()", "(angle = 6, amplitude = 8)", "(amplitude = 2, small(hand_d))", "(amplitude = 4, small(hand))", "(angle = 99)"];
+            let forms = [
+                "",
+                "(canonical)",
+                "(parseval, matrix)",
+                "(rest, velocity)",
+                "(amplitude = 2)",
+            ];
+            let odd = [
+                "()",
+                "(angle = 6, amplitude = 8)",
+                "(amplitude = 2, small(hand_d))",
+                "(amplitude = 4, small(hand))",
+                "(angle = 99)",
+            ];
             let forms = if self.is_odd() { odd } else { forms };
             requests.push(format!("budget{}", self.pick(&forms)));
         }
@@ -339,7 +487,16 @@ impl Grammar<'_> {
         let observables: Vec<String> = (0..count)
             .map(|index| {
                 let name = match self.is_odd() {
-                    true => self.pick(&["accelerations", "sin", "new", "friction_power", "cast", "self", "z", "budget_rest"]),
+                    true => self.pick(&[
+                        "accelerations",
+                        "sin",
+                        "new",
+                        "friction_power",
+                        "cast",
+                        "self",
+                        "z",
+                        "budget_rest",
+                    ]),
                     false => ["first", "second", "third"][index].to_owned(),
                 };
                 let depth = 1 + self.random.below(4);

@@ -99,21 +99,27 @@ fn repeated(file: &syn::File) -> Option<String> {
 pub(crate) fn processor_time() -> Duration {
     // Ticks in user and system mode are the 14th and 15th fields, the 12th and 13th
     // behind the program's name in parentheses; a tick is 10 ms.
-    let ticks = std::fs::read_to_string("/proc/self/stat").ok().and_then(|text| {
-        let fields = text.rsplit_once(')')?.1.split_whitespace();
-        let ticks: Option<Vec<u64>> = fields.skip(11).take(2).map(|n| n.parse().ok()).collect();
-        Some(ticks?.iter().sum::<u64>())
-    });
+    let ticks = std::fs::read_to_string("/proc/self/stat")
+        .ok()
+        .and_then(|text| {
+            let fields = text.rsplit_once(')')?.1.split_whitespace();
+            let ticks: Option<Vec<u64>> = fields.skip(11).take(2).map(|n| n.parse().ok()).collect();
+            Some(ticks?.iter().sum::<u64>())
+        });
     match ticks {
         Some(ticks) => Duration::from_millis(10 * ticks),
-        None => std::time::SystemTime::UNIX_EPOCH.elapsed().unwrap_or_default(),
+        None => std::time::SystemTime::UNIX_EPOCH
+            .elapsed()
+            .unwrap_or_default(),
     }
 }
 
 /// Most memory that this process has held so far, in bytes, where the system says it.
 pub(crate) fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
     let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(1024 * kilobytes)
 }
