@@ -84,6 +84,11 @@ pub fn stages_without(
     };
     let program = program::lower_without(off, &derived, &mechanics);
     drop(derived);
+    if program.is_cut_off {
+        let limit = program::MOST_VALUES;
+        report.error(Span::call_site(), Message::TooManyValues { limit });
+        return Err(refuse(&description, report));
+    }
     if let Some(name) = program.unrepresentable_constant() {
         let name = name.to_owned();
         report.error(Span::call_site(), Message::ConstantRange { name });
@@ -121,7 +126,13 @@ fn underivable(description: &Description, error: &AlgebraError) -> Diagnostic {
     {
         return Diagnostic::new(found.value.span, Message::DivisionByZero);
     }
-    Diagnostic::new(Span::call_site(), Message::Algebra(error.to_string()))
+    let message = match error {
+        AlgebraError::TooManyTerms => Message::TooManyTerms {
+            limit: mechanics::MOST_TERMS,
+        },
+        _ => Message::Algebra(error.to_string()),
+    };
+    Diagnostic::new(Span::call_site(), message)
 }
 
 fn refuse(description: &Description, report: Report) -> (Report, TokenStream) {

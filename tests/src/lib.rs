@@ -15,3 +15,8 @@ pub mod source;
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 pub struct FrontPage;
+
+/// The way out of what cannot be described works.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/limits.md")]
+pub struct Limits;

@@ -5,7 +5,7 @@ use syn::ext::IdentExt as _;
 use syn::parse::ParseStream;
 use syn::{Token, token};
 
-use super::list::{ListFault, expected, parse_all};
+use super::list::{ListFault, expected, next_name, parse_all};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Diagnostic, Message};
 
@@ -53,7 +53,7 @@ pub enum ExpressionKind {
 
 impl Expression {
     /// Calls `visit` with every name of a value, in the order written.
-    pub(super) fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
+    pub fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
         match &self.kind {
             ExpressionKind::Number(_) => {}
             ExpressionKind::Name(name) => visit(name),
@@ -193,6 +193,13 @@ impl Expression {
         }
         if input.peek(syn::Lit) {
             let value = number(input)?;
+            // A name with a value of its own is the next property.
+            if let Some(unit) = next_name(input)
+                && !input.peek2(Token![=])
+                && !input.peek2(Token![:])
+            {
+                return Err(Diagnostic::new(input.span(), Message::Unit { unit }).into());
+            }
             let kind = ExpressionKind::Number(value);
             return Ok(Self { span, kind });
         }
@@ -287,10 +294,21 @@ pub(super) fn number(input: ParseStream<'_>) -> Result<Rational, ListFault> {
         let message = match error {
             ExactError::Exponent => Message::NumberRange,
             ExactError::TooLong => Message::NumberLength,
-            ExactError::Malformed | ExactError::DivisionByZero => Message::NotDecimal { text },
+            ExactError::Malformed | ExactError::DivisionByZero => Message::NotDecimal {
+                text: shortened(text),
+            },
         };
         Diagnostic::new(span, message).into()
     })
+}
+
+/// A text as far as a message shows it.
+fn shortened(text: String) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
+    }
 }
 
 /// The text of a literal.

@@ -37,6 +37,9 @@ pub(super) fn list<T>(
             let outcome = member(input, report).and_then(|member| {
                 if input.is_empty() || input.peek(Token![,]) {
                     Ok(member)
+                } else if let Some(before) = next_name(input) {
+                    let message = Message::MissingComma { before };
+                    Err(Diagnostic::new(input.span(), message).into())
                 } else {
                     Err(expected(input, "`,`"))
                 }
@@ -116,6 +119,12 @@ pub(super) fn take<T: syn::parse::Parse>(
         Ok(_) => Ok(()),
         Err(_) => Err(expected(input, what)),
     }
+}
+
+/// Name that comes next, if one does.
+pub(super) fn next_name(input: ParseStream<'_>) -> Option<String> {
+    let name = Ident::parse_any(&input.fork()).ok()?;
+    Some(name.to_string())
 }
 
 /// The next token is not `what` it should be.

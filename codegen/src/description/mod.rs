@@ -196,7 +196,8 @@ pub enum Value {
 }
 
 impl Value {
-    fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
+    /// Calls `visit` with every name in the value, in the order written.
+    pub fn for_each_name(&self, visit: &mut impl FnMut(&Ident)) {
         match self {
             Self::Single(value) => value.for_each_name(visit),
             Self::Pair(along, lateral) => {

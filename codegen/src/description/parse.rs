@@ -196,6 +196,12 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFaul
     if input.peek(Token![=]) {
         return assignment(name, input);
     }
+    let is_setting = ["gravity", "crate", "solve", "code"]
+        .iter()
+        .any(|setting| name == setting);
+    if is_setting {
+        colon(&name, input)?;
+    }
     if name == "emit" {
         let requests = group(input, Delimiter::Parenthesis, "`(` and what to emit")?;
         return Ok(Member::Emit(name, list(requests, report, request).members));
@@ -258,12 +264,14 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node
     } else {
         None
     };
+    brackets(input, "properties", "( )")?;
     let properties = group(
         input,
         Delimiter::Parenthesis,
         "`(` and the properties of the link",
     )?;
     let properties = list(properties, report, property);
+    brackets(input, "children", "[ ]")?;
     let children = if input.peek(token::Bracket) {
         let children = group(input, Delimiter::Bracket, "`[` and the children")?;
         list(children, report, |input, report| {
@@ -294,8 +302,32 @@ fn property(input: ParseStream<'_>, _: &mut Report) -> Result<Property, ListFaul
     property_value(name, input)
 }
 
+/// Refuses a `:` where a value should follow a name.
+fn colon(name: &Ident, input: ParseStream<'_>) -> Result<(), ListFault> {
+    if !input.peek(Token![:]) {
+        return Ok(());
+    }
+    let name = name.to_string();
+    Err(Diagnostic::new(input.span(), Message::Colon { name }).into())
+}
+
+/// Refuses other brackets than those that should come.
+fn brackets(input: ParseStream<'_>, what: &'static str, wanted: &'static str) -> Result<(), ListFault> {
+    let round = wanted == "( )";
+    let wrong = if round {
+        input.peek(token::Bracket)
+    } else {
+        input.peek(token::Paren)
+    };
+    if !wrong && !input.peek(token::Brace) {
+        return Ok(());
+    }
+    Err(Diagnostic::new(input.span(), Message::Brackets { what, wanted }).into())
+}
+
 /// A property, after its name.
 fn property_value(name: Ident, input: ParseStream<'_>) -> Result<Property, ListFault> {
+    colon(&name, input)?;
     take::<Token![=]>(input, "`=` and a value")?;
     let value = match pair(input) {
         Some(pair) => parse_all(pair, |input| {

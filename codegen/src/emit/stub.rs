@@ -192,8 +192,9 @@ fn places(description: &Description) -> BTreeSet<String> {
     let mut pending: Vec<&Node> = description.roots.iter().collect();
     while let Some(node) = pending.pop() {
         let copies = node.copies.map_or(1, |copies| copies.count as usize);
-        if copies > 1 && copies <= MOST_SECTORS {
-            groups.push((node.name.to_string(), copies));
+        let name = node.name.to_string();
+        if copies > 1 && copies <= MOST_SECTORS && is_plain(&name) {
+            groups.push((name, copies));
         }
         pending.extend(&node.children);
     }

@@ -8,6 +8,7 @@
 
 use super::expression::{Expr, SymbolId, Symbols};
 use super::lock::{DerivationLock, LockError};
+use super::work_limit::{MOST_TERMS, TooManyTerms, spend};
 use crate::exact::Rational;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -27,6 +28,8 @@ pub enum AlgebraError {
         /// The observable's name.
         observable: String,
     },
+    /// Its formulas have more than [`MOST_TERMS`] terms.
+    TooManyTerms,
     /// The derivation panicked: a broken invariant of ours.
     Broken {
         /// The panic's message.
@@ -42,6 +45,7 @@ impl fmt::Display for AlgebraError {
                 f,
                 "the observable `{observable}` divides by a constant that is zero in this scene"
             ),
+            Self::TooManyTerms => write!(f, "more than {MOST_TERMS} terms of formulas"),
             Self::Broken { message } => write!(
                 f,
                 "a derivation broke one of its own invariants (a bug of this crate): {message}"
@@ -75,6 +79,7 @@ pub fn run<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, AlgebraError> 
     drop(lock);
     match outcome {
         Ok(Ok(result)) => Ok(result),
+        Ok(Err(reason)) if reason.is::<TooManyTerms>() => Err(AlgebraError::TooManyTerms),
         Ok(Err(panic)) => Err(AlgebraError::Broken {
             message: panic
                 .downcast_ref::<String>()
@@ -167,11 +172,13 @@ impl Formula {
 
     /// Products multiplied out.
     pub fn expand(&self) -> Self {
+        spend(most_terms(self.0.as_view()));
         Self(self.0.expand())
     }
 
     /// Over one common denominator, numerator and denominator coprime.
     pub fn together(&self) -> Self {
+        spend(most_terms(self.0.as_view()));
         Self(self.0.together())
     }
 
@@ -204,7 +211,7 @@ impl Formula {
             .iter()
             .map(|id| Atom::var(algebra_symbol(*id)))
             .collect();
-        let expanded = self.0.expand();
+        let Self(expanded) = self.expand();
         let mut table = BTreeMap::new();
         for (key, coefficient) in expanded.coefficient_list::<i16>(&atoms) {
             let exponents = monomial_exponents(key.as_view(), &atoms);
@@ -229,6 +236,22 @@ impl Formula {
     /// The formula as plain data, in canonical order.
     pub fn to_expr(&self, symbols: &Symbols) -> Expr {
         read(self.0.as_view()).canonical(symbols)
+    }
+}
+
+/// Number of terms of a formula multiplied out, before like terms are collected.
+fn most_terms(view: AtomView<'_>) -> u64 {
+    match view {
+        AtomView::Num(_) | AtomView::Var(_) | AtomView::Fun(_) => 1,
+        AtomView::Add(sum) => sum.iter().map(most_terms).fold(0, u64::saturating_add),
+        AtomView::Mul(product) => product.iter().map(most_terms).fold(1, u64::saturating_mul),
+        AtomView::Pow(power) => {
+            let (terms, exponent) = (most_terms(power.get_base()), integer(power.get_exp()));
+            // A multinomial coefficient; negative powers stay as they are.
+            (0..u64::from(exponent.max(0).unsigned_abs())).fold(1_u64, |count, chosen| {
+                count.saturating_mul(terms.saturating_add(chosen)) / (chosen + 1)
+            })
+        }
     }
 }
 

@@ -27,6 +27,7 @@ mod series;
 mod show;
 mod symmetric;
 mod transfer;
+mod work_limit;
 
 pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
@@ -41,6 +42,7 @@ pub use observables::{
 };
 pub use print::{latex, text};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics, SectorVariables};
+pub use work_limit::MOST_TERMS;
 
 use crate::scene::Scene;
 use derivation::Derivation;

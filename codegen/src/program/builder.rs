@@ -2,7 +2,10 @@
 
 use super::rules::RULES;
 use super::rules::sharing::KnownOperations;
-use super::{Choice, ConstantId, ConstantOp, Definition, Entry, Op, Pass, Program, Setup, ValueId};
+use super::{
+    Choice, ConstantId, ConstantOp, Definition, Entry, MOST_VALUES, Op, Pass, Program, Setup,
+    ValueId,
+};
 use crate::exact::Rational;
 use crate::scene::Scene;
 
@@ -14,6 +17,8 @@ pub(super) struct Builder {
     pub(super) setup: Setup,
     /// The pass that is left out, for comparison.
     pub(super) off: Option<Pass>,
+    /// Whether values were wanted beyond [`MOST_VALUES`].
+    is_full: bool,
 }
 
 impl Builder {
@@ -33,6 +38,7 @@ impl Builder {
             setup: self.setup,
             choice,
             without: self.off,
+            is_cut_off: self.is_full,
         }
     }
 
@@ -65,6 +71,11 @@ impl Builder {
         };
         if let Some(id) = found {
             return id;
+        }
+        if self.definitions.len() >= MOST_VALUES {
+            // The program is of no use: any value will do until it ends.
+            self.is_full = true;
+            return ValueId(0);
         }
         let id = ValueId(self.definitions.len() as u32);
         self.known.insert(op.clone(), id);

@@ -65,6 +65,9 @@ pub fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) ->
     lowering.builder.off = off;
     let (entries, choice) = entries::entries(scene, &mut lowering);
     let program = lowering.builder.finish(entries, choice);
+    if program.is_cut_off {
+        return program;
+    }
     PASSES
         .iter()
         .filter(|(pass, _)| off != Some(*pass))
@@ -314,7 +317,13 @@ pub struct Program {
     pub choice: Choice,
     /// The pass that was left out, for comparison.
     pub without: Option<Pass>,
+    /// Whether it would have more than [`MOST_VALUES`] values, and so has no meaning.
+    pub is_cut_off: bool,
 }
+
+/// Most values of a program before its passes: twice as many as all exact forms of the
+/// budget of 31 links have.
+pub const MOST_VALUES: usize = 150_000;
 
 impl Program {
     /// The definition of a value.

@@ -10,6 +10,40 @@ pub enum Message {
         /// The token that should.
         what: &'static str,
     },
+    /// `:` where a value follows.
+    Colon {
+        /// What has the value.
+        name: String,
+    },
+    /// Brackets of the wrong kind.
+    Brackets {
+        /// What stands in them.
+        what: &'static str,
+        /// The right ones.
+        wanted: &'static str,
+    },
+    /// Two members of a list without a comma between them.
+    MissingComma {
+        /// The second one.
+        before: String,
+    },
+    /// A unit behind a number.
+    Unit {
+        /// The unit, as far as its first name.
+        unit: String,
+    },
+    /// A name of something else as a parameter, as in `joint = prismatic`.
+    Lookalike {
+        /// The name.
+        name: String,
+        /// What it names.
+        kind: Lookalike,
+    },
+    /// A value that is infinite or no number.
+    NotFinite {
+        /// As written.
+        name: String,
+    },
     /// The list ends too early.
     Ended {
         /// The missing token.
@@ -159,6 +193,23 @@ pub enum Message {
     },
     /// More links than can be expanded.
     TooManyLinks {
+        /// The limit.
+        limit: usize,
+    },
+    /// More pairs of a link and one above it than can be written out.
+    TooManyPairs {
+        /// Number of pairs.
+        pairs: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// Formulas longer than the derivation goes on with.
+    TooManyTerms {
+        /// The limit.
+        limit: u64,
+    },
+    /// More values in the code than are written.
+    TooManyValues {
         /// The limit.
         limit: usize,
     },
@@ -330,6 +381,17 @@ pub enum Message {
     },
     /// The derivation could not be run.
     Algebra(String),
+}
+
+/// What a name is taken for where it stands as a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lookalike {
+    /// A type of joint.
+    Joint,
+    /// A function.
+    Function,
+    /// An angle or its rate.
+    Motion,
 }
 
 impl Message {

@@ -2,6 +2,7 @@
 //! instead.
 
 use super::Message;
+use super::message::Lookalike;
 
 /// A message in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,12 +20,64 @@ impl Message {
     pub fn problem(&self) -> Problem {
         use Message as M;
         match self {
-            M::Expected { what } => {
-                problem(format!("expected {what}"), "not expected here", OUTLINE)
-            }
+            M::Expected { what } => problem(
+                format!("expected {what}"),
+                "something else stands here",
+                OUTLINE,
+            ),
             M::Ended { what } => {
                 problem(format!("expected {what}"), "missing before this", OUTLINE)
             }
+            M::Colon { name } => problem(
+                format!("`:` behind `{name}`"),
+                "a value follows `=`",
+                format!("write `{name} = ...`; `:` stands between a link and its shape only"),
+            ),
+            M::Brackets { what, wanted } => problem(
+                format!("{what} in the wrong brackets"),
+                format!("{what} stand in `{wanted}`"),
+                "write `parent(mass = 0.1, ...) [ child(...), ... ]`",
+            ),
+            M::MissingComma { before } => problem(
+                format!("no comma before `{before}`"),
+                "the next member of the list",
+                format!("write `, {before}`"),
+            ),
+            M::Unit { unit } => problem(
+                format!("the unit `{unit}` behind a number"),
+                "units are not written",
+                "write the number alone, in SI units: kg, m, s and what is formed of them",
+            ),
+            M::Lookalike { name, kind } => {
+                let (what, hint) = match kind {
+                    Lookalike::Joint => (
+                        "a type of joint",
+                        "links turn about pivots, and `joint` is a distance in m; for other \
+                         joints see `docs/limits.md`",
+                    ),
+                    Lookalike::Function => (
+                        "a function",
+                        "give a parameter another name; values have no functions, drives have \
+                         `sin(...)` and `cos(...)`",
+                    ),
+                    Lookalike::Motion => (
+                        "an angle or a velocity",
+                        "properties do not change with the motion: `friction` and `drag` are \
+                         coefficients, and `docs/limits.md` has other forces; give a parameter \
+                         another name",
+                    ),
+                };
+                problem(
+                    format!("`{name}` as a parameter"),
+                    format!("reads like {what}"),
+                    hint,
+                )
+            }
+            M::NotFinite { name } => problem(
+                format!("`{name}` is not a finite number"),
+                "no value of a pendulum",
+                "write a number, or the name of a parameter",
+            ),
             M::Nesting { limit } => problem(
                 format!("more than {limit} levels of brackets"),
                 "too deep",
@@ -61,13 +114,17 @@ impl Message {
             ),
             M::EmptyTree => problem(
                 "there is no link",
-                "described without a link",
+                "has nothing that could swing",
                 "write one, as in `bob: point(mass = 0.1, length = 0.3)`",
             ),
             M::SecondRoot { first } => problem(
                 "there is more than one root",
-                "second root",
-                format!("hang it from another link: `{first}(...) [ ... ]`"),
+                format!("hangs beside `{first}`"),
+                format!(
+                    "a description is one tree: hang it from a link, as in `{first}(...) [ ... ]`, \
+                     or give it an attribute of its own; for pendulums that act on each other \
+                     otherwise see `docs/limits.md`"
+                ),
             ),
             M::RootCopies => problem(
                 "the root has several copies",
@@ -199,6 +256,25 @@ impl Message {
                 "too many with this one",
                 "use fewer generations, branches or copies",
             ),
+            M::TooManyPairs { pairs, limit } => problem(
+                format!(
+                    "a tree too large to be written out: {pairs} pairs of a link and one above"
+                ),
+                format!("at most {limit} pairs"),
+                "large trees get loops where accelerations and energies alone are asked for; or \
+                 use fewer links or shorter chains",
+            ),
+            M::TooManyTerms { limit } => problem(
+                "formulas too long to be derived",
+                format!("more than {limit} terms"),
+                "ask for less at once: lower orders, fewer outputs, simpler observables, or a \
+                 smaller tree",
+            ),
+            M::TooManyValues { limit } => problem(
+                "code too long to be written",
+                format!("more than {limit} values"),
+                "ask for less at once: fewer outputs or forms, lower orders, or a smaller tree",
+            ),
             M::DivisionByZero => problem(
                 "division by zero",
                 "this is zero",
@@ -206,7 +282,7 @@ impl Message {
             ),
             M::NotDecimal { text } => problem(
                 format!("`{text}` is not a decimal number"),
-                "not a decimal number",
+                "cannot be read",
                 "write digits as in `0.27` or `1.88e-3`, without suffix; units are SI",
             ),
             M::NumberRange => problem(

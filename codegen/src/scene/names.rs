@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Span};
 
 use crate::description::TIME;
-use crate::report::{Message, Report};
+use crate::report::{Lookalike, Message, Report};
 
 /// Keywords of Rust 2024, reserved ones included.
 #[rustfmt::skip]
@@ -28,6 +28,56 @@ const CONSTANTS: &[(&str, &str)] = &[
     ("tau", "6.28318530717958648"),
 ];
 
+/// Names that mean no finite number, in small letters.
+const NOT_FINITE: &[&str] = &["inf", "infinity", "nan"];
+
+/// Types of joints that other tools have.
+#[rustfmt::skip]
+const JOINTS: &[&str] = &[
+    "cylindrical", "fixed", "hinge", "prismatic", "revolute", "slider", "spherical", "universal",
+    "weld",
+];
+
+/// Functions that other tools have, and ours.
+#[rustfmt::skip]
+const FUNCTIONS: &[&str] = &[
+    "abs", "acos", "asin", "atan", "atan2", "cos", "cosh", "exp", "ln", "log", "sign", "sin",
+    "sinh", "sqrt", "tan", "tanh",
+];
+
+/// What moves, by the names of observables and in words.
+const MOTION: &[&str] = &[
+    "acceleration",
+    "angle",
+    "angular_velocity",
+    "omega",
+    "theta",
+    "velocity",
+];
+
+/// Message about a name in a property that reads like an angle or a velocity.
+pub(super) fn motion(name: &str) -> Option<Message> {
+    let known = MOTION.contains(&name) || name.starts_with("theta_") || name.starts_with("omega_");
+    known.then(|| Message::Lookalike {
+        name: name.to_owned(),
+        kind: Lookalike::Motion,
+    })
+}
+
+/// Message about a name that reads like no value at all.
+fn lookalike(name: &str) -> Option<Message> {
+    let name = name.to_owned();
+    let kind = match name.as_str() {
+        small if JOINTS.contains(&small) => Lookalike::Joint,
+        small if FUNCTIONS.contains(&small) => Lookalike::Function,
+        other if NOT_FINITE.contains(&other.to_ascii_lowercase().as_str()) => {
+            return Some(Message::NotFinite { name });
+        }
+        _ => return None,
+    };
+    Some(Message::Lookalike { name, kind })
+}
+
 /// Checks the name of a link; a fault goes to `report`.
 pub(super) fn check_link(name: &Ident, report: &mut Report) {
     if let Some(message) = fault(&name.to_string()) {
@@ -48,7 +98,8 @@ pub(super) fn check_observable(name: &Ident, report: &mut Report) -> Option<()> 
 
 /// The message about a constant without exact value, if `name` is one.
 pub(super) fn irrational(name: &str) -> Option<Message> {
-    let &(name, digits) = CONSTANTS.iter().find(|(constant, _)| *constant == name)?;
+    let small = name.to_ascii_lowercase();
+    let &(_, digits) = CONSTANTS.iter().find(|(constant, _)| *constant == small)?;
     Some(Message::NotExact {
         name: name.to_owned(),
         digits,
@@ -61,7 +112,8 @@ pub(super) fn check_parameter(name: &str, span: Span, report: &mut Report) -> Op
         report.error(span, Message::TimeOutsideDrive);
         return None;
     }
-    match irrational(name).or_else(|| fault(name)) {
+    let message = irrational(name).or_else(|| lookalike(name));
+    match message.or_else(|| fault(name)) {
         Some(message) => {
             report.error(span, message);
             None

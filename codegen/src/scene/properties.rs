@@ -4,6 +4,7 @@
 use super::bodies::{
     Body, BodyShape, COMMON, Condition, Dimension, GivenProperties, PLAIN, SHAPES,
 };
+use super::names::motion;
 use super::rule::{COUNTS, Counts, GenerationRule, RATIOS};
 use super::template::accept_body;
 use super::values::{Usage, Values, message_for};
@@ -94,6 +95,16 @@ fn stand_in() -> Body {
     }
 }
 
+/// Other words for shapes.
+const SYNONYMS: &[(&str, &str)] = &[
+    ("sphere", "ball"),
+    ("bar", "rod"),
+    ("stick", "rod"),
+    ("mass", "point"),
+    ("bob", "point"),
+    ("hoop", "ring"),
+];
+
 /// A shape by its name.
 pub(super) fn find_shape(name: &str) -> Result<&'static BodyShape, Message> {
     SHAPES
@@ -102,9 +113,12 @@ pub(super) fn find_shape(name: &str) -> Result<&'static BodyShape, Message> {
         .ok_or_else(|| {
             let mut known: Vec<&'static str> = SHAPES.iter().map(|shape| shape.name).collect();
             known.push("generations");
+            let meant = SYNONYMS.iter().find(|(other, _)| *other == name);
             Message::UnknownShape {
                 name: name.to_owned(),
-                nearest: nearest(name, &known),
+                nearest: meant
+                    .map(|(_, shape)| *shape)
+                    .or_else(|| nearest(name, &known)),
                 known,
             }
         })
@@ -270,6 +284,16 @@ fn evaluate(
         unit,
         sign,
     };
+    let mut still = true;
+    property.value.for_each_name(&mut |name| {
+        if let Some(message) = motion(&name.to_string()) {
+            still = false;
+            report.error(name.span(), message);
+        }
+    });
+    if !still {
+        return None;
+    }
     match &property.value {
         Value::Single(value) => Some(Offset {
             along: values.evaluate(value, &usage(""), report)?,

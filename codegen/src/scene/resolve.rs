@@ -1,7 +1,7 @@
 //! Description to scene, on one page.
 
 use super::drive::resolve_drive;
-use super::expand::{check_names, check_size, expand};
+use super::expand::{check_names, check_pairs, check_size, expand};
 use super::generations::{Asked, decide, generations, in_own_pivot};
 use super::observables::resolve_observables;
 use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_solve};
@@ -59,6 +59,12 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     let expansion = expand(&templates);
     let links = expansion.links.len();
     let in_table = whole.is_none() && table::wanted(code, links, &templates, &asked, report);
+    let written_out = loops.is_none() && !in_table;
+    if let Some(root) = templates.first().filter(|_| written_out)
+        && !check_pairs(&expansion.links, root.span, report)
+    {
+        return None;
+    }
     let owners = check_names(&expansion, &templates, report);
     for (parameter, span) in values.parameters.iter().zip(&values.spans) {
         if owners.contains_key(&parameter.name) {

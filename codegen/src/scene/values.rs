@@ -189,9 +189,15 @@ pub(super) fn message_for(error: ExactError) -> Message {
     }
 }
 
+/// Numbers of more characters are shown rounded.
+const LONGEST_NUMBER: usize = 30;
+
 /// The message about a number of the wrong sign.
 fn violation(number: &Rational, what: &str, sign: Sign) -> Option<Message> {
-    let (what, value) = (what.to_owned(), number.to_string());
+    let (what, mut value) = (what.to_owned(), number.to_string());
+    if value.len() > LONGEST_NUMBER {
+        value = format!("{:e}", number.to_f64());
+    }
     match sign {
         Sign::NonNegative if number.is_negative() => Some(Message::Negative { what, value }),
         Sign::Positive if number.is_negative() || number.is_zero() => {

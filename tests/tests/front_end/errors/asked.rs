@@ -146,7 +146,7 @@ pub(super) const CASES: &[Case] = &[
     // Observables.
     (
         "observables",
-        "#[branched_pendulum(gravity = g, a: rod(mass = theta_b, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+        "#[branched_pendulum(gravity = g, a: rod(mass = weight, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
     observe(
         first = theta_b_3 + omega_a * p_c,
         second = whatever * pi,
@@ -158,7 +158,7 @@ pub(super) const CASES: &[Case] = &[
     ),
     (
         "observable_names",
-        "#[branched_pendulum(gravity = g, a: rod(mass = theta_b_1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+        "#[branched_pendulum(gravity = g, a: rod(mass = p_b_1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
     observe(
         a = theta_a,
         theta_a = 2,
@@ -170,7 +170,7 @@ pub(super) const CASES: &[Case] = &[
         transfer_exact_d = p_a,
         inertia_b = p_a,
         loop = p_a,
-        Twist = theta_b_1,
+        Twist = p_b_1,
         no_equals theta_a,
         no_value =,
         no_argument = sin(),

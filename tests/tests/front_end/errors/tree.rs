@@ -27,6 +27,48 @@ pub(super) const CASES: &[Case] = &[
 )] struct Pendulum;",
     ),
     (
+        "colon",
+        "#[branched_pendulum(
+    gravity: 9.8,
+    a: rod(mass: 1, length = 1),
+)] struct Pendulum;",
+    ),
+    (
+        "brackets",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1) { b: rod(mass = 1, length = 1) },
+    c: rod[mass = 1, length = 1],
+    d { mass = 1 },
+)] struct Pendulum;",
+    ),
+    (
+        "missing_comma",
+        "#[branched_pendulum(
+    gravity = 9.8
+    a: rod(mass = 1 length = m friction = 2) [ b: rod(mass = 1, length = 1) c: rod(mass = 1, length = 1) ],
+    emit(energies momenta),
+)] struct Pendulum;",
+    ),
+    (
+        "unit",
+        "#[branched_pendulum(gravity = 9.8 m/s^2, a: rod(mass = 1 kg, length = 2 * (3 m)))] struct Pendulum;",
+    ),
+    (
+        "lookalike",
+        "#[branched_pendulum(gravity = sin,
+    a: rod(mass = 1, length = 1, joint = prismatic, drag = 0.1 * omega, friction = theta_a^2),
+    drive(torque = exp * t),
+)] struct Pendulum;",
+    ),
+    (
+        "not_finite",
+        "#[branched_pendulum(gravity = inf, a: rod(mass = -NaN, length = PI))] struct Pendulum;",
+    ),
+    (
+        "long_number",
+        "#[branched_pendulum(gravity = -1e-300 / 3, a: rod(mass = 0x123456789012345678901234567890123456789012345678901234567890, length = 1))] struct Pendulum;",
+    ),
+    (
         "ended",
         "#[branched_pendulum(
     gravity =,
@@ -98,7 +140,7 @@ pub(super) const CASES: &[Case] = &[
     // Links.
     (
         "unknown_shape",
-        "#[branched_pendulum(gravity = 9.8, a: rdo(mass = 1) [ b: banana(mass = 1) ])] struct Pendulum;",
+        "#[branched_pendulum(gravity = 9.8, a: rdo(mass = 1) [ b: banana(mass = 1), c: sphere(mass = 1) ])] struct Pendulum;",
     ),
     (
         "unknown_property",
@@ -152,6 +194,12 @@ pub(super) const CASES: &[Case] = &[
         "too_many_links",
         "#[branched_pendulum(gravity = 9.8,
     a: generations(count = 13, branching = 2, shape = rod, mass = 1, length = 1, code = unrolled)
+)] struct Pendulum;",
+    ),
+    (
+        "too_many_pairs",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 111, branching = 1, shape = rod, mass = 1, length = 1, code = unrolled)
 )] struct Pendulum;",
     ),
     (
