@@ -85,7 +85,7 @@ impl Attached {
 pub(super) struct Elimination {
     /// b/J.
     pub(super) gain: Pair,
-    /// −κ/J.
+    /// κ/J.
     pub(super) offset: ValueId,
 }
 
@@ -93,6 +93,10 @@ impl Link {
     /// ω² in units of length.
     pub(super) fn centripetal(&self, builder: &mut Builder) -> ValueId {
         let squared = builder.mul(self.omega, self.omega);
+        if self.suffix.is_empty() {
+            // The same value in functions of links of several lengths.
+            builder.name(squared, "omega_squared");
+        }
         let centripetal = builder.mul(self.length, squared);
         builder.name(centripetal, &format!("centripetal{}", self.suffix))
     }
@@ -110,8 +114,8 @@ impl Link {
         }
     }
 
-    /// The response of subtrees that hang at λ, with the link's own moment and
-    /// inertia where these count here. `held` says whether γ' is needed by itself.
+    /// Subtrees that hang at λ, with ĥ and M of the link where its `body` counts here.
+    /// `passed_on` says whether γ' is needed by itself.
     ///
     /// (10.4), (10.5): y = λ v, b = ĥ v − N y, J = M − y·N y;
     /// (10.6): γ' = γ + i ω² ((ĥ − tr N λ) v + N y), Σ y·γ' = y·γ' + ω² λ × ĥ
@@ -121,14 +125,12 @@ impl Link {
         builder: &mut Builder,
         place: Pair,
         response: &Response,
-        own: Option<()>,
-        held: bool,
+        body: Option<(Pair, ValueId)>,
+        passed_on: bool,
     ) -> Attached {
         let v = self.direction;
-        let (moment, mut inertia) = match own {
-            Some(()) => (self.moment, self.inertia),
-            None => (builder.zero_pair(), builder.integer(0)),
-        };
+        let (moment, mut inertia) =
+            body.unwrap_or_else(|| (builder.zero_pair(), builder.integer(0)));
         let centripetal = self.centripetal(builder);
         let Response {
             deficit,
@@ -155,6 +157,7 @@ impl Link {
             let part = deficit.times(builder, y);
             let whole = builder.turn(moment, v);
             let first_moment = builder.sub_pairs(whole, part);
+            builder.hint(lever[0], &format!("centrifugal_moment{}", self.suffix));
             let moment = builder.turn(lever, v);
             (part, first_moment, builder.add_pairs(moment, part))
         };
@@ -166,7 +169,7 @@ impl Link {
         }
         let thrown = inwards(builder, centripetal, thrown);
         let force = builder.add_pairs(*bias_force, thrown);
-        let torque = if held {
+        let torque = if passed_on {
             let torque = builder.dot(y, force);
             let lateral = builder.cross(place, moment);
             let lateral = builder.mul(lateral, centripetal);
@@ -186,6 +189,11 @@ impl Link {
         }
     }
 
+    /// ĥ and M.
+    pub(super) fn body(&self) -> (Pair, ValueId) {
+        (self.moment, self.inertia)
+    }
+
     /// Eliminates the link's angular acceleration, (10.7); `whole` is the link with
     /// what hangs from it.
     pub(super) fn eliminate(
@@ -197,7 +205,7 @@ impl Link {
         let first_moment = builder.name_pair(whole.first_moment, &format!("first_moment@{suffix}"));
         builder.name(whole.inertia, &format!("joint_inertia{suffix}"));
         builder.name_pair(whole.force, &format!("held_force@{suffix}"));
-        let torque = self.net_torque(builder, whole);
+        let torque = self.bias_torque(builder, whole);
         let one = builder.integer(1);
         let inverse = builder.div(one, whole.inertia);
         builder.name(inverse, &format!("inverse_joint_inertia{suffix}"));
@@ -230,20 +238,21 @@ impl Link {
         builder.name_pair(first_moment, &format!("first_moment@{suffix}"));
         let centripetal = self.centripetal(builder);
         let force = inwards(builder, centripetal, first_moment);
-        let offset = builder.mul(self.torque, inverse);
+        let torque = builder.neg(self.torque);
+        let offset = builder.mul(torque, inverse);
         builder.name(offset, &format!("offset{suffix}"));
         let response = Response {
             deficit: Deficit::product(builder, first_moment, gain),
-            bias_force: passed_on(builder, force, self.torque, gain),
+            bias_force: passed_on(builder, force, torque, gain),
         };
         response.name(builder, suffix);
         (response, Elimination { gain, offset })
     }
 
-    /// −κ = Q − Σ y·γ'.
-    pub(super) fn net_torque(&self, builder: &mut Builder, whole: &Attached) -> ValueId {
-        let torque = builder.sub(self.torque, whole.torque);
-        builder.name(torque, &format!("torque{}", self.suffix))
+    /// κ = Σ y·γ' − Q.
+    pub(super) fn bias_torque(&self, builder: &mut Builder, whole: &Attached) -> ValueId {
+        let torque = builder.sub(whole.torque, self.torque);
+        builder.name(torque, &format!("bias_torque{}", self.suffix))
     }
 
     /// ω̇ in units of length and in rad/s², (10.8), where `gravity` is that which the
@@ -255,7 +264,7 @@ impl Link {
         gravity: Pair,
     ) -> [ValueId; 2] {
         // The offset first: what it is formed of need not be kept for this.
-        let mut tangential = elimination.offset;
+        let mut tangential = builder.neg(elimination.offset);
         for (gain, component) in elimination.gain.into_iter().zip(gravity) {
             let part = builder.mul(gain, component);
             tangential = builder.add(tangential, part);
@@ -264,10 +273,16 @@ impl Link {
             builder.name(tangential, &format!("tangential{}", self.suffix));
         }
         let alpha = builder.mul(self.inverse_length, tangential);
-        [
-            tangential,
-            builder.name(alpha, &format!("alpha{}", self.suffix)),
-        ]
+        if !self.suffix.is_empty() {
+            builder.name(alpha, &format!("alpha{}", self.suffix));
+        }
+        [tangential, alpha]
+    }
+
+    /// v (ω̇ + i ω²): the acceleration against the pivot's at λ = 1.
+    pub(super) fn end_acceleration(&self, builder: &mut Builder, tangential: ValueId) -> Pair {
+        let centripetal = self.centripetal(builder);
+        builder.turn([tangential, centripetal], self.direction)
     }
 
     /// The apparent gravity at λ: −a − λ v (ω̇ + i ω²).
@@ -296,5 +311,5 @@ fn inwards(builder: &mut Builder, centripetal: ValueId, r: Pair) -> Pair {
 /// γ = γ' − b κ/J.
 fn passed_on(builder: &mut Builder, force: Pair, torque: ValueId, gain: Pair) -> Pair {
     let part = builder.scale_pair(torque, gain);
-    builder.add_pairs(force, part)
+    builder.sub_pairs(force, part)
 }

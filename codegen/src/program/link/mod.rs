@@ -8,20 +8,26 @@
 //! `tree` takes them through a tree that is written out.
 
 mod deficit;
+mod entries;
 mod equations;
 mod reduced_units;
+mod strips;
 mod torques;
 mod tree;
 
+pub use strips::{Column, Strip, Strips};
+
 use crate::scene::{LinkId, Scene};
 
-/// The links that hang from `parent`; the root without one.
-fn children(scene: &Scene, parent: Option<usize>) -> Vec<usize> {
-    let links = scene.links.iter().enumerate();
-    links
-        .filter(|(_, link)| link.parent.map(|LinkId(index)| index) == parent)
-        .map(|(index, _)| index)
-        .collect()
+/// The links that hang from each link.
+fn children(scene: &Scene) -> Vec<Vec<usize>> {
+    let mut children = vec![Vec::new(); scene.links.len()];
+    for (index, link) in scene.links.iter().enumerate() {
+        if let Some(LinkId(parent)) = link.parent {
+            children[parent].push(index);
+        }
+    }
+    children
 }
 
 /// `name`, `name_2`, … for the pivots on one link.

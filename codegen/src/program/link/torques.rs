@@ -1,6 +1,5 @@
 //! Torques in the joints, against the ground and on the root.
 
-use super::children;
 use super::reduced_units::Units;
 use crate::program::ValueId;
 use crate::program::lower::{Door, Lowering};
@@ -26,14 +25,16 @@ impl Lowering<'_> {
             torques[0] = self.builder.mul(units.links[0].per_torque, torque);
         }
         let builder = &mut self.builder;
+        let children = super::children(scene);
+        let below = |parent: Option<usize>| parent.map_or(&[0][..], |parent| &children[parent]);
         for parent in std::iter::once(None).chain((0..scene.links.len()).map(Some)) {
             // What equal joints on one parent turn by, together.
             let mut sums: Vec<(&str, ValueId, ValueId)> = Vec::new();
-            for link in children(scene, parent) {
+            for &link in below(parent) {
                 let unit = &units.links[scene.links[link].orbit.0];
                 let joint = [
-                    ("joint_rate", unit.friction, omega),
-                    ("joint_angle", unit.spring, &theta),
+                    ("joint_rate", unit.forces[0], omega),
+                    ("joint_angle", unit.forces[2], &theta),
                 ];
                 for (what, coefficient, state) in joint {
                     if builder.is(coefficient, 0) {
@@ -55,7 +56,7 @@ impl Lowering<'_> {
                         None => sums.push((what, coefficient, relative)),
                     }
                 }
-                let reduced = builder.mul(unit.drag, unit.per_torque);
+                let reduced = builder.mul(unit.forces[1], unit.per_torque);
                 let torque = builder.mul(reduced, omega[link]);
                 torques[link] = builder.sub(torques[link], torque);
             }

@@ -1,8 +1,8 @@
 //! The recursion through a tree that is written out, link by link.
 
 use super::equations::{Attached, Elimination, Link, Response};
+use super::numbered;
 use super::reduced_units::Units;
-use super::{children, numbered};
 use crate::mechanics::Trigonometric;
 use crate::program::ValueId;
 use crate::program::builder::Builder;
@@ -14,6 +14,7 @@ use crate::scene::Scene;
 struct Sweep<'s> {
     scene: &'s Scene,
     units: Units,
+    children: Vec<Vec<usize>>,
     links: Vec<Link>,
     /// Of the subtrees that are eliminated and not yet attached.
     responses: Vec<Option<Response>>,
@@ -66,6 +67,7 @@ impl Lowering<'_> {
         let mut sweep = Sweep {
             scene,
             units,
+            children: super::children(scene),
             links,
             responses: vec![None; scene.links.len()],
         };
@@ -98,7 +100,7 @@ impl Sweep<'_> {
     /// Subtrees below a link, by pivot: place, members, their responses added up.
     fn groups(&mut self, builder: &mut Builder, link: usize) -> Vec<(Pair, Vec<usize>, Response)> {
         let mut groups: Vec<(Pair, Vec<usize>, Response)> = Vec::new();
-        for child in children(self.scene, Some(link)) {
+        for &child in &self.children[link] {
             let place = self.units.links[self.scene.links[child].orbit.0].place;
             let Some(response) = self.responses[child].take() else {
                 unreachable!("children are eliminated before their parents");
@@ -129,8 +131,8 @@ impl Sweep<'_> {
         for (number, (place, _, response)) in groups.iter().enumerate() {
             let mut at = link.clone();
             at.suffix = numbered(&link.suffix, number);
-            let own = whole.is_none().then_some(());
-            let attached = at.attach(builder, *place, response, own, !is_root);
+            let body = whole.is_none().then(|| link.body());
+            let attached = at.attach(builder, *place, response, body, !is_root);
             whole = Some(match whole {
                 Some(whole) => whole.add(builder, &attached),
                 None => attached,
@@ -189,9 +191,9 @@ impl Sweep<'_> {
 
 /// The root's pivot is accelerated as given: nothing of the root is eliminated.
 fn solve_root(builder: &mut Builder, link: &Link, whole: &Attached, gravity: Pair) -> Elimination {
-    let torque = link.net_torque(builder, whole);
+    let torque = link.bias_torque(builder, whole);
     let driving = builder.dot(whole.first_moment, gravity);
-    let rest = builder.add(driving, torque);
+    let rest = builder.sub(torque, driving);
     Elimination {
         gain: builder.zero_pair(),
         offset: builder.div(rest, whole.inertia),
