@@ -29,7 +29,7 @@ const SEVERAL: &str = "gravity = 9.80665, trunk(mass = 0.3, com = (0.1, 0.02), i
     joint = 0.3, friction = c) [ \
         left: rod(mass = 0.2, length = 0.3) [ tip: rod(mass = 0.05, length = 0.1, at = 0.2) ], \
         right: rod(mass = 0.1, length = 0.25, at = (0.15, 0.04), friction = c), \
-        middle: disc(mass = 0.1, radius = 0.05, at = 0) ]";
+        middle: disc(mass = 0.1, length = 0.05, radius = 0.02, at = 0) ]";
 
 fn compiled(text: &str, code: &str) -> Stages {
     let text = format!("code = {code}, {text}");
