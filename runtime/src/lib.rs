@@ -98,9 +98,11 @@ pub mod model;
 pub mod prelude;
 pub mod scalar;
 pub mod sectors;
+mod simd;
 pub mod system;
 pub mod taylor;
 pub mod transfer_forms;
+pub mod tree;
 
 // What emitted code names, at the shortest path.
 pub use model::{ParameterError, Transfer};

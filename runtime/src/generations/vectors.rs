@@ -8,7 +8,7 @@ use super::vector::{SliceKernel, Vector, Vectors, last, words_behind, words_repe
 use crate::scalar::dispatch::{RegisterKernel, run_in_registers};
 #[cfg(target_arch = "x86_64")]
 use crate::scalar::register::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
-use crate::scalar::register::{Fused, Register};
+use crate::simd::{Fused, Register, Simd};
 use crate::scalar::{InstructionSet, Lane, Lanes};
 
 /// A widest register, and what goes with it for fewer numbers: the same
@@ -53,11 +53,11 @@ macro_rules! vector {
     ($register:ident: $lane:ty, $words:literal) => {
         #[allow(unsafe_code)]
         impl Vector<$lane> for $register {
-            const LANES: usize = <Self as Register>::LANES;
+            const LANES: usize = <Self as Simd<$lane>>::LANES;
 
             #[inline(always)]
             fn load(slice: &[$lane], at: usize) -> Self {
-                match slice.get(at..).and_then(<Self as Register>::load) {
+                match slice.get(at..).and_then(<Self as Simd<$lane>>::load) {
                     Some(numbers) => numbers,
                     None => Self::from_array(last(slice, at)),
                 }
@@ -66,8 +66,8 @@ macro_rules! vector {
             #[inline(always)]
             fn store(self, slice: &mut [$lane], at: usize) {
                 match slice.get_mut(at..) {
-                    Some(rest) if rest.len() >= <Self as Register>::LANES => {
-                        Register::store(self, rest);
+                    Some(rest) if rest.len() >= <Self as Simd<$lane>>::LANES => {
+                        Simd::<$lane>::store(self, rest);
                     }
                     Some(rest) => self.store_some(rest),
                     None => {}
@@ -95,19 +95,19 @@ macro_rules! vector {
 
             #[inline(always)]
             fn splat(value: $lane) -> Self {
-                Register::splat(value)
+                <Self as Simd<$lane>>::splat(value)
             }
 
             #[inline(always)]
             fn behind(self, first: usize) -> Self {
-                const LANES: usize = <$register as Register>::LANES;
+                const LANES: usize = <$register as Simd<$lane>>::LANES;
                 static WORDS: [[u32; $words]; LANES] = words_behind();
                 self.permuted(&WORDS[first % LANES])
             }
 
             #[inline(always)]
             fn repeat(self, count: usize) -> Self {
-                const LANES: usize = <$register as Register>::LANES;
+                const LANES: usize = <$register as Simd<$lane>>::LANES;
                 static WORDS: [[u32; $words]; LANES] = words_repeated();
                 self.permuted(&WORDS[count.wrapping_sub(1) % LANES])
             }

@@ -4,16 +4,19 @@
 use super::Lanes;
 use super::lanes::{Lane, Sealed};
 #[cfg(target_arch = "x86_64")]
-use super::register;
-use super::{Real, Scalar, sincos};
+use crate::simd as register;
+use super::{InstructionSet, Real, Scalar, sincos};
 use crate::generations::{Loops, SliceKernel, vectors};
 use crate::system::cast::{self, Cast};
-use crate::taylor::{Kernel, run_f64};
+use crate::simd::{Kernel, dispatch};
+use crate::taylor::{Kernel as TaylorKernel, run_f64};
 
 macro_rules! implement_scalar {
     ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
      $lanes:literal, $build:ident, $avx2:ident, $avx512:ident $(, $packs:path)?) => {
         impl Scalar for $float {
+            const PLAIN: bool = true;
+
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
             fn from_f64(value: f64) -> Self {
@@ -44,6 +47,11 @@ macro_rules! implement_scalar {
                 vectors::run(kernel);
             }
 
+            #[inline]
+            fn dispatch<K: Kernel<Self>>(kernel: K) -> K::Output {
+                dispatch::run_wide(InstructionSet::widest(), kernel)
+            }
+
             // Compiled here, not where it is called.
             #[inline(never)]
             fn loops() -> Loops<Self> {
@@ -63,7 +71,7 @@ macro_rules! implement_scalar {
 
             $(
                 #[inline(always)]
-                fn run_packs<K: Kernel<Self>>(kernel: K) {
+                fn run_packs<K: TaylorKernel<Self>>(kernel: K) {
                     $packs(kernel);
                 }
             )?

@@ -37,25 +37,26 @@
 //! Sines and cosines follow: one angle has the same two values in all types that
 //! do not fuse, and the same two in all that do.
 
-pub(crate) mod dispatch;
 mod dual;
 mod float;
 mod lanes;
 #[cfg(test)]
 mod reference;
-pub(crate) mod register;
-mod sincos;
+pub(crate) mod sincos;
 mod turns;
 mod wide;
 
-pub use dispatch::InstructionSet;
 pub use dual::Dual;
 pub use lanes::{Lane, Lanes};
 #[doc(hidden)]
-pub use register::Register;
-#[doc(hidden)]
 pub use turns::{Turned, Turns};
 pub use wide::Double;
+
+pub(crate) use crate::simd::{self as register, dispatch};
+#[doc(hidden)]
+pub use crate::simd::Register;
+pub use crate::simd::InstructionSet;
+pub(crate) use lanes::Sealed;
 
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
@@ -63,7 +64,8 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 use crate::generations::{Loops, Single, SliceKernel};
 use crate::model::Part;
 use crate::system::cast::{self, Cast};
-use crate::taylor::{Kernel, Quad};
+use crate::simd::Kernel;
+use crate::taylor::{Kernel as TaylorKernel, Quad};
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
@@ -104,6 +106,11 @@ pub trait Scalar:
     /// need not put them side by side then.
     #[doc(hidden)]
     const SEVERAL: bool = false;
+
+    /// This is `f64` or `f32`: what is long and generic is compiled for them with this
+    /// crate.
+    #[doc(hidden)]
+    const PLAIN: bool = false;
 
     /// The value of this type nearest to `value`; for lanes, the same value in
     /// each. Used for constants, and for them only.
@@ -169,6 +176,14 @@ pub trait Scalar:
         kernel.run::<Single>();
     }
 
+    /// Runs a computation with the widest registers of the machine that hold such
+    /// numbers; with plain numbers where there are none.
+    #[doc(hidden)]
+    #[inline]
+    fn dispatch<K: Kernel<Self>>(kernel: K) -> K::Output {
+        kernel.run::<Self>()
+    }
+
     /// What large trees do whatever their equations are.
     #[doc(hidden)]
     #[inline]
@@ -215,7 +230,7 @@ pub trait Scalar:
     /// that the machine has for this type.
     #[doc(hidden)]
     #[inline(always)]
-    fn run_packs<K: Kernel<Self>>(kernel: K) {
+    fn run_packs<K: TaylorKernel<Self>>(kernel: K) {
         kernel.run::<Quad<Self>>();
     }
 }

@@ -9,7 +9,7 @@ use super::reduction;
 /// The common range. Up to 2¹⁶ quarter turns the products with the parts of π/2
 /// below are exact, and no angle comes closer to a multiple of π/2 than 2⁻⁶¹
 /// (29 quarter turns, found by trying all), where 2⁻¹²⁵ is left out.
-pub(in crate::scalar) const LIMIT: f64 = 102_943.0;
+pub(crate) const LIMIT: f64 = 102_943.0;
 
 /// π/2 = PART_1 + PART_2 + PART_3 up to 2⁻¹³⁰; 37, 37 and 53 bits.
 const PART_1: f64 = f64::from_bits(0x3ff9_21fb_5444_0000);
@@ -43,7 +43,7 @@ pub(super) const COSINE: [f64; 6] = [
 
 /// What one written order of operations computes with: a number, or several in
 /// one register.
-pub(in crate::scalar) trait Pack:
+pub(crate) trait Pack:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     /// The same number everywhere.
@@ -78,7 +78,7 @@ impl Pack for f64 {
 /// two bits of `quarter` which multiple. `low` is below 2⁻⁵³, and below 2⁻⁹ of
 /// `high`.
 #[derive(Clone, Copy)]
-pub(in crate::scalar) struct Reduced<P> {
+pub(crate) struct Reduced<P> {
     quarter: P,
     high: P,
     low: P,
@@ -86,7 +86,7 @@ pub(in crate::scalar) struct Reduced<P> {
 
 /// Sines and cosines of `N` angles.
 #[inline(always)]
-pub(in crate::scalar) fn sin_cos_f64<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
+pub(crate) fn sin_cos_f64<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
     let mut common = true;
     for angle in angles {
         common &= angle.abs() < LIMIT;
@@ -104,7 +104,7 @@ pub(in crate::scalar) fn sin_cos_f64<const N: usize>(angles: [f64; N]) -> ([f64;
 
 /// The same, with angles outside the common range among them.
 #[inline(always)]
-pub(in crate::scalar) fn far<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
+pub(crate) fn far<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
     // Copies for this block alone: were angles and results themselves lent out,
     // they would live in memory on the common path too.
     let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
@@ -134,7 +134,7 @@ fn beyond<const N: usize>(angles: [f64; N], sines: &mut [f64; N], cosines: &mut 
 
 /// Cody and Waite's reduction, for the common range.
 #[inline(always)]
-pub(in crate::scalar) fn reduce<P: Pack>(angle: P) -> Reduced<P> {
+pub(crate) fn reduce<P: Pack>(angle: P) -> Reduced<P> {
     let quarter = angle * P::splat(FRAC_2_PI) + P::splat(ROUND);
     let n = quarter - P::splat(ROUND);
     // Both products and the first difference are exact.
@@ -151,7 +151,7 @@ pub(in crate::scalar) fn reduce<P: Pack>(angle: P) -> Reduced<P> {
 
 /// Sine and cosine of quarter turns plus a small angle.
 #[inline(always)]
-pub(in crate::scalar) fn turn<P: Pack>(angle: Reduced<P>) -> (P, P) {
+pub(crate) fn turn<P: Pack>(angle: Reduced<P>) -> (P, P) {
     let Reduced { quarter, high, low } = angle;
     let square = high * high;
     let fourth = square * square;

@@ -10,7 +10,7 @@
 
 use core::hint::black_box;
 
-use super::super::register::{Fused, Register};
+use crate::simd::{Fused, Register, Simd};
 use super::super::turns::Turned;
 use super::super::{Lane, Scalar};
 use super::reduction;
@@ -84,7 +84,7 @@ pub trait Float: Lane {
 impl Float for f64 {
     type One = Fused<f64>;
     #[cfg(target_arch = "x86_64")]
-    type Several = super::super::register::F64x4;
+    type Several = crate::simd::F64x4;
     #[cfg(not(target_arch = "x86_64"))]
     type Several = Fused<f64>;
 
@@ -122,7 +122,7 @@ impl Float for f64 {
 impl Float for f32 {
     type One = Fused<f32>;
     #[cfg(target_arch = "x86_64")]
-    type Several = super::super::register::F32x8;
+    type Several = crate::simd::F32x8;
     #[cfg(not(target_arch = "x86_64"))]
     type Several = Fused<f32>;
 
@@ -214,7 +214,7 @@ fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) ->
 
 /// Sines and cosines of angles in registers.
 #[inline(always)]
-pub(in crate::scalar) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
+pub(crate) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
     let zero = [P::from_f64(0.0); N];
     let (mut sines, mut cosines) = (zero, zero);
     if !groups(angles, &mut sines, &mut cosines) {
@@ -241,7 +241,7 @@ fn all_near<P: Pack>(angles: &[P]) -> bool {
 
 /// Those of all angles, if one of them is outside the common range.
 #[inline(always)]
-pub(in crate::scalar) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Option<Turned<P, N>> {
+pub(crate) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Option<Turned<P, N>> {
     if all_near(angles) {
         return None;
     }
@@ -255,7 +255,7 @@ pub(in crate::scalar) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Opti
 
 /// Those of angles in the common range, computed together.
 #[inline(always)]
-pub(in crate::scalar) fn near<P: Pack, const N: usize>(angles: &[P; N]) -> Turned<P, N> {
+pub(crate) fn near<P: Pack, const N: usize>(angles: &[P; N]) -> Turned<P, N> {
     common(*angles, &mut P::from_f64(0.0))
 }
 
@@ -334,7 +334,7 @@ fn one<T: Float>(angle: T) -> (T, T) {
 /// Sines and cosines of the angles of one state: one alone, several in a
 /// register of AVX2, of which the last may overlap the one before.
 #[inline(always)]
-pub(in crate::scalar) fn several<T: Float, const N: usize>(
+pub(crate) fn several<T: Float, const N: usize>(
     angles: &[Fused<T>; N],
 ) -> ([Fused<T>; N], [Fused<T>; N])
 where

@@ -33,17 +33,17 @@
 //! Permission to use, copy, modify, and distribute this software is freely
 //! granted, provided that this notice is preserved.
 
-pub(super) mod double;
-pub(super) mod fused;
+pub(crate) mod double;
+pub(crate) mod fused;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod quad;
-pub(super) mod reduction;
+pub(crate) mod reduction;
 mod several;
 mod single;
 mod tail;
 #[cfg(test)]
 mod tests;
 
-pub(super) use double::sin_cos_f64;
-pub(super) use several::{several_f32, several_f64};
-pub(super) use single::sin_cos_f32;
+pub(crate) use double::sin_cos_f64;
+pub(crate) use several::{several_f32, several_f64};
+pub(crate) use single::sin_cos_f32;

@@ -4,7 +4,7 @@
 #![allow(unsafe_code)]
 
 use super::super::Scalar;
-use super::super::register::{F64x4, Register};
+use crate::simd::{F64x4, Simd};
 use super::double::{LIMIT, far, reduce, turn};
 use super::fused::Pack;
 
@@ -13,7 +13,7 @@ use super::fused::Pack;
 #[inline]
 pub(super) fn sin_cos_quad(angles: [f64; 4]) -> ([f64; 4], [f64; 4]) {
     let pack = F64x4::from_array(angles);
-    if F64x4::from_f64(0.0).larger_size(pack).all_below(LIMIT) {
+    if Simd::<f64>::larger_size(F64x4::from_f64(0.0), pack).all_below(LIMIT) {
         let (sine, cosine) = turn(reduce(pack));
         (sine.to_array(), cosine.to_array())
     } else {

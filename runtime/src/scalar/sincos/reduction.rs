@@ -39,7 +39,7 @@ const HALF_PI: [u64; 3] = [
 /// The distance is right to a factor of 1 ± 2⁻¹³⁰: the fraction of 2x/π is
 /// right to 2⁻²⁰⁰, and no `f64` but zero comes closer to a multiple of π/2 than
 /// 2⁻⁶² (J.-M. Muller, Elementary Functions, 3rd ed. 2016, §11.3.2).
-pub(in crate::scalar) fn modulo_half_pi(angle: f64) -> (u64, [f64; 3]) {
+pub(crate) fn modulo_half_pi(angle: f64) -> (u64, [f64; 3]) {
     let bits = angle.to_bits();
     let biased = ((bits >> 52) & 0x7ff) as usize;
     // Below 2⁻¹ an angle is its own remainder.

@@ -5,12 +5,12 @@
 //! its surroundings. A wide load has to wait for narrow stores just made to the
 //! same place: angles are therefore read where they lie, never gathered first.
 
-use super::super::dispatch::{Kernel, run_widest};
+use crate::simd::dispatch::{Kernel, run_widest};
 use super::{sin_cos_f32, sin_cos_f64};
 
 /// Sines and cosines of `N` angles.
 #[inline(always)]
-pub(in crate::scalar) fn several_f64<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
+pub(crate) fn several_f64<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
     match N {
         // A call costs more than it saves.
         0..3 => sin_cos_f64(*angles),
@@ -21,7 +21,7 @@ pub(in crate::scalar) fn several_f64<const N: usize>(angles: &[f64; N]) -> ([f64
 
 /// As [`several_f64`].
 #[inline(always)]
-pub(in crate::scalar) fn several_f32<const N: usize>(angles: &[f32; N]) -> ([f32; N], [f32; N]) {
+pub(crate) fn several_f32<const N: usize>(angles: &[f32; N]) -> ([f32; N], [f32; N]) {
     if N < 8 {
         sin_cos_f32(*angles)
     } else {

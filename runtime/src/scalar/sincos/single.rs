@@ -38,7 +38,7 @@ const COSINE: [f64; 4] = [
 
 /// Sines and cosines of `N` angles.
 #[inline(always)]
-pub(in crate::scalar) fn sin_cos_f32<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
+pub(crate) fn sin_cos_f32<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; N]) {
     let mut common = true;
     for angle in angles {
         common &= angle.abs() < LIMIT;

@@ -2,9 +2,9 @@
 
 use core::arch::x86_64::*;
 
-use super::super::super::Scalar;
-use super::super::super::sincos::{double, sin_cos_f32};
-use super::super::Register;
+use super::super::Simd;
+use crate::scalar::Scalar;
+use crate::scalar::sincos::{double, sin_cos_f32};
 use super::{F32x4, F64x2};
 
 // SAFETY, for all calls of instructions: see the file above.
@@ -14,7 +14,7 @@ impl Scalar for F64x2 {
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
-        Self::splat(value)
+        <Self as Simd<f64>>::splat(value)
     }
 
     #[inline(always)]
@@ -42,7 +42,7 @@ impl Scalar for F32x4 {
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
-        Self::splat(<f32 as Scalar>::from_f64(value))
+        <Self as Simd<f32>>::splat(<f32 as Scalar>::from_f64(value))
     }
 
     #[inline(always)]
@@ -60,7 +60,7 @@ impl Scalar for F32x4 {
 impl double::Pack for F64x2 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        Register::splat(value)
+        <Self as Simd<f64>>::splat(value)
     }
 
     #[inline(always)]

@@ -3,10 +3,9 @@
 
 use core::arch::x86_64::*;
 
-use super::super::super::sincos::{double, fused};
-use super::super::super::turns::Turned;
-use super::super::super::{Scalar, dispatch};
-use super::super::Register;
+use super::super::{Simd, dispatch};
+use crate::scalar::sincos::{double, fused};
+use crate::scalar::{Scalar, Turned};
 use super::{F32x8, F32x16, F64x4, F64x8};
 use crate::model::{Part, PartOf};
 
@@ -19,7 +18,7 @@ macro_rules! fused {
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
-                Self::splat(<$lane as Scalar>::from_f64(value))
+                <Self as Simd<$lane>>::splat(<$lane as Scalar>::from_f64(value))
             }
 
             #[inline(always)]
@@ -74,7 +73,7 @@ fused!(F32x16: f32, _mm512_fmadd_ps, outlined_avx512);
 impl double::Pack for F64x4 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        Register::splat(value)
+        <Self as Simd<f64>>::splat(value)
     }
 
     #[inline(always)]

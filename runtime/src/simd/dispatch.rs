@@ -21,8 +21,8 @@ use portable as machine;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use x86 as machine;
 
-use super::lanes::Sealed;
-use super::register::Register;
+use super::Register;
+use crate::scalar::{Lane, Sealed};
 
 /// Vector instructions that a build can choose among at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -83,7 +83,7 @@ pub(crate) fn run_widest<K: Kernel>(kernel: K) -> K::Output {
 }
 
 /// Runs `kernel` with the widest instructions that fuse, for
-/// [`Fused`](super::register::Fused) numbers.
+/// [`Fused`](super::Fused) numbers.
 ///
 /// # Errors
 /// Gives the kernel back if the machine has none.
@@ -169,6 +169,25 @@ impl<K: RegisterKernel<R::Lane>, R: Register> Kernel for Chosen<K, R> {
 
     #[inline(always)]
     fn run(self) -> K::Output {
+        self.0.run::<R>()
+    }
+}
+
+/// Runs `kernel` with the registers of `set`, or with the widest that the machine
+/// has, if these are narrower.
+#[inline(always)]
+pub(crate) fn run_wide<T: Lane, K: super::Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
+    run_in_registers(set, Wide(kernel))
+}
+
+/// A kernel of any wide numbers as one of registers.
+struct Wide<K>(K);
+
+impl<T: Lane, K: super::Kernel<T>> RegisterKernel<T> for Wide<K> {
+    type Output = K::Output;
+
+    #[inline(always)]
+    fn run<R: Register<Lane = T>>(self) -> K::Output {
         self.0.run::<R>()
     }
 }

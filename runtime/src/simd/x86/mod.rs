@@ -11,8 +11,10 @@ mod words;
 
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::slice::from_raw_parts_mut;
 
-use super::Register;
+use super::permutation::{rotated, tiled};
+use super::{Register, Simd};
 use crate::generations::With;
 use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, words_of_sse2};
 
@@ -63,7 +65,7 @@ macro_rules! register {
         $(#[$docs])*
         #[derive(Clone, Copy, Debug)]
         #[repr(transparent)]
-        pub struct $name(pub(in crate::scalar) $vector);
+        pub struct $name(pub(crate) $vector);
 
         register!($name, Add, add, $add);
         register!($name, Sub, sub, $sub);
@@ -116,6 +118,9 @@ macro_rules! register {
         impl Register for $name {
             type Lane = $lane;
             type Vectors = With<Self>;
+        }
+
+        impl Simd<$lane> for $name {
             /// All bits set, or none.
             type Mask = Self;
             type Chunk = [$lane; $lanes];
@@ -180,6 +185,37 @@ macro_rules! register {
                 if let Some(back) = numbers.last_chunk_mut() {
                     *back = self.to_array();
                 }
+            }
+
+            #[inline(always)]
+            unsafe fn read(start: *const $lane) -> Self {
+                // SAFETY: the caller's. The type is transparent, and a register is
+                // made of its lanes. They need not lie where registers would.
+                unsafe { start.cast::<Self>().read_unaligned() }
+            }
+
+            #[inline(always)]
+            unsafe fn write(self, start: *mut $lane) {
+                // SAFETY: as for `read`.
+                unsafe { start.cast::<Self>().write_unaligned(self) }
+            }
+
+            #[inline(always)]
+            unsafe fn write_some(self, start: *mut $lane, count: usize) {
+                // SAFETY: the caller's.
+                self.store_some(unsafe { from_raw_parts_mut(start, count.min($lanes)) });
+            }
+
+            #[inline(always)]
+            fn rotate_lanes(self, first: usize) -> Self {
+                static WORDS: [[u32; $count]; $lanes] = rotated();
+                self.permuted(&WORDS[first % $lanes])
+            }
+
+            #[inline(always)]
+            fn tile_lanes(self, count: usize) -> Self {
+                static WORDS: [[u32; $count]; $lanes] = tiled();
+                self.permuted(&WORDS[count.wrapping_sub(1) % $lanes])
             }
         }
     };

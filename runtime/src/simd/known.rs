@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::super::Scalar;
+use crate::scalar::Scalar;
 use crate::model::Part;
 
 /// A number, which may bring its sine and cosine along: code written for any number

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::super::Scalar;
+use crate::scalar::Scalar;
 use super::Register;
 use crate::model::Part;
 

@@ -1,11 +1,12 @@
 //! One number that fuses.
 
+#![allow(unsafe_code)]
+
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::super::Scalar;
-use super::super::dispatch;
-use super::super::sincos::fused;
-use super::Register;
+use super::{Register, Simd, dispatch};
+use crate::scalar::Scalar;
+use crate::scalar::sincos::fused;
 use crate::generations::Single;
 use crate::model::{Part, PartOf};
 
@@ -15,7 +16,7 @@ use crate::model::{Part, PartOf};
 /// Exists only in functions compiled for AVX2 and FMA ([`dispatch`]); elsewhere
 /// its products would be right, but slow.
 ///
-/// [`dispatch`]: super::super::dispatch
+/// [`dispatch`]: super::dispatch
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct Fused<T>(pub T);
@@ -75,6 +76,9 @@ macro_rules! fused {
         impl Register for Fused<$float> {
             type Lane = $float;
             type Vectors = Single;
+        }
+
+        impl Simd<$float> for Fused<$float> {
             type Mask = bool;
             type Chunk = $float;
 
@@ -132,6 +136,37 @@ macro_rules! fused {
                 if let Some(back) = numbers.last_mut() {
                     *back = self.0;
                 }
+            }
+
+            #[inline(always)]
+            unsafe fn read(start: *const $float) -> Self {
+                // SAFETY: the caller's. The type is transparent, and a register is
+                // made of its lanes. They need not lie where registers would.
+                unsafe { start.cast::<Self>().read_unaligned() }
+            }
+
+            #[inline(always)]
+            unsafe fn write(self, start: *mut $float) {
+                // SAFETY: as for `read`.
+                unsafe { start.cast::<Self>().write_unaligned(self) }
+            }
+
+            #[inline(always)]
+            unsafe fn write_some(self, start: *mut $float, count: usize) {
+                if count > 0 {
+                    // SAFETY: as for `read`.
+                    unsafe { self.write(start) }
+                }
+            }
+
+            #[inline(always)]
+            fn rotate_lanes(self, _first: usize) -> Self {
+                self
+            }
+
+            #[inline(always)]
+            fn tile_lanes(self, _count: usize) -> Self {
+                self
             }
         }
 

@@ -1,0 +1,185 @@
+//! Ground floor of wide numbers: registers, what they can do, and which of them the
+//! machine has.
+//!
+//! [`Lanes`] are arrays, which the compiler takes apart into numbers and puts
+//! together into registers again: well for short functions, badly and slowly for
+//! long ones. The types here are registers from the start. They exist inside
+//! computations that [`dispatch`] starts, and nowhere else: no public function
+//! returns one. Nothing here knows what is computed.
+
+// The types appear in the interface of sealed traits, so that they must be `pub`,
+// and can be reached by no one.
+#![allow(unreachable_pub)]
+
+mod block;
+pub(crate) mod dispatch;
+mod known;
+mod one;
+mod permutation;
+mod plain;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub(crate) use block::Block;
+pub use dispatch::InstructionSet;
+pub(crate) use known::Known;
+pub use one::Fused;
+#[cfg(target_arch = "x86_64")]
+pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
+
+use crate::generations::Vectors;
+use crate::scalar::{Lane, Real, Scalar};
+
+/// A computation that is compiled for the wide numbers of every instruction set.
+/// What it calls profits only as far as it is inlined: write `#[inline(always)]`.
+pub trait Kernel<T> {
+    /// What it returns.
+    type Output;
+
+    /// Computes with one kind of wide numbers.
+    fn run<V: Simd<T>>(self) -> Self::Output;
+}
+
+/// A wide number: several numbers `T` in one register, each in its lane. Every
+/// number is one of itself.
+///
+/// The wide registers fuse products with sums; those of the build do not. See
+/// [`Scalar::mul_add`].
+#[allow(unsafe_code)]
+pub trait Simd<T>: Scalar {
+    /// Number of lanes. A type of one lane has the layout of `T`.
+    const LANES: usize;
+
+    /// A batch of few links computes sines a register of states ahead, which needs
+    /// many registers and sines that take no branch.
+    const AHEAD: bool = false;
+
+    /// Says of each lane whether it is meant.
+    type Mask: Copy;
+
+    /// Returns the mask of the lanes of which `meant` is true.
+    fn mask(meant: impl Fn(usize) -> bool) -> Self::Mask;
+
+    /// Returns this register's numbers in the lanes of `mask`, those of `other`
+    /// elsewhere.
+    fn choose(self, other: Self, mask: Self::Mask) -> Self;
+
+    /// Returns the larger size, lane by lane; any of the two, or either, where one is
+    /// no number.
+    fn larger_size(self, other: Self) -> Self
+    where
+        T: Real;
+
+    /// Returns sines and cosines of `M` blocks: the same values as
+    /// [`Scalar::sin_cos_each`].
+    #[inline(always)]
+    fn sin_cos_blocks<const N: usize, const M: usize>(
+        angles: &[[Self; N]; M],
+    ) -> ([[Self; N]; M], [[Self; N]; M]) {
+        let zero = [[Self::from_f64(0.0); N]; M];
+        let (mut sines, mut cosines) = (zero, zero);
+        for j in 0..M {
+            (sines[j], cosines[j]) = Self::sin_cos_each(&angles[j]);
+        }
+        (sines, cosines)
+    }
+
+    /// Returns the same number in every lane.
+    fn splat(value: T) -> Self;
+
+    /// Reads the first numbers of a slice, if it has enough.
+    fn load(numbers: &[T]) -> Option<Self>;
+
+    /// Reads the first numbers of a slice, and zeros behind its end.
+    #[inline(always)]
+    fn load_front(numbers: &[T]) -> Self
+    where
+        T: Scalar,
+    {
+        match Self::load(numbers) {
+            Some(front) => front,
+            None => load_few(numbers),
+        }
+    }
+
+    /// Writes the numbers to the front of a slice. A slice too short gets none.
+    fn store(self, numbers: &mut [T]);
+
+    /// Its numbers where they lie in memory.
+    type Chunk;
+
+    /// Returns the last numbers of a slice, if it has enough.
+    fn last_chunk(numbers: &[T]) -> Option<&Self::Chunk>;
+
+    /// Reads numbers.
+    fn from_chunk(numbers: &Self::Chunk) -> Self;
+
+    /// Returns the numbers in their order.
+    fn to_chunk(self) -> Self::Chunk;
+
+    /// Writes the numbers to the end of a slice. A slice too short gets none.
+    fn store_last(self, numbers: &mut [T]);
+
+    /// Reads the numbers at `start`, wherever a `T` may lie.
+    ///
+    /// # Safety
+    /// So many numbers may be read there.
+    unsafe fn read(start: *const T) -> Self;
+
+    /// Writes the numbers to `start`.
+    ///
+    /// # Safety
+    /// So many numbers may be written there.
+    unsafe fn write(self, start: *mut T);
+
+    /// Writes its first `count` numbers to `start`, or all if these are fewer.
+    ///
+    /// # Safety
+    /// So many numbers may be written there.
+    unsafe fn write_some(self, start: *mut T, count: usize);
+
+    /// Returns the numbers moved forward: lane `i` gets lane `first + i`; what has
+    /// none there is left open.
+    fn rotate_lanes(self, first: usize) -> Self;
+
+    /// Returns the first `count` lanes over and over.
+    fn tile_lanes(self, count: usize) -> Self;
+}
+
+/// Numbers in the widest register.
+const WIDEST: usize = 16;
+
+#[cold]
+#[inline(never)]
+fn load_few<T: Scalar, V: Simd<T>>(few: &[T]) -> V {
+    const { assert!(V::LANES <= WIDEST) }
+    let mut numbers = [T::from_f64(0.0); WIDEST];
+    for (number, &value) in numbers.iter_mut().zip(few) {
+        *number = value;
+    }
+    match V::load(&numbers) {
+        Some(front) => front,
+        // There are enough numbers: asserted.
+        None => V::from_f64(f64::NAN),
+    }
+}
+
+/// Returns memory of plain numbers as wide ones, from where the first one would lie;
+/// none of a type that is not its numbers alone.
+#[allow(unsafe_code)]
+pub(crate) fn wide_slice<R: Register>(numbers: &mut [R::Lane]) -> Option<&mut [R]> {
+    if size_of::<R>() != R::LANES * size_of::<R::Lane>() {
+        return None;
+    }
+    // SAFETY: a register is its lanes without padding, and any numbers are such lanes.
+    Some(unsafe { numbers.align_to_mut().1 })
+}
+
+/// A wide number of a plain one.
+pub trait Register: Simd<<Self as Register>::Lane> {
+    /// A number in it.
+    type Lane: Lane;
+
+    /// This register, and narrower ones for fewer numbers.
+    type Vectors: Vectors<Self::Lane>;
+}

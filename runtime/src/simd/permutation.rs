@@ -1,0 +1,27 @@
+//! Which word of a register goes where.
+
+/// Where each word of a register comes from for
+/// [`rotate_lanes`](super::Simd::rotate_lanes), for each lane that may be the first;
+/// a lane has `WORDS / N` words.
+pub(super) const fn rotated<const N: usize, const WORDS: usize>() -> [[u32; WORDS]; N] {
+    let mut table = [[0; WORDS]; N];
+    let mut i = 0;
+    while i < N * WORDS {
+        let (first, word) = (i / WORDS, i % WORDS);
+        table[first][word] = ((word + first * (WORDS / N)) % WORDS) as u32;
+        i += 1;
+    }
+    table
+}
+
+/// The same for [`tile_lanes`](super::Simd::tile_lanes), for each count less one.
+pub(super) const fn tiled<const N: usize, const WORDS: usize>() -> [[u32; WORDS]; N] {
+    let mut table = [[0; WORDS]; N];
+    let mut i = 0;
+    while i < N * WORDS {
+        let (count, word) = (i / WORDS + 1, i % WORDS);
+        table[count - 1][word] = (word % (count * (WORDS / N))) as u32;
+        i += 1;
+    }
+    table
+}

@@ -1,0 +1,222 @@
+//! Numbers that are no registers: one of any kind, and arrays.
+
+#![allow(unsafe_code)]
+
+use core::slice::from_raw_parts_mut;
+
+use super::permutation::{rotated, tiled};
+use super::{Register, Simd};
+use crate::generations::With;
+use crate::scalar::{Lane, Lanes, Real, Scalar};
+
+/// Every number is a wide one of one lane.
+impl<T: Scalar> Simd<T> for T {
+    type Mask = bool;
+    type Chunk = T;
+
+    const LANES: usize = 1;
+
+    #[inline(always)]
+    fn mask(meant: impl Fn(usize) -> bool) -> bool {
+        meant(0)
+    }
+
+    #[inline(always)]
+    fn choose(self, other: Self, mask: bool) -> Self {
+        if mask { self } else { other }
+    }
+
+    #[inline(always)]
+    fn larger_size(self, other: Self) -> Self
+    where
+        T: Real,
+    {
+        Real::max(Real::abs(self), Real::abs(other))
+    }
+
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn load(numbers: &[T]) -> Option<Self> {
+        numbers.first().copied()
+    }
+
+    #[inline(always)]
+    fn store(self, numbers: &mut [T]) {
+        if let Some(front) = numbers.first_mut() {
+            *front = self;
+        }
+    }
+
+    #[inline(always)]
+    fn last_chunk(numbers: &[T]) -> Option<&T> {
+        numbers.last()
+    }
+
+    #[inline(always)]
+    fn from_chunk(number: &T) -> Self {
+        *number
+    }
+
+    #[inline(always)]
+    fn to_chunk(self) -> T {
+        self
+    }
+
+    #[inline(always)]
+    fn store_last(self, numbers: &mut [T]) {
+        if let Some(back) = numbers.last_mut() {
+            *back = self;
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn read(start: *const T) -> Self {
+        // SAFETY: the caller's.
+        unsafe { start.read() }
+    }
+
+    #[inline(always)]
+    unsafe fn write(self, start: *mut T) {
+        // SAFETY: the caller's.
+        unsafe { start.write(self) }
+    }
+
+    #[inline(always)]
+    unsafe fn write_some(self, start: *mut T, count: usize) {
+        if count > 0 {
+            // SAFETY: the caller's.
+            unsafe { start.write(self) }
+        }
+    }
+
+    #[inline(always)]
+    fn rotate_lanes(self, _first: usize) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn tile_lanes(self, _count: usize) -> Self {
+        self
+    }
+}
+
+impl<T: Lane, const N: usize> Register for Lanes<T, N> {
+    type Lane = T;
+    type Vectors = With<Self>;
+}
+
+/// The registers of instruction sets that this crate has no type for.
+impl<T: Lane, const N: usize> Simd<T> for Lanes<T, N> {
+    type Mask = [bool; N];
+    type Chunk = [T; N];
+
+    const LANES: usize = N;
+
+    #[inline(always)]
+    fn mask(meant: impl Fn(usize) -> bool) -> [bool; N] {
+        core::array::from_fn(meant)
+    }
+
+    #[inline(always)]
+    fn choose(self, other: Self, mask: [bool; N]) -> Self {
+        let mut result = other;
+        for (lane, meant) in mask.into_iter().enumerate() {
+            if meant {
+                result.0[lane] = self.0[lane];
+            }
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn larger_size(self, other: Self) -> Self {
+        let mut result = self;
+        for (size, other) in result.0.iter_mut().zip(other.0) {
+            *size = size.abs().max(other.abs());
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Lanes::splat(value)
+    }
+
+    #[inline(always)]
+    fn load(numbers: &[T]) -> Option<Self> {
+        numbers.first_chunk().copied().map(Self)
+    }
+
+    #[inline(always)]
+    fn store(self, numbers: &mut [T]) {
+        if let Some(front) = numbers.first_chunk_mut() {
+            *front = self.0;
+        }
+    }
+
+    #[inline(always)]
+    fn last_chunk(numbers: &[T]) -> Option<&[T; N]> {
+        numbers.last_chunk()
+    }
+
+    #[inline(always)]
+    fn from_chunk(numbers: &[T; N]) -> Self {
+        Self(*numbers)
+    }
+
+    #[inline(always)]
+    fn to_chunk(self) -> [T; N] {
+        self.0
+    }
+
+    #[inline(always)]
+    fn store_last(self, numbers: &mut [T]) {
+        if let Some(back) = numbers.last_chunk_mut() {
+            *back = self.0;
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn read(start: *const T) -> Self {
+        // SAFETY: the caller's. Numbers need not lie where lanes would.
+        Lanes(unsafe { start.cast::<[T; N]>().read_unaligned() })
+    }
+
+    #[inline(always)]
+    unsafe fn write(self, start: *mut T) {
+        // SAFETY: the caller's. Numbers need not lie where lanes would.
+        unsafe { start.cast::<[T; N]>().write_unaligned(self.0) }
+    }
+
+    #[inline(always)]
+    unsafe fn write_some(self, start: *mut T, count: usize) {
+        // SAFETY: the caller's.
+        let places = unsafe { from_raw_parts_mut(start, count.min(N)) };
+        for (place, number) in places.iter_mut().zip(self.0) {
+            *place = number;
+        }
+    }
+
+    #[inline(always)]
+    fn rotate_lanes(self, first: usize) -> Self {
+        permuted(self, &const { rotated::<N, N>() }[first.min(N - 1)])
+    }
+
+    #[inline(always)]
+    fn tile_lanes(self, count: usize) -> Self {
+        permuted(self, &const { tiled::<N, N>() }[count.clamp(1, N) - 1])
+    }
+}
+
+#[inline(always)]
+fn permuted<T: Lane, const N: usize>(numbers: Lanes<T, N>, lanes: &[u32; N]) -> Lanes<T, N> {
+    let mut result = numbers;
+    for (number, &lane) in result.0.iter_mut().zip(lanes) {
+        *number = numbers.0[lane as usize];
+    }
+    result
+}

@@ -1,0 +1,289 @@
+//! Links of a tree in loops as bodies: energies with lateral offsets, momentum and
+//! powers of driven trees.
+
+use alloc::vec::Vec;
+
+use super::sum::Sum;
+use crate::scalar::Scalar;
+
+/// What each link hangs from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// The parent of each link, before it; the root's own is 0.
+    Parents(&'static [u32]),
+    /// Copies of each generation under each link of the one before, 1 for the
+    /// root; links stand as in a [`Tree`](super::Tree).
+    Generations(&'static [usize]),
+}
+
+impl Shape {
+    fn links(self) -> usize {
+        match self {
+            Self::Parents(parents) => parents.len(),
+            Self::Generations(copies) => {
+                let mut count = 1;
+                let counts = copies.iter().map(|copies| {
+                    count *= copies;
+                    count
+                });
+                counts.sum()
+            }
+        }
+    }
+
+    /// Goes from the root to the leaves: the link, its parent but for the root,
+    /// and the number of its row.
+    #[inline(always)]
+    fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
+        match self {
+            Self::Parents(parents) => {
+                for (link, &parent) in parents.iter().enumerate() {
+                    visit(link, (link > 0).then_some(parent as usize), link);
+                }
+            }
+            Self::Generations(copies) => {
+                // Where the generation before starts, and how many links it has.
+                let (mut above, mut count) = (0, 1);
+                let mut start = 0;
+                for (generation, &copies) in copies.iter().enumerate() {
+                    for copy in 0..copies {
+                        for i in 0..count {
+                            let parent = (generation > 0).then_some(above + i);
+                            visit(start + copy * count + i, parent, generation);
+                        }
+                    }
+                    (above, count) = (start, count * copies);
+                    start += count;
+                }
+            }
+        }
+    }
+}
+
+/// Numbers of a body.
+const ROW: usize = 12;
+
+/// The links of a tree in loops as bodies. Emitted models hold them where there is
+/// a drive or a lateral offset, and energies are asked for.
+///
+/// All functions take O(links), and allocate some numbers for each link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bodies<T> {
+    shape: Shape,
+    rows: Vec<[T; ROW]>,
+}
+
+impl<T: Scalar> Bodies<T> {
+    /// Bodies with the constants of each link or of each generation, in SI units:
+    ///
+    /// half of the mass; first moments m d and m e about the pivot along and across
+    /// the link, half of the moment of inertia I + m (d² + e²); the pivot's place ℓ,
+    /// w on the parent along and across it; weight m g; g m d and g m e; half of the
+    /// stiffness of the torsion spring; friction in the pivot, drag.
+    #[must_use]
+    pub fn new(shape: Shape, rows: Vec<[T; ROW]>) -> Self {
+        Self {
+            shape,
+            rows,
+        }
+    }
+
+    /// The same bodies on other scalars.
+    #[must_use]
+    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<S> {
+        Bodies {
+            shape: self.shape,
+            rows: self.rows.iter().map(|row| row.map(&convert)).collect(),
+        }
+    }
+
+    /// Kinetic energy Σ ½ m (V + **W** ω)² + ½ I ω², J, with **W** = d v − e u,
+    /// u = (sin θ, −cos θ), v = (cos θ, sin θ), in the frame of reference that moves
+    /// with the root's pivot. NaN for slices of another length than there are
+    /// links.
+    #[must_use]
+    pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
+        let mut sum = Sum::new();
+        let whole = self.moving(theta, omega, |row, [x, y], [turn_x, turn_y], rate| {
+            let &[half_mass, _, _, half_inertia, ..] = row;
+            let own = half_mass * (x * x + y * y) + half_inertia * rate * rate;
+            sum.add(own + (x * turn_x + y * turn_y));
+        });
+        Self::or_nan(whole, sum.total())
+    }
+
+    /// Linear momentum Σ m (V + **W** ω), kg m/s, to the side in which positive
+    /// angles move a link's end, and upwards. NaN for slices of another length than
+    /// there are links.
+    #[must_use]
+    pub fn momentum(&self, theta: &[T], omega: &[T]) -> [T; 2] {
+        let (mut sum_x, mut sum_y) = (Sum::new(), Sum::new());
+        let whole = self.moving(theta, omega, |row, [x, y], [turn_x, turn_y], _| {
+            let mass = row[0] + row[0];
+            sum_x.add(mass * x + turn_x);
+            sum_y.add(mass * y + turn_y);
+        });
+        [sum_x, sum_y].map(|sum| Self::or_nan(whole, sum.total()))
+    }
+
+    /// Power τ ω₀ − **a**·**P**, W, of a torque τ on the root and an acceleration
+    /// **a** of its pivot, **P** the momentum: of the inertial forces −m **a** in the
+    /// centres of mass. NaN for slices of another length than there are links.
+    #[must_use]
+    pub fn drive_power(&self, [x, y, torque]: [T; 3], theta: &[T], omega: &[T]) -> T {
+        let [momentum_x, momentum_y] = self.momentum(theta, omega);
+        torque * at(omega, 0) - (x * momentum_x + y * momentum_y)
+    }
+
+    /// Power −Σ c (ω − ω_parent)² + k ω², W, of friction and drag. NaN for a slice
+    /// of another length than there are links.
+    #[must_use]
+    pub fn friction_power(&self, omega: &[T]) -> T {
+        let mut sum = Sum::new();
+        let whole = omega.len() == self.shape.links();
+        if whole {
+            self.shape.each(|link, parent, row| {
+                if let Some(&[.., friction, drag]) = self.rows.get(row) {
+                    let rate = at(omega, link);
+                    let relative = match parent {
+                        Some(parent) => rate - at(omega, parent),
+                        None => rate,
+                    };
+                    sum.add(friction * relative * relative + drag * rate * rate);
+                }
+            });
+        }
+        Self::or_nan(whole, -sum.total())
+    }
+
+    /// Potential energy, J, zero where all angles are zero: Σ m g H + m g d
+    /// (1 − cos θ) + m g e sin θ + ½ κ (θ − θ_parent)², the height of a link's pivot
+    /// H = H_parent + ℓ (1 − cos θ_parent) + w sin θ_parent. NaN for a slice of
+    /// another length than there are links.
+    #[must_use]
+    pub fn potential_energy(&self, theta: &[T]) -> T {
+        let links = self.shape.links();
+        if theta.len() != links {
+            return T::from_f64(f64::NAN);
+        }
+        let (one, zero) = (T::from_f64(1.0), T::from_f64(0.0));
+        let mut sum = Sum::new();
+        {
+            let buffer = &mut *alloc::vec![zero; 3 * links];
+            let (heights, buffer) = buffer.split_at_mut(links);
+            let (rises, shifts) = buffer.split_at_mut(links);
+            self.shape.each(|link, parent, row| {
+                let Some(row) = self.rows.get(row) else {
+                    return;
+                };
+                let &[
+                    _,
+                    _,
+                    _,
+                    _,
+                    along,
+                    across,
+                    weight,
+                    gravity,
+                    lateral,
+                    spring,
+                    ..,
+                ] = row;
+                let angle = at(theta, link);
+                let (height, bend) = match parent {
+                    Some(parent) => {
+                        let rise = along * at(rises, parent);
+                        (
+                            at(heights, parent) + rise + across * at(shifts, parent),
+                            angle - at(theta, parent),
+                        )
+                    }
+                    None => (zero, angle),
+                };
+                let (shift, cosine) = angle.sin_cos();
+                let rise = one - cosine;
+                let own = gravity * rise + lateral * shift;
+                sum.add(weight * height + own + spring * bend * bend);
+                put(heights, link, height);
+                put(rises, link, rise);
+                put(shifts, link, shift);
+            });
+        }
+        sum.total()
+    }
+
+    /// Tells of every link: its row, the velocity of its pivot, m **W** ω, ω. False
+    /// for slices of another length than there are links.
+    #[inline(always)]
+    fn moving(
+        &self,
+        theta: &[T],
+        omega: &[T],
+        mut tell: impl FnMut(&[T; ROW], [T; 2], [T; 2], T),
+    ) -> bool {
+        let links = self.shape.links();
+        if [theta.len(), omega.len()] != [links; 2] {
+            return false;
+        }
+        let zero = T::from_f64(0.0);
+        {
+            let buffer = &mut *alloc::vec![zero; 4 * links];
+            // Velocities of pivots, and ω v.
+            let (pivots_x, buffer) = buffer.split_at_mut(links);
+            let (pivots_y, buffer) = buffer.split_at_mut(links);
+            let (turns_x, turns_y) = buffer.split_at_mut(links);
+            self.shape.each(|link, parent, row| {
+                let Some(row) = self.rows.get(row) else {
+                    return;
+                };
+                let &[_, moment, lateral, _, along, across, ..] = row;
+                let [x, y] = match parent {
+                    Some(parent) => {
+                        let (x, y) = (at(turns_x, parent), at(turns_y, parent));
+                        [
+                            at(pivots_x, parent) + (along * x - across * y),
+                            at(pivots_y, parent) + (along * y + across * x),
+                        ]
+                    }
+                    None => [zero, zero],
+                };
+                let (sine, cosine) = at(theta, link).sin_cos();
+                let rate = at(omega, link);
+                let (turn_x, turn_y) = (rate * cosine, rate * sine);
+                let own = [
+                    moment * turn_x - lateral * turn_y,
+                    moment * turn_y + lateral * turn_x,
+                ];
+                tell(row, [x, y], own, rate);
+                put(pivots_x, link, x);
+                put(pivots_y, link, y);
+                put(turns_x, link, turn_x);
+                put(turns_y, link, turn_y);
+            });
+        }
+        true
+    }
+
+    fn or_nan(whole: bool, value: T) -> T {
+        match whole {
+            true => value,
+            false => T::from_f64(f64::NAN),
+        }
+    }
+}
+
+/// The number of a link, zero where there is none.
+#[inline(always)]
+fn at<T: Scalar>(numbers: &[T], link: usize) -> T {
+    match numbers.get(link) {
+        Some(&number) => number,
+        None => T::from_f64(0.0),
+    }
+}
+
+#[inline(always)]
+fn put<T>(numbers: &mut [T], link: usize, value: T) {
+    if let Some(number) = numbers.get_mut(link) {
+        *number = value;
+    }
+}

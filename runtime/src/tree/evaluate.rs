@@ -1,0 +1,329 @@
+//! Accelerations of one state: the tree in one piece, or block by block where it
+//! is large.
+
+use core::ops::Range;
+
+use super::block::{Block, WIDEST};
+use super::equations::LinkEquations;
+use super::interface::Interface;
+use super::layout;
+use super::memory::{LINE, Room, line, odd_lines, take};
+use super::motion::{Motions, joint_motions};
+use super::partition::Partition;
+use super::root::RootDrive;
+use super::shared::Shared;
+use super::skeleton::Skeleton;
+use super::sweep::{self, Sweep, View};
+use crate::scalar::Scalar;
+use crate::system::Workspace;
+
+/// The ways through a block, compiled for one set of equations.
+pub(super) struct Kernels<T: 'static> {
+    pub(super) up: fn(&View<'_, T, T>),
+    pub(super) down: fn(&View<'_, T, T>, Shared<'_, T>),
+}
+
+impl<T: Scalar> Kernels<T> {
+    pub(super) const fn of<E: LinkEquations>() -> Self {
+        Self {
+            up: sweep::up::<E, T>,
+            down: sweep::down::<E, T>,
+        }
+    }
+}
+
+/// One evaluation.
+struct Evaluation<'a, T: 'static> {
+    tree: &'a Skeleton<T>,
+    kernels: &'a Kernels<T>,
+    drive: Option<RootDrive<T>>,
+    theta: &'a [T],
+    omega: &'a [T],
+}
+
+impl<T: Scalar> Evaluation<'_, T> {
+    fn sweep<'a>(
+        &'a self,
+        block: Block<'a>,
+        room: &Room,
+        [lasting, passing]: [&'a mut [T]; 2],
+    ) -> Sweep<'a, T, T> {
+        Sweep {
+            block,
+            constants: &self.tree.constants,
+            omega: self.omega,
+            storage: room.storage(lasting, passing),
+            root: None,
+            torque: None,
+        }
+    }
+
+    /// Forms what is known before the recursion, with what is of the generation
+    /// `below`.
+    fn prepare(
+        &self,
+        sweep: &mut Sweep<'_, T, T>,
+        below: Option<Interface<'_, T>>,
+        alpha: Shared<'_, T>,
+    ) {
+        if let Some(below) = below {
+            below.load_responses(sweep);
+        }
+        let ends = sweep.block.ends;
+        T::dispatch(Motions {
+            sweep: &mut *sweep,
+            theta: self.theta,
+            omega: self.omega,
+            alpha: ends.then_some(alpha),
+        });
+        if self.tree.sizes.joints {
+            let at = |numbers: &[T], link: usize| match numbers.get(link) {
+                Some(&number) => number,
+                None => T::from_f64(0.0),
+            };
+            joint_motions(
+                sweep,
+                &self.tree.plan.parents,
+                |link| at(self.theta, link),
+                |link| at(self.omega, link),
+            );
+        }
+    }
+
+    /// From the leaves, or what is known of the generation `below`, to the first
+    /// generation.
+    fn up(
+        &self,
+        sweep: &mut Sweep<'_, T, T>,
+        below: Option<Interface<'_, T>>,
+        alpha: Shared<'_, T>,
+    ) {
+        self.prepare(sweep, below, alpha);
+        if let Some(view) = sweep.view() {
+            (self.kernels.up)(&view);
+        }
+    }
+
+    /// From the first generation to the leaves, or the generation `below`.
+    fn down(
+        &self,
+        sweep: &mut Sweep<'_, T, T>,
+        below: Option<Interface<'_, T>>,
+        alpha: Shared<'_, T>,
+    ) {
+        let (start, reach) = (sweep.block.start, sweep.block.strips.reach());
+        if let (Some(view), Some(alpha)) = (sweep.view(), alpha.window(start, reach.whole)) {
+            (self.kernels.down)(&view, alpha);
+        }
+        if let Some(below) = below {
+            below.store_pivots(sweep);
+        }
+    }
+
+    /// Up and down again: the whole tree, or what is above the first `partitions`, of
+    /// which the last one starts with the generation `below`.
+    fn solve(
+        &self,
+        partitions: usize,
+        below: Option<Interface<'_, T>>,
+        buffer: &mut [T],
+        alpha: Shared<'_, T>,
+    ) {
+        let Skeleton {
+            plan,
+            layout,
+            sizes,
+            ..
+        } = self.tree;
+        let mut buffer = buffer;
+        let (Some(partition), Some(room)) =
+            (plan.partitions.get(partitions), layout.blocks.get(partitions))
+        else {
+            let lasting = take(&mut buffer, layout.top.lasting());
+            let mut sweep = self.sweep(plan.top(), &layout.top, [lasting, buffer]);
+            sweep.torque = self.drive.map(|drive| drive.torque);
+            sweep.root = Some(RootDrive::above(self.tree.root, self.drive));
+            self.prepare(&mut sweep, below, alpha);
+            let reach = sweep.block.strips.reach();
+            if let (Some(view), Some(alpha)) = (sweep.view(), alpha.window(0, reach.whole)) {
+                (self.kernels.up)(&view);
+                (self.kernels.down)(&view, alpha);
+            }
+            if let Some(below) = below {
+                below.store_pivots(&mut sweep);
+            }
+            return;
+        };
+        let threads = self.tree.threads();
+        let interface = Interface::<T>::room(partition.count, *sizes);
+        let level = Level {
+            partition,
+            room,
+            start: Interface::new(take(&mut buffer, interface), partition.count),
+            below,
+            alpha,
+        };
+        let workers = layout::workers::<T>(partition, room, threads);
+        let workers = take(&mut buffer, workers);
+        super::threads::all(level.jobs(threads, &mut *workers), |blocks| {
+            self.blocks_up(blocks);
+        });
+        self.solve(partitions + 1, Some(level.start), buffer, alpha);
+        super::threads::all(level.jobs(threads, workers), |blocks| {
+            self.blocks_down(blocks);
+        });
+    }
+
+    /// Up through blocks.
+    fn blocks_up(&self, mut blocks: Blocks<'_, T>) {
+        let Level {
+            partition,
+            start,
+            below,
+            alpha,
+            ..
+        } = blocks.level;
+        for block in partition.windows(&blocks.links) {
+            let mut sweep = self.block(block, &mut blocks);
+            self.up(&mut sweep, below, alpha);
+            start.store_responses(&mut sweep);
+        }
+    }
+
+    /// Down through them. Where nothing was kept of the way up, it is taken again:
+    /// that takes less time than writing what is formed to memory and reading it back.
+    fn blocks_down(&self, mut blocks: Blocks<'_, T>) {
+        let Level {
+            partition,
+            start,
+            below,
+            alpha,
+            ..
+        } = blocks.level;
+        for mut block in partition.windows(&blocks.links) {
+            block.ends = true;
+            let mut sweep = self.block(block, &mut blocks);
+            if !partition.keeps {
+                self.up(&mut sweep, below, alpha);
+            }
+            start.load_pivots(&mut sweep);
+            self.down(&mut sweep, below, alpha);
+        }
+    }
+
+    fn block<'a>(&'a self, block: Block<'a>, blocks: &'a mut Blocks<'_, T>) -> Sweep<'a, T, T> {
+        let Level {
+            partition, room, ..
+        } = blocks.level;
+        let lasting = match partition.keeps {
+            true => take(&mut blocks.lasting, room.lasting()),
+            false => &mut *blocks.lasting,
+        };
+        self.sweep(block, room, [lasting, &mut *blocks.passing])
+    }
+}
+
+/// A partition, and the state of all threads there.
+#[derive(Debug)]
+struct Level<'a, T> {
+    partition: &'a Partition,
+    room: &'a Room,
+    /// What is told of the first generation, and of the one that comes behind.
+    start: Interface<'a, T>,
+    below: Option<Interface<'a, T>>,
+    alpha: Shared<'a, T>,
+}
+
+impl<T> Clone for Level<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Level<'_, T> {}
+
+impl<'a, T> Level<'a, T> {
+    /// The blocks of each thread.
+    fn jobs<'b>(
+        self,
+        threads: usize,
+        mut workers: &'b mut [T],
+    ) -> impl Iterator<Item = Blocks<'b, T>>
+    where
+        'a: 'b,
+    {
+        self.partition.jobs(threads).map(move |links| {
+            let room = layout::worker::<T>(self.partition, self.room, &links);
+            let mut own = take(&mut workers, room);
+            Blocks {
+                level: self,
+                links,
+                passing: take(&mut own, self.room.passing()),
+                lasting: own,
+            }
+        })
+    }
+}
+
+/// The blocks of a thread.
+struct Blocks<'a, T> {
+    level: Level<'a, T>,
+    /// Those that start with these links.
+    links: Range<usize>,
+    lasting: &'a mut [T],
+    passing: &'a mut [T],
+}
+
+/// Writes the accelerations of one state to `alpha`: NaN for slices of another length
+/// than there are links.
+pub(super) fn accelerations<T: Scalar>(
+    tree: &Skeleton<T>,
+    kernels: &Kernels<T>,
+    drive: Option<RootDrive<T>>,
+    [theta, omega]: [&[T]; 2],
+    alpha: &mut [T],
+    workspace: &mut Workspace<T>,
+) {
+    let links = tree.plan.links();
+    if theta.len() != links || omega.len() != links || alpha.len() != links {
+        alpha.fill(T::from_f64(f64::NAN));
+        return;
+    }
+    let buffer = workspace.numbers(tree.room);
+    let unaligned = buffer.as_ptr().align_offset(LINE).min(line::<T>());
+    let mut buffer = buffer.get_mut(unaligned..).unwrap_or_default();
+    let order = &tree.plan.order;
+    if order.is_empty() {
+        let evaluation = Evaluation {
+            tree,
+            kernels,
+            drive,
+            theta,
+            omega,
+        };
+        evaluation.solve(0, None, buffer, Shared::new(alpha));
+        return;
+    }
+    // Links of any shape stand in the order of the strips.
+    let mut column = || take(&mut buffer, odd_lines(line::<T>(), links + WIDEST));
+    let [own_theta, own_omega, own_alpha] = [column(), column(), column()];
+    for ((own_theta, own_omega), &link) in own_theta.iter_mut().zip(&mut *own_omega).zip(order) {
+        let link = link as usize;
+        if let (Some(&angle), Some(&rate)) = (theta.get(link), omega.get(link)) {
+            (*own_theta, *own_omega) = (angle, rate);
+        }
+    }
+    let evaluation = Evaluation {
+        tree,
+        kernels,
+        drive,
+        theta: own_theta.get(..links).unwrap_or_default(),
+        omega: own_omega,
+    };
+    evaluation.solve(0, None, buffer, Shared::new(own_alpha));
+    for (&acceleration, &link) in own_alpha.iter().zip(order) {
+        if let Some(place) = alpha.get_mut(link as usize) {
+            *place = acceleration;
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! Large trees: equations of motion in loops.
+//!
+//! The attribute writes the equations of one link ([`LinkEquations`]); a [`Tree`]
+//! takes them from the leaves to the root and back. Time and memory are proportional
+//! to the number of links; code and the time to compile it do not depend on it.
+//!
+//! # Strips
+//! Links that are computed together are a strip: neighbours in memory, several in a
+//! vector register. In a tree by rule a generation is a strip, with one row of
+//! constants; in any other tree all links of one height are one, height being the
+//! distance to the deepest leaf below, with constants in columns. Many states of one
+//! tree go the same way, with a register of states in place of each number.
+//!
+//! # Order of the links in a tree by rule
+//! Generation by generation from the root on. Within a generation the first
+//! copies under all parents come first, in the order of the parents, then the
+//! second copies: copy `c` (from 0) under link `i` of a generation of `n` links
+//! has number `c · n + i` in the next one. Neighbours then have neighbouring
+//! parents, and no vector has to be gathered. [`Tree::link`] finds a link by its path
+//! from the root.
+//!
+//! # Cost
+//! O(links). Beyond some thousand links the lower generations are computed block by
+//! block, each one small enough for the cache; from [`THREADED`] links on, on several
+//! threads. The result has the same bits for any number of threads.
+//!
+//! # Source
+//! R. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7
+//! (articulated-body algorithm), in the plane; `docs/physics.md`, section 2.
+
+mod block;
+mod bodies;
+mod columns;
+mod equations;
+mod evaluate;
+mod heights;
+mod interface;
+mod layout;
+mod memory;
+mod motion;
+mod partition;
+mod plan;
+mod prefetch;
+mod root;
+mod shared;
+mod skeleton;
+mod states;
+mod strips;
+mod sum;
+mod sweep;
+mod threads;
+
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+use core::num::NonZeroUsize;
+
+pub use bodies::{Bodies, Shape};
+pub use equations::{LinkEquations, LinkMotion, Row};
+pub use crate::generations::LinkName;
+pub use root::RootDrive;
+
+use crate::scalar::{Register, Scalar};
+use crate::simd::wide_slice;
+use crate::system::{InRegisters, Workspace};
+use evaluate::Kernels;
+use memory::Sizes;
+use skeleton::Skeleton;
+
+/// Trees of at least so many links are computed on all cores, unless
+/// [`Tree::set_threads`] says otherwise: below, threads cost more than they save.
+pub const THREADED: usize = 1 << 17;
+
+/// A large tree: its shape and constants, and the equations `E` of its links. Emitted
+/// models hold one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree<E, T> {
+    skeleton: Skeleton<T>,
+    equations: PhantomData<E>,
+}
+
+impl<E: LinkEquations, T: Scalar> Tree<E, T> {
+    /// A tree by generations, with a row of constants for each, and the acceleration
+    /// of the root's pivot against gravity, in the unit of the equations.
+    #[must_use]
+    pub fn new(rows: Vec<E::Constants<T>>, root: [T; 2]) -> Self {
+        let sizes = Sizes::of::<E, T>();
+        let constants = numbers(&rows);
+        Self {
+            skeleton: Skeleton::by_generation(E::COPIES, sizes, constants, root),
+            equations: PhantomData,
+        }
+    }
+
+    /// A tree of any shape, with the parent of each link, which stands before it (the
+    /// root's own is 0), and a row of constants for each.
+    #[must_use]
+    pub fn with_parents(parents: &[u32], rows: Vec<E::Constants<T>>, root: [T; 2]) -> Self {
+        let sizes = Sizes::of::<E, T>();
+        Self {
+            skeleton: Skeleton::by_link(parents, sizes, &numbers(&rows), root),
+            equations: PhantomData,
+        }
+    }
+
+    /// Computes on so many threads, where the tree is large enough to be taken
+    /// apart. Results do not depend on it.
+    pub fn set_threads(&mut self, threads: NonZeroUsize) {
+        self.skeleton.set_threads(threads.get());
+    }
+
+    /// Writes the angular accelerations, as
+    /// [`Pendulum::accelerations_with`](crate::Pendulum::accelerations_with), of a
+    /// driven tree at a time of its drive.
+    pub fn accelerations_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        drive: Option<RootDrive<T>>,
+        theta: &[T],
+        omega: &[T],
+        alpha: &mut [T],
+    ) {
+        let accelerate = skeleton::accelerate::<T>();
+        let kernels = Kernels::of::<E>();
+        accelerate(&self.skeleton, &kernels, drive, [theta, omega], alpha, workspace);
+    }
+
+    /// Writes the same, in memory that is allocated for this once.
+    pub fn accelerations_into(
+        &self,
+        drive: Option<RootDrive<T>>,
+        theta: &[T],
+        omega: &[T],
+        alpha: &mut [T],
+    ) {
+        self.accelerations_with(&mut Workspace::new(), drive, theta, omega, alpha);
+    }
+
+    /// Returns the same tree on other scalars; computed on as many threads.
+    #[must_use]
+    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Tree<E, S> {
+        Tree {
+            skeleton: self.skeleton.cast(convert),
+            equations: PhantomData,
+        }
+    }
+
+    /// Tells the accelerations in the arithmetic of `T`, as
+    /// [`Cast::evaluate`](crate::Cast::evaluate). Allocates.
+    #[inline(always)]
+    pub fn evaluate(
+        &self,
+        drive: Option<RootDrive<T>>,
+        theta: impl Fn(usize) -> T,
+        omega: impl Fn(usize) -> T,
+        alpha: impl FnMut(usize, T),
+    ) {
+        let mut room = alloc::vec![T::from_f64(0.0); self.room()];
+        states::accelerations::<E, T, T>(&self.skeleton, drive, &mut room, theta, omega, alpha);
+    }
+
+    /// Returns how many values a register of states takes in a batch.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn room(&self) -> usize {
+        states::room(&self.skeleton)
+    }
+
+    /// Returns many states in registers, with so much room for each.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn in_registers<V: Register<Lane = T>>(
+        &self,
+        drive: Option<RootDrive<T>>,
+        room: &mut [T],
+    ) -> impl InRegisters<V> {
+        WithRoom {
+            tree: self,
+            drive: drive.map(|drive| drive.map(V::splat)),
+            room: match wide_slice(room) {
+                Some(values) => Room::Lent(values),
+                None => Room::Own(alloc::vec![V::from_f64(0.0); self.room()]),
+            },
+        }
+    }
+}
+
+/// A tree at one time of its drive, and room for the values of states.
+struct WithRoom<'t, 'r, E, T, V> {
+    tree: &'t Tree<E, T>,
+    drive: Option<RootDrive<V>>,
+    room: Room<'r, V>,
+}
+
+/// Memory for values.
+enum Room<'r, V> {
+    Lent(&'r mut [V]),
+    Own(Vec<V>),
+}
+
+impl<E: LinkEquations, V: Register> InRegisters<V> for WithRoom<'_, '_, E, V::Lane, V> {
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        theta: impl Fn(usize) -> V,
+        omega: impl Fn(usize) -> V,
+        alpha: impl FnMut(usize, V),
+    ) {
+        let room = match &mut self.room {
+            Room::Lent(values) => &mut **values,
+            Room::Own(values) => values,
+        };
+        let tree = &self.tree.skeleton;
+        states::accelerations::<E, V::Lane, V>(tree, self.drive, room, theta, omega, alpha);
+    }
+}
+
+impl<E: LinkEquations, T> Tree<E, T> {
+    /// Index of the link that one comes to from the root by these copies, each
+    /// counted from 0; the empty path is the root's. None where there is no such
+    /// link, or the tree is not by generations.
+    #[must_use]
+    pub fn link(path: &[usize]) -> Option<usize> {
+        let (mut start, mut count, mut index) = (0, *E::COPIES.first()?, 0);
+        let mut copies = E::COPIES.iter().skip(1);
+        for &copy in path {
+            let copies = *copies.next()?;
+            if copy >= copies {
+                return None;
+            }
+            start += count;
+            index += copy * count;
+            count *= copies;
+        }
+        Some(start + index)
+    }
+
+    /// The path from the root to a link: the inverse of [`link`](Self::link).
+    #[must_use]
+    pub fn path(index: usize) -> Option<Vec<usize>> {
+        let (generation, mut rest) = place(E::COPIES, index)?;
+        let copies = E::COPIES.get(1..=generation).unwrap_or_default();
+        let mut path = Vec::with_capacity(generation);
+        for &copies in copies {
+            path.push(rest % copies);
+            rest /= copies;
+        }
+        Some(path)
+    }
+
+    /// The name of a link of a tree by generations.
+    #[must_use]
+    pub fn link_name(index: usize) -> Option<LinkName> {
+        let (generation, index) = place(E::COPIES, index)?;
+        Some(LinkName {
+            stem: E::NAMES.get(generation)?,
+            copies: E::COPIES.get(1..=generation)?,
+            index,
+        })
+    }
+}
+
+/// Returns the generation of a link, and its number there.
+fn place(copies: &[usize], index: usize) -> Option<(usize, usize)> {
+    let (mut count, mut rest) = (1, index);
+    for (generation, copies) in copies.iter().enumerate() {
+        count *= copies;
+        if rest < count {
+            return Some((generation, rest));
+        }
+        rest -= count;
+    }
+    None
+}
+
+/// Returns rows one after the other.
+fn numbers<T: Copy, A: Row<T>>(rows: &[A]) -> Vec<T> {
+    rows.iter().flat_map(|row| row.as_ref().iter().copied()).collect()
+}
+
+/// Returns rows of constants in a model's scalar. Each number is given as the `f64`
+/// nearest to it and the `f64` nearest to the rest.
+#[must_use]
+pub fn rows<T: Scalar, const N: usize>(exact: &[[[f64; 2]; N]]) -> Vec<[T; N]> {
+    let row = |row: &[[f64; 2]; N]| row.map(|[high, low]| T::from_parts(high, low));
+    exact.iter().map(row).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,184 @@
+//! How a tree is taken apart.
+
+use alloc::vec::Vec;
+
+use super::block::{Block, Generation, generations};
+use super::partition::{Partition, Policy};
+use super::heights::Heights;
+use super::strips::Strips;
+
+/// The generations of a tree, and how it is partition.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Plan {
+    /// Of the whole tree.
+    generations: Vec<Generation>,
+    /// Above the partitions.
+    strips: Strips,
+    /// From the leaves up; none where the tree is one.
+    pub(super) partitions: Vec<Partition>,
+    widest: usize,
+    /// Where the tree is of any shape: the number of the link in each place, and the
+    /// place of its parent.
+    pub(super) order: Vec<u32>,
+    pub(super) parents: Vec<u32>,
+}
+
+impl Plan {
+    /// For a tree with so many copies of each generation under each link of the
+    /// one before.
+    pub(super) fn new(copies: &[usize], policy: Policy) -> Self {
+        let (mut counts, mut starts) = (Vec::new(), Vec::new());
+        let (mut count, mut start) = (1, 0);
+        for &copies in copies {
+            count *= copies;
+            counts.push(count);
+            starts.push(start);
+            start += count;
+        }
+        let mut partitions = Vec::new();
+        let (mut end, mut above, mut fitting) = (copies.len(), start, policy.whole);
+        while above > policy.whole {
+            let has_leaves = end == copies.len();
+            // The longest subtrees that fit with their neighbours.
+            let inner = 1..end.saturating_sub(usize::from(has_leaves));
+            let fits = |&generation: &usize| {
+                let count = counts[generation].max(1);
+                let each = (above - starts[generation]) / count;
+                count >= policy.width && each.saturating_mul(policy.width) <= fitting
+            };
+            let partition = inner.clone().find(fits);
+            let Some(first) = partition.or(inner.last().filter(|_| has_leaves)) else {
+                break;
+            };
+            let links = above - starts[first];
+            let taken = (end + 1).min(copies.len()) - first;
+            partitions.push(Partition::new(
+                first,
+                [counts[first], links],
+                has_leaves,
+                policy,
+                |width| {
+                    let sizes = [width, policy.widest];
+                    let below = generations(copies, &starts, &counts, first, sizes);
+                    below.take(taken).collect()
+                },
+            ));
+            (end, above, fitting) = (first, starts[first], policy.inner);
+            if policy.once {
+                break;
+            }
+        }
+        let generations: Vec<Generation> = generations(copies, &starts, &counts, 0, [1, policy.widest]).collect();
+        let inner = inner(&generations, &partitions);
+        let strips = Strips::new(
+            generations.get(..=inner).unwrap_or_default(),
+            0,
+            inner,
+            partitions.is_empty(),
+            policy.widest,
+        );
+        Self {
+            generations,
+            strips,
+            partitions,
+            widest: policy.widest,
+            order: Vec::new(),
+            parents: Vec::new(),
+        }
+    }
+
+    /// For a tree of any shape, of the parents of all links, before which they stand.
+    /// Links of one height, the distance to the deepest leaf below, are a strip: their
+    /// children are in strips behind it, their parents in strips before it.
+    pub(super) fn by_height(parents: &[u32], policy: Policy) -> Self {
+        let Heights {
+            order,
+            parents,
+            lengths,
+        } = Heights::new(parents);
+        let links = order.len();
+        Self {
+            generations: alloc::vec![Generation::of_all(links)],
+            strips: Strips::by_height(&lengths, &parents, policy.widest),
+            partitions: Vec::new(),
+            widest: policy.widest,
+            order,
+            parents,
+        }
+    }
+
+    /// Number of links.
+    pub(super) fn links(&self) -> usize {
+        let last = self.generations.last();
+        last.map_or(0, |last| last.whole + last.count)
+    }
+
+    /// The generations above the partitions, or the whole tree.
+    pub(super) fn top(&self) -> Block<'_> {
+        let inner = inner(&self.generations, &self.partitions);
+        let inner = inner.max(usize::from(!self.order.is_empty()));
+        Block {
+            generations: self.generations.get(..=inner).unwrap_or_default(),
+            inner,
+            has_leaves: self.partitions.is_empty() && self.order.is_empty(),
+            start: 0,
+            width: 1,
+            widest: self.widest,
+            ends: true,
+            strips: &self.strips,
+        }
+    }
+}
+
+/// How many generations above the partitions have children.
+fn inner(generations: &[Generation], partitions: &[Partition]) -> usize {
+    let leaf = generations.len().saturating_sub(1);
+    partitions.last().map_or(leaf, |partition| partition.first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Marks the links of a block.
+    fn mark(block: Block<'_>, found: &mut [usize]) {
+        for (_, whole, length) in block.spans() {
+            for link in &mut found[whole..whole + length] {
+                *link += 1;
+            }
+        }
+    }
+
+    fn every_link_is_in_one_part(copies: &[usize], partitions: &[usize]) {
+        let plan = Plan::new(copies, Policy::ONE_STATE);
+        let firsts: Vec<usize> = plan.partitions.iter().map(|partition| partition.first).collect();
+        assert_eq!(firsts, partitions);
+        for threads in [1, 2, 3] {
+            let mut found = alloc::vec![0; plan.links()];
+            mark(plan.top(), &mut found);
+            for partition in &plan.partitions {
+                for links in partition.jobs(threads) {
+                    partition.windows(&links).for_each(|block| mark(block, &mut found));
+                }
+            }
+            assert!(found.iter().all(|&blocks| blocks == 1), "{copies:?}");
+        }
+    }
+
+    #[test]
+    fn large_trees_are_cut_more_than_once() {
+        let binary = |generations: usize| {
+            let mut copies = alloc::vec![2; generations];
+            copies[0] = 1;
+            copies
+        };
+        every_link_is_in_one_part(&binary(13), &[]);
+        every_link_is_in_one_part(&binary(17), &[12]);
+        every_link_is_in_one_part(&binary(18), &[13]);
+        every_link_is_in_one_part(&binary(20), &[15, 11]);
+        every_link_is_in_one_part(&binary(23), &[18, 14, 10]);
+        every_link_is_in_one_part(&[1, 600, 14, 11, 4], &[3, 1]);
+        every_link_is_in_one_part(&[1, 20000], &[]);
+        every_link_is_in_one_part(&[1, 1, 20000], &[1]);
+    }
+}

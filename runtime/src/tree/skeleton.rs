@@ -1,0 +1,146 @@
+//! What of a tree does not depend on its equations.
+
+use alloc::vec::Vec;
+use core::any::Any;
+
+use super::block::WIDEST;
+use super::evaluate::{Kernels, accelerations};
+use super::layout::Layout;
+use super::memory::{Sizes, line, odd_lines};
+use super::partition::Policy;
+use super::plan::Plan;
+use super::root::RootDrive;
+use super::threads;
+use crate::scalar::Scalar;
+use crate::system::Workspace;
+
+/// The shape of a tree, its constants, and how it is computed.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Skeleton<T> {
+    /// For one state, and for states in lanes.
+    pub(super) plan: Plan,
+    pub(super) states: Plan,
+    pub(super) sizes: Sizes,
+    /// Rows of the generations, one after the other, or columns of the links in the
+    /// order of the plan.
+    pub(super) constants: Vec<T>,
+    /// Acceleration of the root's pivot.
+    pub(super) root: [T; 2],
+    threads: usize,
+    pub(super) layout: Layout,
+    /// How many numbers an evaluation of one state needs room for.
+    pub(super) room: usize,
+}
+
+impl<T: Scalar> Skeleton<T> {
+    /// A tree with a row of constants a generation.
+    pub(super) fn by_generation(
+        copies: &[usize],
+        sizes: Sizes,
+        constants: Vec<T>,
+        root: [T; 2],
+    ) -> Self {
+        let plan = Plan::new(copies, Policy::ONE_STATE);
+        let threads = threads::default(plan.links());
+        let states = Plan::new(copies, Policy::STATES);
+        Self::new(plan, states, sizes, constants, root, threads)
+    }
+
+    /// A tree with a row of constants a link, one after the other.
+    pub(super) fn by_link(parents: &[u32], sizes: Sizes, rows: &[T], root: [T; 2]) -> Self {
+        let plan = Plan::by_height(parents, Policy::ONE_STATE);
+        let length = odd_lines(line::<T>(), parents.len() + WIDEST);
+        let mut constants = alloc::vec![T::from_f64(0.0); sizes.constants * length];
+        if let Some(width) = core::num::NonZeroUsize::new(sizes.constants) {
+            let rows: Vec<&[T]> = rows.chunks(width.get()).collect();
+            for (column, numbers) in constants.chunks_mut(length).enumerate() {
+                for (number, &link) in numbers.iter_mut().zip(&plan.order) {
+                    let row = rows.get(link as usize);
+                    if let Some(&value) = row.and_then(|row| row.get(column)) {
+                        *number = value;
+                    }
+                }
+            }
+        }
+        let states = Plan::by_height(parents, Policy::STATES);
+        Self::new(plan, states, sizes, constants, root, 1)
+    }
+
+    fn new(
+        plan: Plan,
+        states: Plan,
+        sizes: Sizes,
+        constants: Vec<T>,
+        root: [T; 2],
+        threads: usize,
+    ) -> Self {
+        let layout = Layout::new::<T>(&plan, sizes);
+        Self {
+            room: layout.room::<T>(&plan, sizes, threads),
+            layout,
+            plan,
+            states,
+            sizes,
+            constants,
+            root,
+            threads,
+        }
+    }
+
+    pub(super) fn threads(&self) -> usize {
+        self.threads
+    }
+
+    pub(super) fn set_threads(&mut self, threads: usize) {
+        self.threads = threads;
+        self.room = self.layout.room::<T>(&self.plan, self.sizes, threads);
+    }
+
+    /// The same tree on other scalars.
+    pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Skeleton<S> {
+        Skeleton::new(
+            self.plan.clone(),
+            self.states.clone(),
+            self.sizes,
+            self.constants.iter().map(|&x| convert(x)).collect(),
+            self.root.map(&convert),
+            self.threads,
+        )
+    }
+}
+
+/// Writes the accelerations of one state, in room that is given.
+pub(super) type Accelerate<T> = fn(
+    &Skeleton<T>,
+    &Kernels<T>,
+    Option<RootDrive<T>>,
+    [&[T]; 2],
+    &mut [T],
+    &mut Workspace<T>,
+);
+
+/// Returns [`Accelerate`] for these numbers. For `f64` and `f32` it is compiled with
+/// this crate, once, and not with every model.
+pub(super) fn accelerate<T: Scalar>() -> Accelerate<T> {
+    if T::PLAIN {
+        for compiled in [&in_f64() as &dyn Any, &in_f32() as &dyn Any] {
+            if let Some(&function) = compiled.downcast_ref::<Accelerate<T>>() {
+                return function;
+            }
+        }
+        // There are no other plain numbers.
+        |_, _, _, _, alpha, _| alpha.fill(T::from_f64(f64::NAN))
+    } else {
+        accelerations
+    }
+}
+
+#[inline(never)]
+fn in_f64() -> Accelerate<f64> {
+    accelerations
+}
+
+#[inline(never)]
+fn in_f32() -> Accelerate<f32> {
+    accelerations
+}

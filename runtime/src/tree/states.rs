@@ -1,0 +1,191 @@
+//! Many states of one tree, each in a lane.
+//!
+//! The numbers of the sweep are registers then, each link by itself. One subtree goes
+//! up after the other, each so small that what is handed on in it stays in the first
+//! cache, then what is above them up and down, then the subtrees down, the last one
+//! first.
+//!
+//! # Which bits
+//! The equations are those of one state, and so is the order of each sum: a state
+//! has the bits that it has alone.
+
+use super::block::Block;
+use super::equations::LinkEquations;
+use super::memory::{Room, take};
+use super::motion::each_link;
+use super::root::RootDrive;
+use super::skeleton::Skeleton;
+use super::sweep::{Output, Passes, Sweep};
+use crate::scalar::Scalar;
+use crate::simd::Simd;
+
+/// Where accelerations go: to a function of the link and its acceleration. Blocks
+/// start with some link; links of any shape have an order.
+struct Told<'a, F> {
+    alpha: &'a mut F,
+    start: usize,
+    order: &'a [u32],
+}
+
+#[allow(unsafe_code)]
+impl<V: Scalar, F: FnMut(usize, V)> Output<V> for Told<'_, F> {
+    #[inline(always)]
+    unsafe fn write<W: Simd<V>>(&mut self, at: usize, alpha: W, _count: usize) {
+        let mut numbers = [V::from_f64(0.0)];
+        alpha.store(&mut numbers);
+        (self.alpha)(link(self.order, self.start + at), numbers[0]);
+    }
+}
+
+/// The number of the link in a place.
+#[inline(always)]
+fn link(order: &[u32], place: usize) -> usize {
+    match order.is_empty() {
+        true => place,
+        false => order.get(place).map_or(0, |&link| link as usize),
+    }
+}
+
+/// Returns how many values an evaluation needs room for.
+pub(super) fn room<T: Scalar>(tree: &Skeleton<T>) -> usize {
+    let top = Room::new(&tree.states.top(), tree.sizes, 1);
+    let mut room = top.lasting() + top.passing();
+    if let Some(partition) = tree.states.partitions.first() {
+        let block = Room::new(&partition.largest(), tree.sizes, 1);
+        room += block.passing() + partition.count * block.lasting();
+    }
+    room
+}
+
+/// Tells the accelerations of all links, in any order, of states in the lanes of `V`;
+/// of none where the room is too small.
+#[inline(always)]
+pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
+    tree: &Skeleton<T>,
+    drive: Option<RootDrive<V>>,
+    mut room: &mut [V],
+    theta: impl Fn(usize) -> V,
+    omega: impl Fn(usize) -> V,
+    mut alpha: impl FnMut(usize, V),
+) {
+    let (plan, room) = (&tree.states, &mut room);
+    let top_room = Room::new(&plan.top(), tree.sizes, 1);
+    let [lasting, passing] = [top_room.lasting(), top_room.passing()];
+    let [lasting, passing] = [take(room, lasting), take(room, passing)];
+    let mut top = sweep(tree, plan.top(), &top_room, [lasting, passing]);
+    top.torque = drive.map(|drive| drive.torque);
+    let [x, y] = tree.root;
+    top.root = Some(RootDrive::above([V::splat(x), V::splat(y)], drive));
+    let above = plan.top().generations.last();
+    let slot = above.map_or(0, |generation| generation.slot);
+
+    let mut blocks: &mut [V] = &mut [];
+    let mut block_passing: &mut [V] = &mut [];
+    let mut block_room = None;
+    if let Some(partition) = plan.partitions.first() {
+        let own = Room::new(&partition.largest(), tree.sizes, 1);
+        block_passing = take(room, own.passing());
+        blocks = core::mem::take(room);
+        block_room = Some((partition, own));
+    }
+    if let Some((partition, own)) = &block_room {
+        let mut rest = &mut *blocks;
+        for block in partition.windows(&(0..partition.count)) {
+            let lasting = take(&mut rest, own.lasting());
+            let mut sweep = sweep(tree, block, own, [lasting, &mut *block_passing]);
+            form(&mut sweep, &[], &[], &theta, &omega);
+            if let Some(view) = sweep.view() {
+                Passes::<E, T, V, V>::of(&view).up();
+            }
+            for column in 0..tree.sizes.responses {
+                let from = sweep.storage.responses_mut(column, 0, 1);
+                let to = top.storage.responses_mut(column, slot + block.start, 1);
+                if let ([from], [to]) = (from, to) {
+                    *to = *from;
+                }
+            }
+        }
+    }
+    form(&mut top, &plan.order, &plan.parents, &theta, &omega);
+    if let Some(view) = top.view() {
+        let passes = Passes::<E, T, V, V>::of(&view);
+        passes.up();
+        passes.down(&mut Told {
+            alpha: &mut alpha,
+            start: 0,
+            order: &plan.order,
+        });
+    }
+    if let Some((partition, own)) = &block_room {
+        for index in (0..partition.count).rev() {
+            let block = partition.window(index);
+            let start = index * own.lasting();
+            let Some(lasting) = blocks.get_mut(start..start + own.lasting()) else {
+                return;
+            };
+            let mut sweep = sweep(tree, block, own, [lasting, &mut *block_passing]);
+            for column in 0..2 {
+                let from = top.storage.responses_mut(column, slot + index, 1);
+                let to = sweep.storage.responses_mut(column, 0, 1);
+                if let ([from], [to]) = (from, to) {
+                    *to = *from;
+                }
+            }
+            if let Some(view) = sweep.view() {
+                Passes::<E, T, V, V>::of(&view).down(&mut Told {
+                    alpha: &mut alpha,
+                    start: index,
+                    order: &[],
+                });
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn sweep<'a, T: Scalar, V: Simd<T>>(
+    tree: &'a Skeleton<T>,
+    block: Block<'a>,
+    room: &Room,
+    [lasting, passing]: [&'a mut [V]; 2],
+) -> Sweep<'a, T, V> {
+    Sweep {
+        block,
+        constants: &tree.constants,
+        omega: &[],
+        storage: room.storage(lasting, passing),
+        root: None,
+        torque: None,
+    }
+}
+
+/// Forms the motions of a block's links.
+#[inline(always)]
+fn form<T: Scalar, V: Simd<T>>(
+    sweep: &mut Sweep<'_, T, V>,
+    order: &[u32],
+    parents: &[u32],
+    theta: &impl Fn(usize) -> V,
+    omega: &impl Fn(usize) -> V,
+) {
+    let storage = &sweep.storage;
+    each_link(sweep.block, parents, |own, place, parent| {
+        let own = storage.lead + own;
+        let number = link(order, place);
+        let (angle, rate) = (theta(number), omega(number));
+        let (sine, cosine) = angle.sin_cos();
+        let _ = storage.sincos.store::<V, 2>(own, &[sine, cosine]);
+        if let Some(velocities) = storage.velocities {
+            let _ = velocities.store::<V, 1>(own, &[rate]);
+        }
+        if storage.sizes.joints {
+            let (mut angle, mut rate) = (angle, rate);
+            if let Some(parent) = parent {
+                let parent = link(order, parent);
+                angle = angle - theta(parent);
+                rate = rate - omega(parent);
+            }
+            let _ = storage.joint_motions.store::<V, 2>(own, &[angle, rate]);
+        }
+    });
+}

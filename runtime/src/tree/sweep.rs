@@ -1,0 +1,28 @@
+//! Leaves to root, and back: the recursion over a block of the tree.
+
+mod passes;
+mod strip;
+mod view;
+
+use super::block::Block;
+use super::memory::Storage;
+pub(super) use passes::{Passes, down, up};
+#[cfg(test)]
+pub(super) use passes::{Down, Up};
+pub(super) use strip::Output;
+pub(super) use view::View;
+
+/// A block with its state.
+#[derive(Debug)]
+pub(super) struct Sweep<'a, N, T> {
+    pub(super) block: Block<'a>,
+    /// Rows of all generations, or columns of all links.
+    pub(super) constants: &'a [N],
+    /// Velocities, where they are read where they are given.
+    pub(super) omega: &'a [T],
+    pub(super) storage: Storage<'a, T>,
+    /// Acceleration of the root's pivot, where the root is in the block.
+    pub(super) root: Option<[T; 2]>,
+    /// Torque on the root, where the root is in the block.
+    pub(super) torque: Option<T>,
+}

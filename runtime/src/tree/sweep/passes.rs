@@ -1,0 +1,455 @@
+//! The equations, taken through a block: compiled with every model.
+
+#![allow(unsafe_code)]
+
+use core::marker::PhantomData;
+
+use super::strip::{Output, StripView};
+use super::view::View;
+use crate::scalar::Scalar;
+use crate::simd::{Kernel, Simd};
+use crate::tree::columns::{read, write, write_some};
+use crate::tree::equations::{LinkEquations, LinkMotion, Row};
+use crate::tree::memory::Sizes;
+use crate::tree::shared::Shared;
+use crate::tree::strips::{Attachment, Strip};
+
+/// From the leaves of a block to its first generation.
+pub(in crate::tree) fn up<E: LinkEquations, T: Scalar>(view: &View<'_, T, T>) {
+    T::dispatch(Up::<E, T>(view, PhantomData));
+}
+
+/// From the first generation of a block, the accelerations of whose pivots are in
+/// memory, to the leaves. `alpha` starts with the block's first link, and is as long
+/// as its strips reach.
+pub(in crate::tree) fn down<E: LinkEquations, T: Scalar>(
+    view: &View<'_, T, T>,
+    alpha: Shared<'_, T>,
+) {
+    T::dispatch(Down::<E, T>(view, alpha, PhantomData));
+}
+
+pub(in crate::tree) struct Up<'a, E, T>(
+    pub(in crate::tree) &'a View<'a, T, T>,
+    pub(in crate::tree) PhantomData<E>,
+);
+
+pub(in crate::tree) struct Down<'a, E, T>(
+    pub(in crate::tree) &'a View<'a, T, T>,
+    pub(in crate::tree) Shared<'a, T>,
+    pub(in crate::tree) PhantomData<E>,
+);
+
+impl<E: LinkEquations, T: Scalar> Kernel<T> for Up<'_, E, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Simd<T>>(self) {
+        Passes::<E, T, T, V>::of(self.0).up();
+    }
+}
+
+impl<E: LinkEquations, T: Scalar> Kernel<T> for Down<'_, E, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Simd<T>>(mut self) {
+        Passes::<E, T, T, V>::of(self.0).down(&mut self.1);
+    }
+}
+
+/// What a block has, in vectors `V` of numbers `T`, for one set of equations.
+pub(in crate::tree) struct Passes<'a, E, N, T, V> {
+    view: &'a View<'a, N, T>,
+    /// None if the block is not one of these equations.
+    strips: &'a [Strip],
+    attachments: &'a [Attachment],
+    types: PhantomData<(E, V)>,
+}
+
+// SAFETY, for all of this: there are strips only if the view has the columns of these
+// equations; all places come from `StripView::places`, copies are counted up to
+// `StripView::copies`, and attachments are those of the strips.
+impl<'a, E, N, T, V> Passes<'a, E, N, T, V>
+where
+    E: LinkEquations,
+    N: Scalar,
+    T: Scalar + Simd<N>,
+    V: Simd<T>,
+{
+    /// How many copies of children there are everywhere, otherwise 0: what is known
+    /// when the equations are compiled takes no loop.
+    const BRANCHING: usize = branching(E::COPIES);
+
+    /// Constants are a row a link.
+    const BY_LINK: bool = E::COPIES.is_empty();
+
+    #[inline(always)]
+    pub(in crate::tree) fn of(view: &'a View<'_, N, T>) -> Self {
+        let (strips, attachments) = view.strips(Sizes::of::<E, V>(), Self::BRANCHING);
+        Self {
+            view,
+            strips,
+            attachments,
+            types: PhantomData,
+        }
+    }
+
+    /// The constants of a generation; zeros if it has none, or constants are a row a
+    /// link.
+    #[inline(always)]
+    fn row(&self, generation: usize) -> E::Constants<V> {
+        let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
+        let length = <E::Constants<V> as Row<V>>::LENGTH;
+        if Self::BY_LINK {
+            return row;
+        }
+        let start = generation * length;
+        if let Some(numbers) = self.view.constants.get(start..start + length) {
+            let mut i = 0;
+            while i < length {
+                row.as_mut()[i] = V::splat(T::splat(numbers[i]));
+                i += 1;
+            }
+        }
+        if generation == 0 {
+            self.take_torque(&mut row);
+        }
+        row
+    }
+
+    #[inline(always)]
+    fn take_torque(&self, row: &mut E::Constants<V>) {
+        if E::TORQUE
+            && let (Some(torque), Some(last)) = (self.view.torque, row.as_mut().last_mut())
+        {
+            *last = V::splat(torque);
+        }
+    }
+
+    /// The constants of leaves.
+    #[inline(always)]
+    fn leaf(&self) -> E::Constants<V> {
+        self.row(E::COPIES.len().wrapping_sub(1))
+    }
+
+    /// The constants of neighbours: those of their generation, or their own.
+    #[inline(always)]
+    unsafe fn constants(&self, row: &E::Constants<V>, at: usize) -> E::Constants<V> {
+        let mut row = *row;
+        if Self::BY_LINK {
+            let mut column = 0;
+            while column < <E::Constants<V> as Row<V>>::LENGTH {
+                // SAFETY: see the top.
+                row.as_mut()[column] = unsafe { self.view.constant(column, at) };
+                column += 1;
+            }
+            if at == 0 {
+                self.take_torque(&mut row);
+            }
+        }
+        row
+    }
+
+    /// From the last generation to the first. The equations stand here once, for links
+    /// above leaves, in the uppermost generations and between: every copy of them is
+    /// compiled with each model, three times.
+    #[inline(always)]
+    pub(in crate::tree) fn up(&self) {
+        let leaf = self.leaf();
+        let mut responses = <E::Response<V> as Row<V>>::filled(V::from_f64(0.0));
+        let mut strips = self.strips;
+        while let Some((strip, before)) = strips.split_last() {
+            let row = self.row(strip.generation);
+            let below_row = self.row(strip.generation + 1);
+            let near = StripView::of(self.view, strip, Self::BRANCHING);
+            let mut places = near.places::<V>();
+            while let Some(at) = places.next() {
+                // SAFETY: see the top.
+                let constants = unsafe { self.constants(&row, strip.first.own + at) };
+                // SAFETY: see the top.
+                let link = unsafe { near.motion(at, E::JOINTS) };
+                if Self::BY_LINK && strip.copies == 0 {
+                    let response = E::leaf(&constants, link);
+                    // SAFETY: see the top.
+                    unsafe { near.respond_alone(at, &response) };
+                    continue;
+                }
+                let below = match (Self::BY_LINK, strip.leaves) {
+                    // SAFETY: see the top.
+                    (true, _) => unsafe { near.sums(at) },
+                    (_, true) => Self::leaves(&near, at, &leaf, link),
+                    _ if strip.lanes <= V::LANES => {
+                        Self::neighbours(&responses, strip.length, near.copies, &below_row, link)
+                    }
+                    _ => Self::sum(&near, at, &below_row, link),
+                };
+                let elimination;
+                (responses, elimination) = E::inner(&constants, link, below);
+                if Self::BY_LINK {
+                    // SAFETY: see the top.
+                    unsafe { near.respond_alone(at, &responses) };
+                    // SAFETY: see the top.
+                    unsafe { near.keep_alone(at, &elimination) };
+                } else {
+                    // SAFETY: see the top.
+                    unsafe { near.respond(at, &responses) };
+                    // SAFETY: see the top.
+                    unsafe { near.keep(at, &elimination) };
+                }
+            }
+            if Self::BY_LINK {
+                self.attach(strip);
+            }
+            strips = before;
+        }
+    }
+
+    /// The sum of the responses of children that are leaves.
+    #[inline(always)]
+    fn leaves(
+        near: &StripView<'_, T>,
+        at: usize,
+        constants: &E::Constants<V>,
+        link: LinkMotion<V>,
+    ) -> E::Sums<V> {
+        // SAFETY: see the top.
+        let leaf = unsafe { near.leaf(at, 0, E::JOINTS) };
+        let mut sums = E::leaf(constants, leaf);
+        let mut copy = 1;
+        while copy < near.copies {
+            // SAFETY: see the top.
+            let leaf = unsafe { near.leaf(at, copy, E::JOINTS) };
+            add(&mut sums, &E::leaf(constants, leaf));
+            copy += 1;
+        }
+        E::attach(constants, link, sums)
+    }
+
+    /// The sum of the responses of children that are no leaves.
+    #[inline(always)]
+    fn sum(
+        near: &StripView<'_, T>,
+        at: usize,
+        constants: &E::Constants<V>,
+        link: LinkMotion<V>,
+    ) -> E::Sums<V> {
+        // SAFETY: see the top.
+        let mut sums: E::Response<V> = unsafe { near.below(at, 0) };
+        let mut copy = 1;
+        while copy < near.copies {
+            // SAFETY: see the top.
+            add(&mut sums, &unsafe { near.below(at, copy) });
+            copy += 1;
+        }
+        E::attach(constants, link, sums)
+    }
+
+    /// The same where they are in registers, one child behind the other.
+    #[inline(always)]
+    fn neighbours(
+        responses: &E::Response<V>,
+        count: usize,
+        copies: usize,
+        constants: &E::Constants<V>,
+        link: LinkMotion<V>,
+    ) -> E::Sums<V> {
+        let mut sums = *responses;
+        let mut copy = 1;
+        while copy < copies {
+            let mut i = 0;
+            while i < <E::Response<V> as Row<V>>::LENGTH {
+                let other = responses.as_ref()[i].rotate_lanes(copy * count);
+                sums.as_mut()[i] = sums.as_ref()[i] + other;
+                i += 1;
+            }
+            copy += 1;
+        }
+        E::attach(constants, link, sums)
+    }
+
+    /// From the first generation, the acceleration of whose pivots is the root's or in
+    /// memory, to the last.
+    #[inline(always)]
+    pub(in crate::tree) fn down(&self, out: &mut impl Output<T>) {
+        let leaf = self.leaf();
+        let mut known = self.view.root.is_some();
+        let mut pivot = match &self.view.root {
+            Some([x, y]) => [V::splat(*x), V::splat(*y)],
+            None => [V::from_f64(0.0); 2],
+        };
+        let mut strips = self.strips;
+        while let Some((strip, behind)) = strips.split_first() {
+            let row = self.row(strip.generation);
+            let below_row = self.row(strip.generation + 1);
+            let near = StripView::of(self.view, strip, Self::BRANCHING);
+            let in_register = strip.lanes <= V::LANES;
+            let mut places = near.places::<V>();
+            if Self::BY_LINK {
+                self.hand_down(strip);
+            }
+            while let Some(at) = places.next() {
+                if !known {
+                    // SAFETY: see the top.
+                    pivot = unsafe { near.responses(at) };
+                }
+                // SAFETY: see the top.
+                let constants = unsafe { self.constants(&row, strip.first.own + at) };
+                // SAFETY: see the top.
+                let link = unsafe { near.motion(at, E::JOINTS) };
+                if Self::BY_LINK && strip.copies == 0 {
+                    let acceleration = E::accelerate_leaf(&constants, link, pivot);
+                    // SAFETY: see the top.
+                    unsafe { near.accelerate(out, at, acceleration) };
+                    continue;
+                }
+                // SAFETY: see the top.
+                let elimination = unsafe { near.elimination(at) };
+                let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
+                // SAFETY: see the top.
+                unsafe { near.accelerate(out, at, acceleration) };
+                if Self::BY_LINK {
+                    // SAFETY: see the top.
+                    unsafe { near.carry_alone(at, &carried) };
+                    continue;
+                }
+                let mut copy = 0;
+                if strip.leaves {
+                    let below = E::pivot(&leaf, link, carried);
+                    while copy < near.copies {
+                        // SAFETY: see the top.
+                        let link = unsafe { near.leaf(at, copy, E::JOINTS) };
+                        let acceleration = E::accelerate_leaf(&leaf, link, below);
+                        // SAFETY: see the top.
+                        unsafe { near.accelerate_leaf(out, at, copy, acceleration) };
+                        copy += 1;
+                    }
+                    continue;
+                }
+                let below = E::pivot(&below_row, link, carried);
+                if in_register {
+                    pivot = below.map(|number| number.tile_lanes(strip.length));
+                } else {
+                    while copy < near.copies {
+                        // SAFETY: see the top.
+                        unsafe { near.give(at, copy, &below) };
+                        copy += 1;
+                    }
+                }
+            }
+            known = in_register && !Self::BY_LINK;
+            strips = behind;
+        }
+    }
+
+    /// Adds the responses of a strip to the sums of the parents.
+    #[inline(always)]
+    fn attach(&self, strip: &Strip) {
+        let (from, to) = strip.attachments;
+        let row = self.row(0);
+        for attachment in self.attachments.get(from..to).unwrap_or_default() {
+            let &Attachment { parent, child, length, first } = attachment;
+            let mut at = 0;
+            while at < length {
+                // SAFETY: see the top.
+                let constants = unsafe { self.constants(&row, child + at) };
+                // SAFETY: see the top.
+                let link = unsafe { self.parent(parent + at) };
+                let slots = self.view.slots;
+                // SAFETY: see the top.
+                let response = unsafe { read(self.view.responses.add(child + at), slots) };
+                let mut sums = E::attach(&constants, link, response);
+                let place = self.view.sums.wrapping_add(parent + at);
+                if !first {
+                    // SAFETY: see the top.
+                    let before: E::Sums<V> = unsafe { read(place, slots) };
+                    let own = sums;
+                    sums = before;
+                    add(&mut sums, &own);
+                }
+                match length - at >= V::LANES {
+                    // SAFETY: see the top.
+                    true => unsafe { write(&sums, place, slots) },
+                    // SAFETY: see the top.
+                    false => unsafe { write_some(&sums, place, slots, length - at) },
+                }
+                at += V::LANES;
+            }
+        }
+    }
+
+    /// Writes the accelerations of the pivots of a strip.
+    #[inline(always)]
+    fn hand_down(&self, strip: &Strip) {
+        let (from, to) = strip.attachments;
+        let row = self.row(0);
+        for attachment in self.attachments.get(from..to).unwrap_or_default() {
+            let &Attachment { parent, child, length, .. } = attachment;
+            let mut at = 0;
+            while at < length {
+                // SAFETY: see the top.
+                let constants = unsafe { self.constants(&row, child + at) };
+                // SAFETY: see the top.
+                let link = unsafe { self.parent(parent + at) };
+                let slots = self.view.slots;
+                // SAFETY: see the top.
+                let carried = unsafe { read(self.view.sums.add(parent + at), slots) };
+                let pivot = E::pivot(&constants, link, carried);
+                let place = self.view.responses.wrapping_add(child + at);
+                match length - at >= V::LANES {
+                    // SAFETY: see the top.
+                    true => unsafe { write(&pivot, place, slots) },
+                    // SAFETY: see the top.
+                    false => unsafe { write_some(&pivot, place, slots, length - at) },
+                }
+                at += V::LANES;
+            }
+        }
+    }
+
+    /// Motions of the links from `at` on, without those of joints.
+    #[inline(always)]
+    unsafe fn parent(&self, at: usize) -> LinkMotion<V> {
+        // SAFETY: see the top.
+        let [sine, cosine]: [V; 2] = unsafe { read(self.view.sincos.add(at), self.view.links) };
+        // SAFETY: see the top.
+        let omega = unsafe { V::read(self.view.omega.add(at)) };
+        LinkMotion {
+            sine,
+            cosine,
+            omega,
+            joint_angle: omega,
+            joint_rate: omega,
+        }
+    }
+}
+
+/// As many copies are written one after the other, where all generations have them.
+const UNROLLED: usize = 4;
+
+/// Copies of every generation but the root's, 0 if these are not as many everywhere,
+/// or too many.
+const fn branching(copies: &[usize]) -> usize {
+    let mut generation = 2;
+    while generation < copies.len() {
+        if copies[generation] != copies[1] {
+            return 0;
+        }
+        generation += 1;
+    }
+    if copies.len() < 2 || copies[1] > UNROLLED {
+        return 0;
+    }
+    copies[1]
+}
+
+// `map`, `from_fn` and iterators are not always inlined, must be, and are many lines
+// to compile.
+#[inline(always)]
+fn add<V: Scalar, A: Row<V>>(sums: &mut A, terms: &A) {
+    let mut i = 0;
+    while i < A::LENGTH {
+        sums.as_mut()[i] = sums.as_ref()[i] + terms.as_ref()[i];
+        i += 1;
+    }
+}

@@ -1,0 +1,143 @@
+//! Equal bits in all vectors, alone and beside other states.
+
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+
+use super::super::evaluate::{Kernels, accelerations as one_state};
+use super::super::sweep::{Down, Up};
+use super::super::{LinkEquations, Tree, states};
+use super::equations::{SHAPES, any, by_generation, by_link, links};
+use super::{accelerations, drive, motion};
+use crate::scalar::{InstructionSet, Lane, Real, Scalar};
+use crate::simd::dispatch::run_wide;
+use crate::simd::{Fused, Kernel, Simd};
+use crate::system::Workspace;
+
+/// Equations in the vectors of one instruction set, by its number.
+fn kernels<E: LinkEquations, T: Lane, const SET: usize>() -> Kernels<T> {
+    Kernels {
+        up: |view| run_wide(InstructionSet::ALL[SET], Up::<E, T>(view, PhantomData)),
+        down: |view, alpha| {
+            run_wide(
+                InstructionSet::ALL[SET],
+                Down::<E, T>(view, alpha, PhantomData),
+            );
+        },
+    }
+}
+
+fn in_set<E: LinkEquations, T: Lane, const SET: usize>(tree: &Tree<E, T>, links: usize) -> Vec<T> {
+    let [theta, omega] = motion(links);
+    let mut alpha = alloc::vec![T::from_f64(f64::NAN); links];
+    let (kernels, mut workspace) = (kernels::<E, T, SET>(), Workspace::new());
+    let motion = [&*theta, &*omega];
+    let skeleton = &tree.skeleton;
+    one_state(skeleton, &kernels, Some(drive()), motion, &mut alpha, &mut workspace);
+    alpha
+}
+
+/// States in lanes, of which all but the first are moved to other angles.
+struct States<'a, E, T>(&'a Tree<E, T>, usize);
+
+impl<E: LinkEquations, T: Lane> Kernel<T> for States<'_, E, T> {
+    /// The first state.
+    type Output = Vec<T>;
+
+    #[inline(always)]
+    fn run<V: Simd<T>>(self) -> Vec<T> {
+        let Self(tree, links) = self;
+        let [theta, omega] = motion::<T>(links);
+        let mut room = alloc::vec![V::from_f64(f64::NAN); tree.room()];
+        let mut alpha = alloc::vec![T::from_f64(f64::NAN); links];
+        let drive = drive::<T>();
+        let mut offsets = [T::from_f64(0.0); 16];
+        for (lane, offset) in offsets.iter_mut().enumerate() {
+            *offset = T::from_f64(0.01 * lane as f64);
+        }
+        let offsets = V::load_front(&offsets);
+        states::accelerations::<E, T, V>(
+            &tree.skeleton,
+            Some(drive.map(V::splat)),
+            &mut room,
+            |link| V::splat(theta[link]) + offsets,
+            |link| V::splat(omega[link]),
+            |link, value| {
+                let mut numbers = [T::from_f64(0.0); 16];
+                value.store(&mut numbers);
+                alpha[link] = numbers[0];
+            },
+        );
+        alpha
+    }
+}
+
+fn compare<E: LinkEquations, T: Lane + Real>(tree: &Tree<E, T>, count: usize)
+where
+    Fused<T>: Scalar,
+{
+    let widest = accelerations(tree, count);
+    let avx2 = in_set::<E, T, 1>(tree, count);
+    let build = in_set::<E, T, 0>(tree, count);
+    let single: Vec<Fused<T>> = accelerations(&tree.cast(Fused), count);
+    let states = T::dispatch(States(tree, count));
+    if InstructionSet::widest() >= InstructionSet::Avx2 {
+        for link in 0..count {
+            let own = widest[link];
+            assert!(own == avx2[link], "link {link} of {count}: {own} {}", avx2[link]);
+            assert!(own == single[link].0, "link {link} of {count}: {own} {}", single[link].0);
+            assert!(own == states[link], "link {link} of {count}: {own} {}", states[link]);
+        }
+    } else {
+        std::println!("skipped: no vectors that fuse on this machine");
+    }
+    // What does not fuse rounds otherwise.
+    let sizes = widest.iter().map(|&alpha| Real::abs(alpha));
+    let largest = sizes.fold(T::ZERO, |largest, size| largest.max(size));
+    let rounding = T::from_f64(1024.0) * T::EPSILON * largest;
+    for (&own, &other) in widest.iter().zip(&build) {
+        assert!(own.is_finite() && Real::abs(own - other) <= rounding, "{own} {other}");
+    }
+}
+
+fn each_scalar<const SHAPE: usize>() {
+    let count = links(SHAPES[SHAPE]).0.len();
+    compare(&by_generation::<f64, SHAPE>(), count);
+    compare(&by_generation::<f32, SHAPE>(), count);
+}
+
+#[test]
+fn trees_by_generation_have_the_bits_of_links_one_by_one() {
+    each_scalar::<0>();
+    each_scalar::<1>();
+    each_scalar::<2>();
+    each_scalar::<3>();
+    each_scalar::<4>();
+    each_scalar::<5>();
+    each_scalar::<6>();
+    each_scalar::<7>();
+    each_scalar::<8>();
+    each_scalar::<9>();
+    each_scalar::<10>();
+    each_scalar::<11>();
+}
+
+#[test]
+fn trees_of_any_shape_have_the_bits_of_links_one_by_one() {
+    for (count, seed) in [(1, 0), (2, 0), (5, 3), (17, 4), (64, 1), (127, 7), (600, 8)] {
+        let (parents, bodies) = any(count, seed);
+        compare(&by_link::<f64>(&parents, &bodies), count);
+        compare(&by_link::<f32>(&parents, &bodies), count);
+    }
+}
+
+#[test]
+fn bits_do_not_depend_on_the_number_of_threads() {
+    let count = links(SHAPES[11]).0.len();
+    let mut tree = by_generation::<f64, 11>();
+    tree.set_threads(core::num::NonZeroUsize::MIN);
+    let alone = accelerations(&tree, count);
+    for threads in 2..4 {
+        tree.set_threads(threads.try_into().unwrap());
+        assert!(accelerations(&tree, count) == alone, "{threads} threads");
+    }
+}
