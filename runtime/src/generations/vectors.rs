@@ -8,8 +8,8 @@ use super::vector::{SliceKernel, Vector, Vectors, last, words_behind, words_repe
 use crate::scalar::dispatch::{RegisterKernel, run_in_registers};
 #[cfg(target_arch = "x86_64")]
 use crate::scalar::register::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
-use crate::simd::{Fused, Register, Simd};
 use crate::scalar::{InstructionSet, Lane, Lanes};
+use crate::simd::{Fused, Register, Simd};
 
 /// A widest register, and what goes with it for fewer numbers: the same
 /// arithmetic, so that a number has the same bits in any company.

@@ -3,12 +3,12 @@
 #[cfg(not(target_arch = "x86_64"))]
 use super::Lanes;
 use super::lanes::{Lane, Sealed};
-#[cfg(target_arch = "x86_64")]
-use crate::simd as register;
 use super::{InstructionSet, Real, Scalar, sincos};
 use crate::generations::{Loops, SliceKernel, vectors};
-use crate::system::cast::{self, Cast};
+#[cfg(target_arch = "x86_64")]
+use crate::simd as register;
 use crate::simd::{Kernel, dispatch};
+use crate::system::cast::{self, Cast};
 use crate::taylor::{Kernel as TaylorKernel, run_f64};
 
 macro_rules! implement_scalar {

@@ -52,10 +52,10 @@ pub use lanes::{Lane, Lanes};
 pub use turns::{Turned, Turns};
 pub use wide::Double;
 
-pub(crate) use crate::simd::{self as register, dispatch};
+pub use crate::simd::InstructionSet;
 #[doc(hidden)]
 pub use crate::simd::Register;
-pub use crate::simd::InstructionSet;
+pub(crate) use crate::simd::{self as register, dispatch};
 pub(crate) use lanes::Sealed;
 
 use core::fmt::{Debug, Display};
@@ -63,8 +63,8 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use crate::generations::{Loops, Single, SliceKernel};
 use crate::model::Part;
-use crate::system::cast::{self, Cast};
 use crate::simd::Kernel;
+use crate::system::cast::{self, Cast};
 use crate::taylor::{Kernel as TaylorKernel, Quad};
 
 #[cfg(not(any(feature = "std", feature = "libm")))]

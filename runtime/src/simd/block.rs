@@ -2,9 +2,9 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::scalar::Scalar;
 use super::Register;
 use crate::model::Part;
+use crate::scalar::Scalar;
 
 /// `N` registers that go through one computation in step: while an operation on
 /// one awaits the last, the others keep the processor busy.

@@ -2,8 +2,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::scalar::Scalar;
 use crate::model::Part;
+use crate::scalar::Scalar;
 
 /// A number, which may bring its sine and cosine along: code written for any number
 /// takes these then, and does not compute them. What comes of numbers brings none.

@@ -5,10 +5,10 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Register, Simd, dispatch};
-use crate::scalar::Scalar;
-use crate::scalar::sincos::fused;
 use crate::generations::Single;
 use crate::model::{Part, PartOf};
+use crate::scalar::Scalar;
+use crate::scalar::sincos::fused;
 
 /// A plain number whose [`Scalar::mul_add`] is fused: what a lane of the wide
 /// registers computes, for one state.

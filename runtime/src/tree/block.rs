@@ -144,7 +144,9 @@ impl Block<'_> {
     pub(super) fn slots(&self) -> usize {
         let count = self.generations.len() - usize::from(self.has_leaves);
         let last = self.generations.get(..count).and_then(<[Generation]>::last);
-        last.map_or(0, |last| last.slot + last.count.next_multiple_of(self.widest))
+        last.map_or(0, |last| {
+            last.slot + last.count.next_multiple_of(self.widest)
+        })
     }
 
     /// Whether it takes all links of its generations.

@@ -82,10 +82,7 @@ impl<T: Scalar> Bodies<T> {
     /// stiffness of the torsion spring; friction in the pivot, drag.
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<[T; ROW]>) -> Self {
-        Self {
-            shape,
-            rows,
-        }
+        Self { shape, rows }
     }
 
     /// The same bodies on other scalars.

@@ -136,9 +136,10 @@ impl<T: Scalar> Evaluation<'_, T> {
             ..
         } = self.tree;
         let mut buffer = buffer;
-        let (Some(partition), Some(room)) =
-            (plan.partitions.get(partitions), layout.blocks.get(partitions))
-        else {
+        let (Some(partition), Some(room)) = (
+            plan.partitions.get(partitions),
+            layout.blocks.get(partitions),
+        ) else {
             let lasting = take(&mut buffer, layout.top.lasting());
             let mut sweep = self.sweep(plan.top(), &layout.top, [lasting, buffer]);
             sweep.torque = self.drive.map(|drive| drive.torque);

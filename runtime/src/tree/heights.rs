@@ -22,7 +22,9 @@ impl Heights {
     pub(super) fn new(parents: &[u32]) -> Self {
         let parent = |link: usize| {
             let before = link.saturating_sub(1);
-            parents.get(link).map_or(0, |&parent| before.min(parent as usize))
+            parents
+                .get(link)
+                .map_or(0, |&parent| before.min(parent as usize))
         };
         let links = parents.len();
         let mut heights = alloc::vec![0_usize; links];

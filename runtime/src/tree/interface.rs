@@ -107,7 +107,12 @@ impl<'a, T: Copy> Interface<'a, T> {
             let place = block.place(generation, strip);
             let at = place.whole - generation.whole;
             for column in 0..columns {
-                work(column, place.slot, column * self.stride + at, generation.length);
+                work(
+                    column,
+                    place.slot,
+                    column * self.stride + at,
+                    generation.length,
+                );
             }
         }
     }

@@ -32,9 +32,14 @@ impl Layout {
 
     /// How many numbers an evaluation needs room for, on so many threads.
     pub(super) fn room<T>(&self, plan: &Plan, sizes: Sizes, threads: usize) -> usize {
-        let partitions = plan.partitions.iter().zip(&self.blocks).map(|(partition, block)| {
-            Interface::<T>::room(partition.count, sizes) + workers::<T>(partition, block, threads)
-        });
+        let partitions = plan
+            .partitions
+            .iter()
+            .zip(&self.blocks)
+            .map(|(partition, block)| {
+                Interface::<T>::room(partition.count, sizes)
+                    + workers::<T>(partition, block, threads)
+            });
         let permuted = match sizes.by_link {
             true => 3 * odd_lines(line::<T>(), plan.links() + WIDEST),
             false => 0,
@@ -46,7 +51,8 @@ impl Layout {
 /// How many numbers all threads need for the blocks of a partition.
 pub(super) fn workers<T>(partition: &Partition, block: &Room, threads: usize) -> usize {
     let jobs = partition.jobs(threads);
-    jobs.map(|links| worker::<T>(partition, block, &links)).sum()
+    jobs.map(|links| worker::<T>(partition, block, &links))
+        .sum()
 }
 
 /// How many numbers one thread needs for the blocks of these links.

@@ -54,9 +54,9 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 use core::num::NonZeroUsize;
 
+pub use crate::generations::LinkName;
 pub use bodies::{Bodies, Shape};
 pub use equations::{LinkEquations, LinkMotion, Row};
-pub use crate::generations::LinkName;
 pub use root::RootDrive;
 
 use crate::scalar::{Register, Scalar};
@@ -121,7 +121,14 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     ) {
         let accelerate = skeleton::accelerate::<T>();
         let kernels = Kernels::of::<E>();
-        accelerate(&self.skeleton, &kernels, drive, [theta, omega], alpha, workspace);
+        accelerate(
+            &self.skeleton,
+            &kernels,
+            drive,
+            [theta, omega],
+            alpha,
+            workspace,
+        );
     }
 
     /// Writes the same, in memory that is allocated for this once.
@@ -274,7 +281,9 @@ fn place(copies: &[usize], index: usize) -> Option<(usize, usize)> {
 
 /// Returns rows one after the other.
 fn numbers<T: Copy, A: Row<T>>(rows: &[A]) -> Vec<T> {
-    rows.iter().flat_map(|row| row.as_ref().iter().copied()).collect()
+    rows.iter()
+        .flat_map(|row| row.as_ref().iter().copied())
+        .collect()
 }
 
 /// Returns rows of constants in a model's scalar. Each number is given as the `f64`

@@ -90,10 +90,12 @@ impl Generations {
     fn new(generations: Vec<Generation>, first: usize, has_leaves: bool, widest: usize) -> Self {
         let inner = generations.len().saturating_sub(1);
         let strips = Strips::new(&generations, first, inner, has_leaves, widest);
-        Self { generations, strips }
+        Self {
+            generations,
+            strips,
+        }
     }
 }
-
 
 impl Partition {
     /// From a generation on with `count` links, and `links` in all of them; of the
@@ -153,7 +155,13 @@ impl Partition {
     pub(super) fn window(&self, start: usize) -> Block<'_> {
         let rest = self.count - start;
         let Policy { width, widest, .. } = self.policy;
-        let (width, Generations { generations, strips }) = match rest < width + widest {
+        let (
+            width,
+            Generations {
+                generations,
+                strips,
+            },
+        ) = match rest < width + widest {
             true => (rest, &self.last),
             false => (width, &self.block),
         };

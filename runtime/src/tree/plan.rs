@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 
 use super::block::{Block, Generation, generations};
-use super::partition::{Partition, Policy};
 use super::heights::Heights;
+use super::partition::{Partition, Policy};
 use super::strips::Strips;
 
 /// The generations of a tree, and how it is partition.
@@ -68,7 +68,8 @@ impl Plan {
                 break;
             }
         }
-        let generations: Vec<Generation> = generations(copies, &starts, &counts, 0, [1, policy.widest]).collect();
+        let generations: Vec<Generation> =
+            generations(copies, &starts, &counts, 0, [1, policy.widest]).collect();
         let inner = inner(&generations, &partitions);
         let strips = Strips::new(
             generations.get(..=inner).unwrap_or_default(),
@@ -118,7 +119,7 @@ impl Plan {
         let inner = inner(&self.generations, &self.partitions);
         let inner = inner.max(usize::from(!self.order.is_empty()));
         Block {
-            generations: self.generations.get(..=inner).unwrap_or_default(),
+            generations: self.generations.get(..=inner).unwrap_or(&self.generations),
             inner,
             has_leaves: self.partitions.is_empty() && self.order.is_empty(),
             start: 0,
@@ -151,14 +152,20 @@ mod tests {
 
     fn every_link_is_in_one_part(copies: &[usize], partitions: &[usize]) {
         let plan = Plan::new(copies, Policy::ONE_STATE);
-        let firsts: Vec<usize> = plan.partitions.iter().map(|partition| partition.first).collect();
+        let firsts: Vec<usize> = plan
+            .partitions
+            .iter()
+            .map(|partition| partition.first)
+            .collect();
         assert_eq!(firsts, partitions);
         for threads in [1, 2, 3] {
             let mut found = alloc::vec![0; plan.links()];
             mark(plan.top(), &mut found);
             for partition in &plan.partitions {
                 for links in partition.jobs(threads) {
-                    partition.windows(&links).for_each(|block| mark(block, &mut found));
+                    partition
+                        .windows(&links)
+                        .for_each(|block| mark(block, &mut found));
                 }
             }
             assert!(found.iter().all(|&blocks| blocks == 1), "{copies:?}");

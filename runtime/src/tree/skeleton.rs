@@ -110,14 +110,8 @@ impl<T: Scalar> Skeleton<T> {
 }
 
 /// Writes the accelerations of one state, in room that is given.
-pub(super) type Accelerate<T> = fn(
-    &Skeleton<T>,
-    &Kernels<T>,
-    Option<RootDrive<T>>,
-    [&[T]; 2],
-    &mut [T],
-    &mut Workspace<T>,
-);
+pub(super) type Accelerate<T> =
+    fn(&Skeleton<T>, &Kernels<T>, Option<RootDrive<T>>, [&[T]; 2], &mut [T], &mut Workspace<T>);
 
 /// Returns [`Accelerate`] for these numbers. For `f64` and `f32` it is compiled with
 /// this crate, once, and not with every model.

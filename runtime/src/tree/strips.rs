@@ -146,7 +146,10 @@ impl Strips {
             for child in start.max(1)..end {
                 let parent = parent(child);
                 let first = !has_child.get(parent).copied().unwrap_or(true);
-                match attachments.get_mut(from..).and_then(<[Attachment]>::last_mut) {
+                match attachments
+                    .get_mut(from..)
+                    .and_then(<[Attachment]>::last_mut)
+                {
                     Some(last) if last.first == first && parent == last.parent + last.length => {
                         last.length += 1;
                     }
@@ -252,12 +255,16 @@ mod tests {
             starts.push(links);
             links += count;
         }
-        let generations: Vec<Generation> = generations(copies, &starts, &counts, first, [width, WIDEST]).collect();
+        let generations: Vec<Generation> =
+            generations(copies, &starts, &counts, first, [width, WIDEST]).collect();
         let inner = generations.len() - 1;
         for has_leaves in [false, true] {
             let strips = Strips::new(&generations, first, inner, has_leaves, WIDEST);
             let reach = strips.reach();
-            let neighbours: usize = generations[..inner].iter().map(|generation| generation.count).sum();
+            let neighbours: usize = generations[..inner]
+                .iter()
+                .map(|generation| generation.count)
+                .sum();
             let listed: usize = strips.list().iter().map(|strip| strip.length).sum();
             assert_eq!(listed, neighbours, "{copies:?}");
             let mut ends = Reach::default();

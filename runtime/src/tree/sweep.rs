@@ -6,9 +6,9 @@ mod view;
 
 use super::block::Block;
 use super::memory::Storage;
-pub(super) use passes::{Passes, down, up};
 #[cfg(test)]
 pub(super) use passes::{Down, Up};
+pub(super) use passes::{Passes, down, up};
 pub(super) use strip::Output;
 pub(super) use view::View;
 

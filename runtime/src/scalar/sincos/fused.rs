@@ -10,11 +10,11 @@
 
 use core::hint::black_box;
 
-use crate::simd::{Fused, Register, Simd};
 use super::super::turns::Turned;
 use super::super::{Lane, Scalar};
 use super::reduction;
 use super::tail::{self, Tail, for_each};
+use crate::simd::{Fused, Register, Simd};
 
 /// What one order of operations computes with.
 pub trait Pack: Register<Lane: Float> {

@@ -4,9 +4,9 @@
 #![allow(unsafe_code)]
 
 use super::super::Scalar;
-use crate::simd::{F64x4, Simd};
 use super::double::{LIMIT, far, reduce, turn};
 use super::fused::Pack;
+use crate::simd::{F64x4, Simd};
 
 /// Sines and cosines of four angles.
 #[target_feature(enable = "avx2,fma")]

@@ -5,8 +5,8 @@
 //! its surroundings. A wide load has to wait for narrow stores just made to the
 //! same place: angles are therefore read where they lie, never gathered first.
 
-use crate::simd::dispatch::{Kernel, run_widest};
 use super::{sin_cos_f32, sin_cos_f64};
+use crate::simd::dispatch::{Kernel, run_widest};
 
 /// Sines and cosines of `N` angles.
 #[inline(always)]

@@ -4,10 +4,10 @@
 use core::arch::x86_64::*;
 
 use super::super::{Simd, dispatch};
-use crate::scalar::sincos::{double, fused};
-use crate::scalar::{Scalar, Turned};
 use super::{F32x8, F32x16, F64x4, F64x8};
 use crate::model::{Part, PartOf};
+use crate::scalar::sincos::{double, fused};
+use crate::scalar::{Scalar, Turned};
 
 // SAFETY, for all calls of instructions: see the file above.
 

@@ -3,9 +3,9 @@
 use core::arch::x86_64::*;
 
 use super::super::Simd;
+use super::{F32x4, F64x2};
 use crate::scalar::Scalar;
 use crate::scalar::sincos::{double, sin_cos_f32};
-use super::{F32x4, F64x2};
 
 // SAFETY, for all calls of instructions: see the file above.
 

@@ -348,7 +348,12 @@ where
         let (from, to) = strip.attachments;
         let row = self.row(0);
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
-            let &Attachment { parent, child, length, first } = attachment;
+            let &Attachment {
+                parent,
+                child,
+                length,
+                first,
+            } = attachment;
             let mut at = 0;
             while at < length {
                 // SAFETY: see the top.
@@ -384,7 +389,12 @@ where
         let (from, to) = strip.attachments;
         let row = self.row(0);
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
-            let &Attachment { parent, child, length, .. } = attachment;
+            let &Attachment {
+                parent,
+                child,
+                length,
+                ..
+            } = attachment;
             let mut at = 0;
             while at < length {
                 // SAFETY: see the top.

@@ -32,7 +32,14 @@ fn in_set<E: LinkEquations, T: Lane, const SET: usize>(tree: &Tree<E, T>, links:
     let (kernels, mut workspace) = (kernels::<E, T, SET>(), Workspace::new());
     let motion = [&*theta, &*omega];
     let skeleton = &tree.skeleton;
-    one_state(skeleton, &kernels, Some(drive()), motion, &mut alpha, &mut workspace);
+    one_state(
+        skeleton,
+        &kernels,
+        Some(drive()),
+        motion,
+        &mut alpha,
+        &mut workspace,
+    );
     alpha
 }
 
@@ -83,9 +90,21 @@ where
     if InstructionSet::widest() >= InstructionSet::Avx2 {
         for link in 0..count {
             let own = widest[link];
-            assert!(own == avx2[link], "link {link} of {count}: {own} {}", avx2[link]);
-            assert!(own == single[link].0, "link {link} of {count}: {own} {}", single[link].0);
-            assert!(own == states[link], "link {link} of {count}: {own} {}", states[link]);
+            assert!(
+                own == avx2[link],
+                "link {link} of {count}: {own} {}",
+                avx2[link]
+            );
+            assert!(
+                own == single[link].0,
+                "link {link} of {count}: {own} {}",
+                single[link].0
+            );
+            assert!(
+                own == states[link],
+                "link {link} of {count}: {own} {}",
+                states[link]
+            );
         }
     } else {
         std::println!("skipped: no vectors that fuse on this machine");
@@ -95,7 +114,10 @@ where
     let largest = sizes.fold(T::ZERO, |largest, size| largest.max(size));
     let rounding = T::from_f64(1024.0) * T::EPSILON * largest;
     for (&own, &other) in widest.iter().zip(&build) {
-        assert!(own.is_finite() && Real::abs(own - other) <= rounding, "{own} {other}");
+        assert!(
+            own.is_finite() && Real::abs(own - other) <= rounding,
+            "{own} {other}"
+        );
     }
 }
 

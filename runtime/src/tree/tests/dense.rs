@@ -86,7 +86,9 @@ fn solve(mut matrix: Vec<Vec<f64>>) -> Vec<f64> {
 
 #[track_caller]
 fn agree(own: &[f64], dense: &[f64]) {
-    let size = dense.iter().fold(1.0, |size: f64, alpha| size.max(alpha.abs()));
+    let size = dense
+        .iter()
+        .fold(1.0, |size: f64, alpha| size.max(alpha.abs()));
     for (link, (own, dense)) in own.iter().zip(dense).enumerate() {
         let apart = (own - dense).abs();
         assert!(apart <= 1e-10 * size, "link {link}: {own} {dense}");
@@ -117,7 +119,16 @@ fn trees_by_generation_solve_the_equations_of_motion() {
 
 #[test]
 fn trees_of_any_shape_solve_the_equations_of_motion() {
-    for (count, seed) in [(1, 0), (2, 0), (5, 3), (17, 4), (33, 9), (64, 1), (90, 7), (91, 8)] {
+    for (count, seed) in [
+        (1, 0),
+        (2, 0),
+        (5, 3),
+        (17, 4),
+        (33, 9),
+        (64, 1),
+        (90, 7),
+        (91, 8),
+    ] {
         let (parents, bodies) = any(count, seed);
         let tree = by_link::<f64>(&parents, &bodies);
         agree(&accelerations(&tree, count), &dense(&parents, &bodies));
@@ -129,5 +140,9 @@ fn trees_of_any_shape_solve_the_equations_of_motion() {
 fn parents_behind_their_links_are_no_parents() {
     let (_, bodies) = any(40, 2);
     let tree = by_link::<f64>(&[u32::MAX; 40], &bodies);
-    assert!(accelerations(&tree, 40).iter().all(|alpha| alpha.is_finite()));
+    assert!(
+        accelerations(&tree, 40)
+            .iter()
+            .all(|alpha| alpha.is_finite())
+    );
 }

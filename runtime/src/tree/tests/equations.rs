@@ -95,7 +95,16 @@ fn attached<V: Scalar>(link: LinkMotion<V>, at: [V; 2], response: [V; 6]) -> Sum
     let [pull_x, pull_y] = pull;
     let [f_x, f_y] = force;
     [
-        xx, xy, yy, pull_x, pull_y, dot(w, pull), f_x, f_y, dot(w, force), torque,
+        xx,
+        xy,
+        yy,
+        pull_x,
+        pull_y,
+        dot(w, pull),
+        f_x,
+        f_y,
+        dot(w, force),
+        torque,
     ]
 }
 
@@ -129,11 +138,7 @@ fn solved<V: Scalar>(
     )
 }
 
-fn carried<V: Scalar>(
-    link: LinkMotion<V>,
-    at: [V; 2],
-    [x, y, alpha]: [V; 3],
-) -> [V; 2] {
+fn carried<V: Scalar>(link: LinkMotion<V>, at: [V; 2], [x, y, alpha]: [V; 3]) -> [V; 2] {
     let [p, w] = place(link, at);
     let square = link.omega * link.omega;
     plus([x, y], plus(scaled(w, alpha), scaled(p, -square)))
@@ -222,11 +227,7 @@ impl LinkEquations for Attached {
         solved(constants, link, [V::from_f64(0.0); 10]).0
     }
 
-    fn attach<V: Scalar>(
-        child: &Constants<V>,
-        parent: LinkMotion<V>,
-        response: [V; 6],
-    ) -> Sums<V> {
+    fn attach<V: Scalar>(child: &Constants<V>, parent: LinkMotion<V>, response: [V; 6]) -> Sums<V> {
         attached(parent, [child[3], child[4]], response)
     }
 
@@ -238,11 +239,7 @@ impl LinkEquations for Attached {
         solved(constants, link, below)
     }
 
-    fn pivot<V: Scalar>(
-        child: &Constants<V>,
-        parent: LinkMotion<V>,
-        handed: [V; 3],
-    ) -> [V; 2] {
+    fn pivot<V: Scalar>(child: &Constants<V>, parent: LinkMotion<V>, handed: [V; 3]) -> [V; 2] {
         carried(parent, [child[3], child[4]], handed)
     }
 
@@ -269,7 +266,14 @@ impl LinkEquations for Attached {
 fn row<T: Scalar>(body: Body, place: [f64; 2]) -> Constants<T> {
     let [along, across] = place;
     [
-        body.mass, body.inertia, body.moment, along, across, body.friction, body.spring, 0.0,
+        body.mass,
+        body.inertia,
+        body.moment,
+        along,
+        across,
+        body.friction,
+        body.spring,
+        0.0,
     ]
     .map(T::from_f64)
 }
@@ -279,9 +283,8 @@ const GRAVITY: [f64; 2] = [0.0, 9.81];
 /// A tree by generations.
 pub(super) fn by_generation<T: Scalar, const SHAPE: usize>() -> Tree<Shared<SHAPE>, T> {
     // The children's place is a constant of the link.
-    let rows = (0..SHAPES[SHAPE].len()).map(|generation| {
-        row(Body::new(generation), Body::new(generation + 1).place)
-    });
+    let rows = (0..SHAPES[SHAPE].len())
+        .map(|generation| row(Body::new(generation), Body::new(generation + 1).place));
     Tree::new(rows.collect(), GRAVITY.map(T::from_f64))
 }
 
@@ -313,5 +316,8 @@ pub(super) fn any(count: usize, seed: usize) -> (Vec<u32>, Vec<Body>) {
     let places = numbers(count, seed, 0.5);
     let parent = |(link, place): (usize, &f64)| ((place + 0.5) * link as f64) as u32;
     let parents: Vec<u32> = places.iter().enumerate().map(parent).collect();
-    (parents, (0..count).map(|link| Body::new(link + seed)).collect())
+    (
+        parents,
+        (0..count).map(|link| Body::new(link + seed)).collect(),
+    )
 }
