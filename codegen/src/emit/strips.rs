@@ -4,7 +4,7 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::count;
-use crate::program::{Argument, Entry, LinkFunction, Purpose, Strips};
+use crate::program::{Argument, Entry, LinkFunction, Op, Purpose, Strips};
 use crate::scene::Layout;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -174,7 +174,10 @@ impl Emission<'_> {
             return TokenStream::new();
         };
         let (runtime, docs) = (self.runtime(), self.entry_docs(entry));
-        let body = self.plain_body(entry);
+        let body = match self.handed_on(entry) {
+            Some(body) => body,
+            None => self.plain_body(entry),
+        };
         let name = format_ident!("{}", function.name());
         let arguments = entry.arguments.iter().enumerate().map(|(place, argument)| {
             let name = format_ident!("{}", argument.name());
@@ -205,6 +208,18 @@ impl Emission<'_> {
                 #body
             }
         }
+    }
+
+    /// The body of a function that returns its last argument as it is.
+    fn handed_on(&self, entry: &Entry) -> Option<TokenStream> {
+        let (&last, others) = entry.arguments.split_last()?;
+        let mut outputs = (0..).zip(&entry.outputs);
+        let same = outputs.all(|(index, &id)| *self.op(id) == Op::Input(last, index));
+        let names = others
+            .iter()
+            .map(|argument| format_ident!("{}", argument.name()));
+        let last = format_ident!("{}", last.name());
+        same.then(|| quote!(#(let _ = #names;)* #last))
     }
 
     /// The energies, which bodies compute.
