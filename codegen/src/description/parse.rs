@@ -312,7 +312,11 @@ fn colon(name: &Ident, input: ParseStream<'_>) -> Result<(), ListFault> {
 }
 
 /// Refuses other brackets than those that should come.
-fn brackets(input: ParseStream<'_>, what: &'static str, wanted: &'static str) -> Result<(), ListFault> {
+fn brackets(
+    input: ParseStream<'_>,
+    what: &'static str,
+    wanted: &'static str,
+) -> Result<(), ListFault> {
     let round = wanted == "( )";
     let wrong = if round {
         input.peek(token::Bracket)

@@ -16,6 +16,7 @@ mod frame;
 mod hamiltonian;
 mod inverse_mass;
 mod lagrangian;
+mod link;
 mod lock;
 mod observable;
 mod observable_rate;
@@ -35,6 +36,7 @@ pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
 pub use inverse_mass::Counting;
+pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
     CanonicalRate, EnergySymbols, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame,
@@ -84,7 +86,7 @@ pub struct Energies {
 
 /// The Lagrangian in one set of generalized coordinates and what follows from
 /// it. Equations of motion: Σ_j M_ij q̈_j + bias_i = 0.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Generalized coordinates.
     pub coordinates: Vec<SymbolId>,
@@ -220,10 +222,12 @@ pub struct Mechanics {
     pub constants: Vec<Constant>,
     /// The drive, if the scene has one.
     pub drive: Option<DriveTerms>,
-    /// The mechanics in absolute angles.
+    /// The mechanics in absolute angles; without coordinates where the code is loops.
     pub absolute: Frame,
     /// The joints, from which their accelerations can be formed as well.
     pub articulation: Articulation,
+    /// The balance of one link, where the code is loops.
+    pub link: Option<LinkBalance>,
     /// The symmetric coordinates, if asked for.
     pub coordinates: Vec<Coordinate>,
     /// The mechanics in symmetric coordinates, if asked for. On nested trees its

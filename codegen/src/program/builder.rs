@@ -37,6 +37,7 @@ impl Builder {
             entries,
             setup: self.setup,
             choice,
+            strips: None,
             without: self.off,
             is_cut_off: self.is_full,
         }

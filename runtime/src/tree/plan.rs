@@ -119,7 +119,7 @@ impl Plan {
         let inner = inner(&self.generations, &self.partitions);
         let inner = inner.max(usize::from(!self.order.is_empty()));
         Block {
-            generations: self.generations.get(..=inner).unwrap_or_default(),
+            generations: self.generations.get(..=inner).unwrap_or(&self.generations),
             inner,
             has_leaves: self.partitions.is_empty() && self.order.is_empty(),
             start: 0,

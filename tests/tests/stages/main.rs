@@ -4,6 +4,7 @@
 mod determinism;
 mod ladder;
 mod lengths;
+mod loops;
 mod pages;
 mod passes;
 mod prose;

@@ -35,6 +35,8 @@ pub(in crate::tree) struct View<'a, N, T> {
     pub(super) slots: usize,
     /// Rows of all generations, or columns of all links.
     pub(super) constants: &'a [N],
+    /// The length of these columns.
+    column: usize,
     /// Acceleration of the root's pivot, and torque on it.
     pub(super) root: Option<[T; 2]>,
     pub(super) torque: Option<T>,
@@ -58,6 +60,7 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
         } = self;
         let reach = block.strips.reach();
         let (sizes, slots) = (storage.sizes, storage.slots);
+        let column = constants.len() / sizes.constants.max(1);
         let sincos = storage.sincos.window(storage.lead, reach.own)?;
         let joint_motions = match sizes.joints {
             true => storage.joint_motions.window(storage.lead, reach.own)?,
@@ -68,7 +71,7 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
             && all(sizes.responses, storage.responses)
             && all(sizes.sums, storage.sums)
             && all(sizes.eliminations, storage.eliminations)
-            && (!sizes.by_link || sizes.constants * slots <= constants.len());
+            && (!sizes.by_link || reach.own <= column);
         // A whole tree's links stand in order, as they do where they are given.
         let omega = match storage.velocities {
             Some(column) => column.window(storage.lead, reach.own)?.start().cast_const(),
@@ -89,6 +92,7 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
             eliminations: storage.eliminations.as_mut_ptr(),
             slots,
             constants,
+            column,
             root: *root,
             torque: *torque,
             numbers: PhantomData,
@@ -122,7 +126,7 @@ impl<'a, N, T: Scalar> View<'a, N, T> {
         let start = self
             .constants
             .as_ptr()
-            .wrapping_add(column * self.slots + at);
+            .wrapping_add(column * self.column + at);
         match <T as Simd<N>>::LANES {
             // SAFETY: the caller's. A `T` of one lane is the `N` that it holds.
             1 => unsafe { V::read(start.cast()) },

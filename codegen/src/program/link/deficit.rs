@@ -1,11 +1,13 @@
-//! The relief N of a subtree, or of several on one pivot: a symmetric matrix.
+//! The deficit N of the articulated inertia of a subtree, or of several on one pivot:
+//! a symmetric matrix. With the mass S of the subtree, S 1 − N is the articulated
+//! inertia; N is what free joints take away from the mass.
 
 use crate::program::ValueId;
 use crate::program::builder::Builder;
 use crate::program::pair::Pair;
 
 #[derive(Clone, Copy)]
-pub(super) struct Relief {
+pub(super) struct Deficit {
     pub(super) xx: ValueId,
     pub(super) xy: ValueId,
     pub(super) rest: Rest,
@@ -20,7 +22,7 @@ pub(super) enum Rest {
     Yy(ValueId),
 }
 
-impl Relief {
+impl Deficit {
     pub(super) fn zero(builder: &mut Builder) -> Self {
         let zero = builder.integer(0);
         Self {
@@ -30,15 +32,24 @@ impl Relief {
         }
     }
 
+    /// b gᵀ, of two parallel vectors.
+    pub(super) fn product(builder: &mut Builder, b: Pair, g: Pair) -> Self {
+        Self {
+            xx: builder.mul(b[0], g[0]),
+            xy: builder.mul(b[0], g[1]),
+            rest: Rest::Yy(builder.mul(b[1], g[1])),
+        }
+    }
+
     pub(super) fn has_constant_trace(&self) -> bool {
         matches!(self.rest, Rest::Trace(_))
     }
 
-    pub(super) fn name(&self, builder: &mut Builder, name: &str) {
-        builder.name(self.xx, &format!("relief_xx_{name}"));
-        builder.name(self.xy, &format!("relief_xy_{name}"));
+    pub(super) fn name(&self, builder: &mut Builder, suffix: &str) {
+        builder.name(self.xx, &format!("deficit_xx{suffix}"));
+        builder.name(self.xy, &format!("deficit_xy{suffix}"));
         if let Rest::Yy(yy) = self.rest {
-            builder.name(yy, &format!("relief_yy_{name}"));
+            builder.name(yy, &format!("deficit_yy{suffix}"));
         }
     }
 
@@ -54,6 +65,19 @@ impl Relief {
             xx: builder.add(self.xx, other.xx),
             xy: builder.add(self.xy, other.xy),
             rest,
+        }
+    }
+
+    /// N − m 1.
+    pub(super) fn less_mass(&self, builder: &mut Builder, mass: ValueId) -> Self {
+        if builder.is(mass, 0) {
+            return *self;
+        }
+        let yy = self.yy(builder);
+        Self {
+            xx: builder.sub(self.xx, mass),
+            xy: self.xy,
+            rest: Rest::Yy(builder.sub(yy, mass)),
         }
     }
 

@@ -2,7 +2,6 @@
 //! link measures its turning by the acceleration of the pivot that it carries,
 //! and mass and length are those of the commonest leaf.
 
-use super::children;
 use crate::program::ValueId;
 use crate::program::builder::Builder;
 use crate::program::lower::{Door, Lowering};
@@ -24,16 +23,16 @@ pub(super) struct Unit {
     pub(super) per_torque: ValueId,
     /// (ℓ + i w)/L of the parent.
     pub(super) place: Pair,
-    /// Friction, drag and spring as they are.
-    pub(super) friction: ValueId,
-    pub(super) drag: ValueId,
-    pub(super) spring: ValueId,
+    /// Friction, drag and stiffness of the spring as they are.
+    pub(super) forces: [ValueId; 3],
 }
 
 /// All constants of the recursion.
 pub(super) struct Units {
     /// By orbit.
     pub(super) links: Vec<Unit>,
+    /// m, l.
+    pub(super) tree: [ValueId; 2],
     /// 1/l.
     pub(super) per_length: ValueId,
     /// g/l.
@@ -41,14 +40,16 @@ pub(super) struct Units {
 }
 
 /// Constants of one orbit in SI units.
-struct Given {
-    inertia: ValueId,
-    moment: Pair,
-    pivot: Pair,
-    rest: [ValueId; 3],
+pub(super) struct Given {
+    pub(super) inertia: ValueId,
+    pub(super) moment: Pair,
+    pub(super) pivot: Pair,
+    /// Friction, drag and stiffness of the spring.
+    pub(super) forces: [ValueId; 3],
 }
 
 impl Lowering<'_> {
+    /// Those of a tree that is written out.
     pub(super) fn units(&mut self, scene: &Scene, door: &mut Door<'_>) -> Units {
         let mechanics = self.mechanics;
         let mut given = Vec::new();
@@ -58,76 +59,89 @@ impl Lowering<'_> {
                 inertia: at(&joint.inertia),
                 moment: [at(&joint.moment[0]), at(&joint.moment[1])],
                 pivot: [at(&joint.pivot[0]), at(&joint.pivot[1])],
-                rest: [at(&joint.friction), at(&joint.drag), at(&joint.spring)],
+                forces: [at(&joint.friction), at(&joint.drag), at(&joint.spring)],
             });
         }
         let gravity = self.expr(door, &mechanics.articulation.gravity);
-        let builder = &mut self.builder;
+        Units::of(&mut self.builder, scene, &given, gravity, true)
+    }
+}
+
+impl Units {
+    /// Of constants by orbit. `own` says whether a link with children has a unit of
+    /// length of its own, or that of the tree.
+    pub(super) fn of(
+        builder: &mut Builder,
+        scene: &Scene,
+        given: &[Given],
+        gravity: ValueId,
+        own: bool,
+    ) -> Self {
+        let children = super::children(scene);
         let one = builder.integer(1);
-        let (mass, tree_length) = commonest_leaf(builder, scene, &given).unwrap_or((one, one));
+        let leaf = commonest_leaf(builder, scene, &children, given);
+        let (mass, tree_length) = leaf.unwrap_or((one, one));
         let lengths: Vec<ValueId> = (0..given.len())
-            .map(|orbit| own_length(builder, scene, &given, orbit).unwrap_or(tree_length))
-            .collect();
-        let links = scene
-            .orbits
-            .iter()
-            .zip(&given)
-            .enumerate()
-            .map(|(number, (orbit, given))| {
-                let own = lengths[number];
-                let parent = scene.links[orbit.links[0].0].parent;
-                let carrier = parent.map_or(one, |LinkId(link)| lengths[scene.links[link].orbit.0]);
-                let first = builder.mul(own, mass);
-                let second = builder.mul(own, first);
-                let torque = builder.mul(first, tree_length);
-                let mut called = |value: ValueId, by: ValueId, what: &str| {
-                    let value = builder.div(value, by);
-                    builder.called(value, &format!("{what}_{}", orbit.name))
+            .map(|orbit| {
+                let below = &children[scene.orbits[orbit].links[0].0];
+                let length = match below.is_empty() {
+                    true => oscillation(builder, scene, &given[orbit]),
+                    false if own => commonest_pivot(builder, scene, given, below),
+                    false => None,
                 };
-                Unit {
-                    moment: [
-                        called(given.moment[0], first, "reduced_moment"),
-                        called(given.moment[1], first, "reduced_lateral_moment"),
-                    ],
-                    inertia: called(given.inertia, second, "reduced_inertia"),
-                    length: called(own, tree_length, "reduced_length"),
-                    inverse_length: called(tree_length, own, "inverse_reduced_length"),
-                    per_torque: builder.div(one, torque),
-                    place: given.pivot.map(|component| builder.div(component, carrier)),
-                    friction: given.rest[0],
-                    drag: given.rest[1],
-                    spring: given.rest[2],
-                }
+                length.unwrap_or(tree_length)
             })
             .collect();
+        let orbits = scene.orbits.iter().zip(given).enumerate();
+        let links = orbits.map(|(number, (orbit, given))| {
+            let own = lengths[number];
+            let parent = scene.links[orbit.links[0].0].parent;
+            let carrier = parent.map_or(one, |LinkId(link)| lengths[scene.links[link].orbit.0]);
+            let first = builder.mul(own, mass);
+            let second = builder.mul(own, first);
+            let torque = builder.mul(first, tree_length);
+            let mut called = |value: ValueId, by: ValueId, what: &str| {
+                let value = builder.div(value, by);
+                builder.called(value, &format!("{what}_{}", orbit.name))
+            };
+            Unit {
+                moment: [
+                    called(given.moment[0], first, "reduced_moment"),
+                    called(given.moment[1], first, "reduced_lateral_moment"),
+                ],
+                inertia: called(given.inertia, second, "reduced_inertia"),
+                length: called(own, tree_length, "reduced_length"),
+                inverse_length: called(tree_length, own, "inverse_reduced_length"),
+                per_torque: builder.div(one, torque),
+                place: given.pivot.map(|component| builder.div(component, carrier)),
+                forces: given.forces,
+            }
+        });
+        let links = links.collect();
         let gravity = builder.div(gravity, tree_length);
-        Units {
+        Self {
             links,
+            tree: [mass, tree_length],
             per_length: builder.div(one, tree_length),
             gravity: builder.called(gravity, "reduced_gravity"),
         }
     }
 }
 
-/// The pivot that most of an orbit's children hang from, if it lies on the
-/// link; of a leaf the centre of oscillation, M/h.
-fn own_length(
+/// The pivot that most of a link's children hang from, if it lies on the link.
+fn commonest_pivot(
     builder: &mut Builder,
     scene: &Scene,
     given: &[Given],
-    orbit: usize,
+    children: &[usize],
 ) -> Option<ValueId> {
-    let LinkId(link) = scene.orbits[orbit].links[0];
     let mut pivots: Vec<(Pair, usize)> = Vec::new();
-    for child in children(scene, Some(link)) {
+    for &child in children {
         let pivot = given[scene.links[child].orbit.0].pivot;
         match pivots.iter_mut().find(|(known, _)| *known == pivot) {
             Some((_, count)) => *count += 1,
             None => pivots.push((pivot, 1)),
         }
-    }
-    if pivots.is_empty() {
-        return oscillation(builder, scene, &given[orbit]);
     }
     let usable = pivots
         .into_iter()
@@ -136,6 +150,7 @@ fn own_length(
     commonest.map(|(pivot, _)| pivot[0])
 }
 
+/// The centre of oscillation, M/h.
 fn oscillation(builder: &mut Builder, scene: &Scene, given: &Given) -> Option<ValueId> {
     let divides = builder.is_never_zero(given.moment[0], scene);
     divides.then(|| builder.div(given.inertia, given.moment[0]))
@@ -145,10 +160,11 @@ fn oscillation(builder: &mut Builder, scene: &Scene, given: &Given) -> Option<Va
 fn commonest_leaf(
     builder: &mut Builder,
     scene: &Scene,
+    children: &[Vec<usize>],
     given: &[Given],
 ) -> Option<(ValueId, ValueId)> {
     let leaves = scene.orbits.iter().enumerate().filter(|(number, orbit)| {
-        children(scene, Some(orbit.links[0].0)).is_empty()
+        children[orbit.links[0].0].is_empty()
             && builder.is_never_zero(given[*number].moment[0], scene)
     });
     let (number, _) = leaves.max_by_key(|(_, orbit)| orbit.links.len())?;
