@@ -8,7 +8,9 @@ use syn::parse::ParseStream;
 use syn::{Token, token};
 
 use super::expression::literal;
-use super::list::{Fault, List, expected, group, identifier, list, parse_all, take};
+use super::list::{
+    Fault, List, brackets, colon, expected, group, identifier, list, parse_all, take,
+};
 use super::{
     Description, Drive, Expression, Form, Multiplicity, Node, Observable, Property, Request,
     StructItem, Value,
@@ -300,29 +302,6 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node
 fn property(input: ParseStream<'_>, _: &mut Report) -> Result<Property, Fault> {
     let name = identifier(input, "a property, as in `mass = 0.1`")?;
     property_value(name, input)
-}
-
-/// Refuses a `:` where a value should follow a name.
-fn colon(name: &Ident, input: ParseStream<'_>) -> Result<(), Fault> {
-    if !input.peek(Token![:]) {
-        return Ok(());
-    }
-    let name = name.to_string();
-    Err(Diagnostic::new(input.span(), Message::Colon { name }).into())
-}
-
-/// Refuses other brackets than those that should come.
-fn brackets(input: ParseStream<'_>, what: &'static str, wanted: &'static str) -> Result<(), Fault> {
-    let round = wanted == "( )";
-    let wrong = if round {
-        input.peek(token::Bracket)
-    } else {
-        input.peek(token::Paren)
-    };
-    if !wrong && !input.peek(token::Brace) {
-        return Ok(());
-    }
-    Err(Diagnostic::new(input.span(), Message::Brackets { what, wanted }).into())
 }
 
 /// A property, after its name.

@@ -51,6 +51,7 @@ pub use verify::Fault;
 use crate::exact::Rational;
 use crate::mechanics::{Counting, Mechanics};
 use crate::scene::Scene;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 /// Lowers everything that the scene asks for into one program.
 ///
@@ -59,15 +60,29 @@ pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
     lower_without(None, scene, mechanics)
 }
 
-/// The same without one of the passes, to see what that one is worth.
+/// Lowers what [`lower_without`] lowers, unless that is too long.
+///
+/// # Errors
+/// [`TooManyValues`] where there would be more than [`MOST_VALUES`].
+pub fn lower_in_limits(
+    off: Option<Pass>,
+    scene: &Scene,
+    mechanics: &Mechanics,
+) -> Result<Program, TooManyValues> {
+    let lowered = AssertUnwindSafe(|| lower_without(off, scene, mechanics));
+    catch_unwind(lowered).map_err(|reason| match reason.downcast() {
+        Ok(limit) => *limit,
+        Err(panic) => resume_unwind(panic),
+    })
+}
+
+/// The same without one of the passes, to see what that one is worth. Unwinds with
+/// [`TooManyValues`] where there would be more than [`MOST_VALUES`].
 pub fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
     let mut lowering = lower::Lowering::new(mechanics);
     lowering.builder.off = off;
     let (entries, choice) = entries::entries(scene, &mut lowering);
     let program = lowering.builder.finish(entries, choice);
-    if program.is_cut_off {
-        return program;
-    }
     PASSES
         .iter()
         .filter(|(pass, _)| off != Some(*pass))
@@ -317,9 +332,11 @@ pub struct Program {
     pub choice: Choice,
     /// The pass that was left out, for comparison.
     pub without: Option<Pass>,
-    /// Whether it would have more than [`MOST_VALUES`] values, and so has no meaning.
-    pub is_cut_off: bool,
 }
+
+/// Reason for which a program could not be written.
+#[derive(Clone, Copy, Debug)]
+pub struct TooManyValues;
 
 /// Most values of a program before its passes: twice as many as all exact forms of the
 /// budget of 31 links have.
