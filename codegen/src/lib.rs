@@ -82,12 +82,12 @@ pub fn stages_without(
             return Err(refuse(&description, report));
         }
     };
-    let program = program::lower_without(off, &scene, &mechanics);
-    if program.is_cut_off {
+    let lowered = program::lower_in_limits(off, &scene, &mechanics);
+    let Ok(program) = lowered else {
         let limit = program::MOST_VALUES;
         report.error(Span::call_site(), Message::TooManyValues { limit });
         return Err(refuse(&description, report));
-    }
+    };
     if let Some(name) = program.unrepresentable_constant() {
         let name = name.to_owned();
         report.error(Span::call_site(), Message::ConstantRange { name });

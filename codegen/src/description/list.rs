@@ -1,9 +1,9 @@
 //! Reading lists, and what stands between their members, past mistakes.
 
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
-use syn::Token;
 use syn::ext::IdentExt as _;
 use syn::parse::{ParseStream, Parser as _};
+use syn::{Token, token};
 
 use crate::report::{Diagnostic, Message, Report};
 
@@ -125,6 +125,33 @@ pub(super) fn take<T: syn::parse::Parse>(
 pub(super) fn next_name(input: ParseStream<'_>) -> Option<String> {
     let name = Ident::parse_any(&input.fork()).ok()?;
     Some(name.to_string())
+}
+
+/// Refuses a `:` where a value should follow a name.
+pub(super) fn colon(name: &Ident, input: ParseStream<'_>) -> Result<(), ListFault> {
+    if !input.peek(Token![:]) {
+        return Ok(());
+    }
+    let name = name.to_string();
+    Err(Diagnostic::new(input.span(), Message::Colon { name }).into())
+}
+
+/// Refuses other brackets than those that should come.
+pub(super) fn brackets(
+    input: ParseStream<'_>,
+    what: &'static str,
+    wanted: &'static str,
+) -> Result<(), ListFault> {
+    let round = wanted == "( )";
+    let wrong = if round {
+        input.peek(token::Bracket)
+    } else {
+        input.peek(token::Paren)
+    };
+    if !wrong && !input.peek(token::Brace) {
+        return Ok(());
+    }
+    Err(Diagnostic::new(input.span(), Message::Brackets { what, wanted }).into())
 }
 
 /// The next token is not `what` it should be.

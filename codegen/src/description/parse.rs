@@ -8,7 +8,9 @@ use syn::parse::ParseStream;
 use syn::{Token, token};
 
 use super::expression::literal;
-use super::list::{List, ListFault, expected, group, identifier, list, parse_all, take};
+use super::list::{
+    List, ListFault, brackets, colon, expected, group, identifier, list, parse_all, take,
+};
 use super::{
     Description, DriveClause, Expression, Multiplicity, Node, ObservableClause, Property, Request,
     RequestForm, StructItem, Value,
@@ -300,33 +302,6 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node
 fn property(input: ParseStream<'_>, _: &mut Report) -> Result<Property, ListFault> {
     let name = identifier(input, "a property, as in `mass = 0.1`")?;
     property_value(name, input)
-}
-
-/// Refuses a `:` where a value should follow a name.
-fn colon(name: &Ident, input: ParseStream<'_>) -> Result<(), ListFault> {
-    if !input.peek(Token![:]) {
-        return Ok(());
-    }
-    let name = name.to_string();
-    Err(Diagnostic::new(input.span(), Message::Colon { name }).into())
-}
-
-/// Refuses other brackets than those that should come.
-fn brackets(
-    input: ParseStream<'_>,
-    what: &'static str,
-    wanted: &'static str,
-) -> Result<(), ListFault> {
-    let round = wanted == "( )";
-    let wrong = if round {
-        input.peek(token::Bracket)
-    } else {
-        input.peek(token::Paren)
-    };
-    if !wrong && !input.peek(token::Brace) {
-        return Ok(());
-    }
-    Err(Diagnostic::new(input.span(), Message::Brackets { what, wanted }).into())
 }
 
 /// A property, after its name.

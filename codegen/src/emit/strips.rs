@@ -152,11 +152,13 @@ impl Emission<'_> {
         ];
         if let Some(link) = &self.mechanics.link {
             let formulas = link.formulas(&self.mechanics.symbols);
-            let formulas = formulas.into_iter().map(|line| super::formulas::DocFormula {
-                left: line.left,
-                left_latex: line.left_latex,
-                right: line.right,
-            });
+            let formulas = formulas
+                .into_iter()
+                .map(|line| super::formulas::DocFormula {
+                    left: line.left,
+                    left_latex: line.left_latex,
+                    right: line.right,
+                });
             let formulas: Vec<_> = formulas.collect();
             self.show_rows(&formulas, formulas.len(), &mut lines);
         }

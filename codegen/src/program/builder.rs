@@ -4,7 +4,7 @@ use super::rules::RULES;
 use super::rules::sharing::KnownOperations;
 use super::{
     Choice, ConstantId, ConstantOp, Definition, Entry, MOST_VALUES, Op, Pass, Program, Setup,
-    ValueId,
+    TooManyValues, ValueId,
 };
 use crate::exact::Rational;
 use crate::scene::Scene;
@@ -17,8 +17,6 @@ pub(super) struct Builder {
     pub(super) setup: Setup,
     /// The pass that is left out, for comparison.
     pub(super) off: Option<Pass>,
-    /// Whether values were wanted beyond [`MOST_VALUES`].
-    is_full: bool,
 }
 
 impl Builder {
@@ -39,7 +37,6 @@ impl Builder {
             choice,
             strips: None,
             without: self.off,
-            is_cut_off: self.is_full,
         }
     }
 
@@ -74,9 +71,8 @@ impl Builder {
             return id;
         }
         if self.definitions.len() >= MOST_VALUES {
-            // The program is of no use: any value will do until it ends.
-            self.is_full = true;
-            return ValueId(0);
+            // No panic: nothing is printed, and `lower_in_limits` says why.
+            std::panic::resume_unwind(Box::new(TooManyValues));
         }
         let id = ValueId(self.definitions.len() as u32);
         self.known.insert(op.clone(), id);

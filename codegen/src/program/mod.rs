@@ -52,6 +52,7 @@ pub use verify::Fault;
 use crate::exact::Rational;
 use crate::mechanics::{Counting, Mechanics};
 use crate::scene::Scene;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 /// Lowers everything that the scene asks for into one program.
 ///
@@ -60,7 +61,24 @@ pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
     lower_without(None, scene, mechanics)
 }
 
-/// As [`lower()`], but without one of the passes, to see the worth of that one.
+/// Lowers what [`lower_without`] lowers, unless that is too long.
+///
+/// # Errors
+/// [`TooManyValues`] where there would be more than [`MOST_VALUES`].
+pub fn lower_in_limits(
+    off: Option<Pass>,
+    scene: &Scene,
+    mechanics: &Mechanics,
+) -> Result<Program, TooManyValues> {
+    let lowered = AssertUnwindSafe(|| lower_without(off, scene, mechanics));
+    catch_unwind(lowered).map_err(|reason| match reason.downcast() {
+        Ok(limit) => *limit,
+        Err(panic) => resume_unwind(panic),
+    })
+}
+
+/// Lowers without one of the passes, to see the worth of that one. Unwinds with
+/// [`TooManyValues`] where there would be more than [`MOST_VALUES`].
 pub fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
     let mut lowering = lower::Lowering::new(mechanics);
     lowering.builder.off = off;
@@ -69,9 +87,6 @@ pub fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) ->
         false => entries::entries(scene, &mut lowering),
     };
     let mut program = lowering.builder.finish(entries, choice);
-    if program.is_cut_off {
-        return program;
-    }
     program.strips = strips;
     PASSES
         .iter()
@@ -389,9 +404,11 @@ pub struct Program {
     pub strips: Option<Strips>,
     /// The pass that was left out, for comparison.
     pub without: Option<Pass>,
-    /// Whether it would have more than [`MOST_VALUES`] values, and so has no meaning.
-    pub is_cut_off: bool,
 }
+
+/// Reason for which a program could not be written.
+#[derive(Clone, Copy, Debug)]
+pub struct TooManyValues;
 
 /// Most values of a program before its passes: twice as many as all exact forms of the
 /// budget of 31 links have.

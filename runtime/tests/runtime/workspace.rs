@@ -4,6 +4,7 @@ use core::cell::Cell;
 use core::ops::ControlFlow;
 
 use branched_pendulum::analysis::variational::{ByTangents, Variational};
+use branched_pendulum::integrate::Projected;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::Workspace;

@@ -3,6 +3,7 @@
 mod expansion;
 mod grammar;
 mod verdict;
+mod words;
 
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 

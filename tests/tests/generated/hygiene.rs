@@ -36,7 +36,7 @@ mod hostile {
 
     #[::branched_pendulum::branched_pendulum(
         gravity = g,
-        a(mass = parameters, com = theta, joint = omega, inertia = value) [
+        a(mass = parameters, com = thetas, joint = omegas, inertia = value) [
             b(mass = 0.5, com = 0.1, inertia = coupling_b_a, friction = alpha) * 3
         ],
         emit(energies, taylor, transfer(exact), budget(canonical, parseval, matrix, amplitude = 2)),
@@ -44,15 +44,15 @@ mod hostile {
     pub(super) struct Shadowed;
 
     #[::branched_pendulum::branched_pendulum(
-        gravity = sqrt,
+        gravity = square,
         a(mass = 1, com = 0.1, joint = 0.2, inertia = 0.01) [
             b(mass = 0.5, com = 0.1, inertia = 1e-3, friction = 1e-4) * 2
         ],
         emit(momenta),
         observe(
-            sin = sin(theta_a + 2 * theta_b_1) * sqrt,
+            sin = sin(theta_a + 2 * theta_b_1) * square,
             rates = omega_d * cos(theta_d),
-            coordinates = sqrt(1 + sqrt * p_b_2^2),
+            coordinates = sqrt(1 + square * p_b_2^2),
             f = 0,
         ),
     )]
@@ -73,8 +73,8 @@ fn parameters_named_like_locals() {
     let model = hostile::Shadowed::new(hostile::ShadowedParameters {
         g: 9.8,
         parameters: 0.4,
-        theta: 0.1,
-        omega: 0.3,
+        thetas: 0.1,
+        omegas: 0.3,
         value: 1e-3,
         alpha: 1e-4,
         coupling_b_a: 1e-3,
@@ -90,7 +90,7 @@ fn parameters_named_like_locals() {
 
 #[test]
 fn observables_named_like_functions_and_arguments() {
-    let model = hostile::Observing::new(hostile::ObservingParameters { sqrt: 4.0 })
+    let model = hostile::Observing::new(hostile::ObservingParameters { square: 4.0 })
         .expect("possible parameters");
     let (theta, omega) = ([0.1, 0.2, 0.3], [0.4, 0.5, 0.6]);
     assert_eq!(model.sin(&theta, &omega), f64::sin(0.1 + 2.0 * 0.2) * 4.0);

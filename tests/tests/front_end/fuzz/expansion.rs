@@ -119,6 +119,9 @@ const CURED: &[&str] = &[
         a: rod(mass = 1, length = 1) * 2)] struct A;",
     "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1)
         [r#type: rod(mass = 1, length = 1) * 3])] struct A;",
+    "#[branched_pendulum(gravity = 9.8,
+        a: generations(count = 4, branching = 3, shape = rod, mass = m, length = 1),
+        emit(symmetric, budget))] struct A;",
 ];
 
 #[test]
