@@ -4,7 +4,7 @@
 //! where a tree is written out, elements of arguments where the link stands in a loop.
 
 use super::deficit::Deficit;
-use crate::program::ValueId;
+use crate::program::{Op, ValueId};
 use crate::program::builder::Builder;
 use crate::program::pair::Pair;
 
@@ -205,13 +205,14 @@ impl Link {
         let first_moment = builder.name_pair(whole.first_moment, &format!("first_moment@{suffix}"));
         builder.name(whole.inertia, &format!("joint_inertia{suffix}"));
         builder.name_pair(whole.force, &format!("held_force@{suffix}"));
-        let torque = self.bias_torque(builder, whole);
+        let torque = self.net_torque(builder, whole);
         let one = builder.integer(1);
         let inverse = builder.div(one, whole.inertia);
         builder.name(inverse, &format!("inverse_joint_inertia{suffix}"));
         let gain = builder.scale_pair(inverse, first_moment);
         builder.name_pair(gain, &format!("gain@{suffix}"));
-        let offset = builder.mul(torque, inverse);
+        let reduced = builder.mul(torque, inverse);
+        let offset = builder.neg(reduced);
         builder.name(offset, &format!("offset{suffix}"));
         let elimination = Elimination { gain, offset };
         let deficit = whole.deficit.less_mass(builder, self.mass);
@@ -238,21 +239,25 @@ impl Link {
         builder.name_pair(first_moment, &format!("first_moment@{suffix}"));
         let centripetal = self.centripetal(builder);
         let force = inwards(builder, centripetal, first_moment);
-        let torque = builder.neg(self.torque);
-        let offset = builder.mul(torque, inverse);
+        let reduced = builder.mul(self.torque, inverse);
+        let offset = builder.neg(reduced);
         builder.name(offset, &format!("offset{suffix}"));
         let response = Response {
             deficit: Deficit::product(builder, first_moment, gain),
-            bias_force: passed_on(builder, force, torque, gain),
+            bias_force: passed_on(builder, force, self.torque, gain),
         };
         response.name(builder, suffix);
         (response, Elimination { gain, offset })
     }
 
-    /// κ = Σ y·γ' − Q.
-    pub(super) fn bias_torque(&self, builder: &mut Builder, whole: &Attached) -> ValueId {
-        let torque = builder.sub(whole.torque, self.torque);
-        builder.name(torque, &format!("bias_torque{}", self.suffix))
+    /// −κ = Q − Σ y·γ'. Of the two the one that no sign stands before has a name.
+    pub(super) fn net_torque(&self, builder: &mut Builder, whole: &Attached) -> ValueId {
+        let torque = builder.sub(self.torque, whole.torque);
+        match *builder.op(torque) {
+            Op::Neg(bias) => builder.name(bias, &format!("bias_torque{}", self.suffix)),
+            _ => builder.name(torque, &format!("torque{}", self.suffix)),
+        };
+        torque
     }
 
     /// ω̇ in units of length and in rad/s², (10.8), where `gravity` is that which the
@@ -311,5 +316,5 @@ fn inwards(builder: &mut Builder, centripetal: ValueId, r: Pair) -> Pair {
 /// γ = γ' − b κ/J.
 fn passed_on(builder: &mut Builder, force: Pair, torque: ValueId, gain: Pair) -> Pair {
     let part = builder.scale_pair(torque, gain);
-    builder.sub_pairs(force, part)
+    builder.add_pairs(force, part)
 }

@@ -191,11 +191,12 @@ impl Sweep<'_> {
 
 /// The root's pivot is accelerated as given: nothing of the root is eliminated.
 fn solve_root(builder: &mut Builder, link: &Link, whole: &Attached, gravity: Pair) -> Elimination {
-    let torque = link.bias_torque(builder, whole);
+    let torque = link.net_torque(builder, whole);
     let driving = builder.dot(whole.first_moment, gravity);
-    let rest = builder.sub(torque, driving);
+    let rest = builder.add(driving, torque);
+    let tangential = builder.div(rest, whole.inertia);
     Elimination {
         gain: builder.zero_pair(),
-        offset: builder.div(rest, whole.inertia),
+        offset: builder.neg(tangential),
     }
 }
