@@ -54,6 +54,9 @@ pub trait Simd<T>: Scalar {
     /// many registers and sines that take no branch.
     const AHEAD: bool = false;
 
+    /// One number of the same arithmetic.
+    type One: Simd<T>;
+
     /// Says of each lane whether it is meant.
     type Mask: Copy;
 

@@ -79,6 +79,7 @@ macro_rules! fused {
         }
 
         impl Simd<$float> for Fused<$float> {
+            type One = Self;
             type Mask = bool;
             type Chunk = $float;
 

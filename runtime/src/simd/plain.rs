@@ -11,6 +11,7 @@ use crate::scalar::{Lane, Lanes, Real, Scalar};
 
 /// Every number is a wide one of one lane.
 impl<T: Scalar> Simd<T> for T {
+    type One = T;
     type Mask = bool;
     type Chunk = T;
 
@@ -111,6 +112,7 @@ impl<T: Lane, const N: usize> Register for Lanes<T, N> {
 
 /// The registers of instruction sets that this crate has no type for.
 impl<T: Lane, const N: usize> Simd<T> for Lanes<T, N> {
+    type One = T;
     type Mask = [bool; N];
     type Chunk = [T; N];
 

@@ -24,8 +24,9 @@ pub(super) struct Generation {
     /// From one neighbour to the next in the whole tree: 1, but for one link after the
     /// other of states in lanes.
     pub(super) step: usize,
-    /// Where the generation before starts in the whole tree; none for the root.
-    pub(super) above: Option<usize>,
+    /// Where the generation before starts in the whole tree, and its number of links;
+    /// none for the root.
+    pub(super) above: Option<(usize, usize)>,
 }
 
 /// Numbers in the widest register. In arrays of links with children, a generation
@@ -68,7 +69,7 @@ pub(super) fn generations(
                 step: if one_by_one { stride } else { 1 },
                 above: generation
                     .checked_sub(1)
-                    .and_then(|above| starts.get(above).copied()),
+                    .and_then(|above| Some((*starts.get(above)?, *counts.get(above)?))),
             };
             own += count;
             slot += count.next_multiple_of(widest);
@@ -126,9 +127,9 @@ pub(super) struct Position {
     pub(super) whole: usize,
 }
 
-impl Block<'_> {
+impl<'a> Block<'a> {
     /// The generations whose links are computed here.
-    pub(super) fn own_generations(&self) -> &[Generation] {
+    pub(super) fn own_generations(&self) -> &'a [Generation] {
         let count = self.inner + usize::from(self.has_leaves);
         self.generations.get(..count).unwrap_or_default()
     }

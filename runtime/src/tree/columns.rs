@@ -125,22 +125,3 @@ pub(super) unsafe fn write<T, V: Simd<T>, A: Row<V>>(vectors: &A, start: *mut T,
         i += 1;
     }
 }
-
-/// Writes the first `count` numbers of vectors likewise.
-///
-/// # Safety
-/// They may be written there.
-#[inline(always)]
-pub(super) unsafe fn write_some<T, V: Simd<T>, A: Row<V>>(
-    vectors: &A,
-    start: *mut T,
-    stride: usize,
-    count: usize,
-) {
-    let mut i = 0;
-    while i < A::LENGTH {
-        // SAFETY: the caller's.
-        unsafe { vectors.as_ref()[i].write_some(start.add(i * stride), count) };
-        i += 1;
-    }
-}

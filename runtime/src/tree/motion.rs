@@ -1,6 +1,6 @@
 //! What equations read of the angles and velocities, formed before the recursion.
 
-use super::block::Block;
+use super::block::{Block, Generation};
 use super::columns::Columns;
 use super::prefetch::prefetch;
 use super::shared::Shared;
@@ -97,43 +97,80 @@ pub(super) fn joint_motions<T: Scalar>(
     theta: impl Fn(usize) -> T,
     omega: impl Fn(usize) -> T,
 ) {
-    let (block, storage) = (sweep.block, &sweep.storage);
-    each_link(block, parents, |own, link, parent| {
-        let (mut angle, mut rate) = (theta(link), omega(link));
-        if let Some(parent) = parent {
+    let (storage, mut links) = (&sweep.storage, Links::of(sweep.block));
+    while let Some(link) = links.next() {
+        let (mut angle, mut rate) = (theta(link.place), omega(link.place));
+        if let Some(parent) = link.parent(parents) {
             angle = angle - theta(parent);
             rate = rate - omega(parent);
         }
         let _ = storage
             .joint_motions
-            .store(storage.lead + own, &[angle, rate]);
-    });
+            .store(storage.lead + link.own, &[angle, rate]);
+    }
 }
 
-/// Tells of each link of a block: its place there and in the tree, and its parent's
-/// place in the tree, but for the root.
-#[inline(always)]
-pub(super) fn each_link(
-    block: Block<'_>,
-    parents: &[u32],
-    mut tell: impl FnMut(usize, usize, Option<usize>),
-) {
-    for generation in block.own_generations() {
-        let above = generation.above.map(|start| {
-            let count = generation.whole_count / generation.copies.max(1);
-            (start, count.max(1))
-        });
-        for span in 0..generation.strips {
-            let place = block.place(generation, span);
-            for i in 0..generation.length {
-                let link = place.whole + i * generation.step;
-                let parent = match above {
-                    Some((start, count)) => Some(start + (link - generation.whole) % count),
-                    None if link > 0 => parents.get(link).map(|&parent| parent as usize),
-                    None => None,
-                };
-                tell(place.own + i, link, parent);
+/// Where a link of a block stands: there, in the tree and in its generation.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link {
+    pub(super) own: usize,
+    pub(super) place: usize,
+    number: usize,
+    above: Option<(usize, usize)>,
+}
+
+impl Link {
+    /// Returns the place of the parent, but for the root; in a tree of any shape these
+    /// are the parents of all.
+    #[inline(always)]
+    pub(super) fn parent(&self, parents: &[u32]) -> Option<usize> {
+        match self.above {
+            Some((above, count)) => Some(above + self.number % count.max(1)),
+            None if self.place > 0 => parents.get(self.place).map(|&parent| parent as usize),
+            None => None,
+        }
+    }
+}
+
+/// The links of a block, span by span.
+pub(super) struct Links<'a> {
+    generations: &'a [Generation],
+    start: usize,
+    span: usize,
+    index: usize,
+}
+
+impl<'a> Links<'a> {
+    #[inline(always)]
+    pub(super) fn of(block: Block<'a>) -> Self {
+        Self {
+            generations: block.own_generations(),
+            start: block.start,
+            span: 0,
+            index: 0,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn next(&mut self) -> Option<Link> {
+        let generation = self.generations.first()?;
+        let own = generation.own + self.span * generation.length + self.index;
+        let within = self.span * generation.stride + self.index * generation.step;
+        let number = self.start + within;
+        let link = Link {
+            own,
+            place: generation.whole + number,
+            number,
+            above: generation.above,
+        };
+        self.index += 1;
+        if self.index >= generation.length {
+            (self.index, self.span) = (0, self.span + 1);
+            if self.span >= generation.strips {
+                self.span = 0;
+                self.generations = self.generations.get(1..).unwrap_or_default();
             }
         }
+        Some(link)
     }
 }

@@ -40,14 +40,4 @@ impl<T: Scalar> RootDrive<T> {
             }) => [x + pivot_x, y + pivot_y],
         }
     }
-
-    /// The root's constants with the torque in their last column.
-    #[inline(always)]
-    pub(super) fn row<const C: usize>(torque: T, row: &[T; C]) -> [T; C] {
-        let mut row = *row;
-        if let Some(last) = row.last_mut() {
-            *last = torque;
-        }
-        row
-    }
 }

@@ -12,7 +12,7 @@
 use super::block::Block;
 use super::equations::LinkEquations;
 use super::memory::{Room, take};
-use super::motion::each_link;
+use super::motion::Links;
 use super::root::RootDrive;
 use super::skeleton::Skeleton;
 use super::sweep::{Output, Passes, Sweep};
@@ -159,7 +159,12 @@ fn sweep<'a, T: Scalar, V: Simd<T>>(
     }
 }
 
+/// Registers of sines that are formed in step: while the result of one operation is
+/// awaited, the others keep the processor busy.
+const STEP: usize = 2;
+
 /// Forms the motions of a block's links.
+// No closures around what must be inlined: they are not, always.
 #[inline(always)]
 fn form<T: Scalar, V: Simd<T>>(
     sweep: &mut Sweep<'_, T, V>,
@@ -168,24 +173,31 @@ fn form<T: Scalar, V: Simd<T>>(
     theta: &impl Fn(usize) -> V,
     omega: &impl Fn(usize) -> V,
 ) {
-    let storage = &sweep.storage;
-    each_link(sweep.block, parents, |own, place, parent| {
-        let own = storage.lead + own;
-        let number = link(order, place);
-        let (angle, rate) = (theta(number), omega(number));
-        let (sine, cosine) = angle.sin_cos();
-        let _ = storage.sincos.store::<V, 2>(own, &[sine, cosine]);
-        if let Some(velocities) = storage.velocities {
-            let _ = velocities.store::<V, 1>(own, &[rate]);
+    let (storage, mut links) = (&sweep.storage, Links::of(sweep.block));
+    while let Some(first) = links.next() {
+        // The last one may come alone, and is formed twice then.
+        let both = [first, links.next().unwrap_or(first)];
+        let mut angles = [V::from_f64(0.0); STEP];
+        for i in 0..STEP {
+            angles[i] = theta(link(order, both[i].place));
         }
-        if storage.sizes.joints {
-            let (mut angle, mut rate) = (angle, rate);
-            if let Some(parent) = parent {
-                let parent = link(order, parent);
-                angle = angle - theta(parent);
-                rate = rate - omega(parent);
+        let (sines, cosines) = V::sin_cos_each(&angles);
+        for i in 0..STEP {
+            let own = storage.lead + both[i].own;
+            let rate = omega(link(order, both[i].place));
+            let _ = storage.sincos.store::<V, 2>(own, &[sines[i], cosines[i]]);
+            if let Some(velocities) = storage.velocities {
+                let _ = velocities.store::<V, 1>(own, &[rate]);
             }
-            let _ = storage.joint_motions.store::<V, 2>(own, &[angle, rate]);
+            if storage.sizes.joints {
+                let (mut angle, mut rate) = (angles[i], rate);
+                if let Some(parent) = both[i].parent(parents) {
+                    let parent = link(order, parent);
+                    angle = angle - theta(parent);
+                    rate = rate - omega(parent);
+                }
+                let _ = storage.joint_motions.store::<V, 2>(own, &[angle, rate]);
+            }
         }
-    });
+    }
 }

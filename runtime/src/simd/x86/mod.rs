@@ -14,7 +14,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use core::slice::from_raw_parts_mut;
 
 use super::permutation::{rotated, tiled};
-use super::{Register, Simd};
+use super::{Fused, Register, Simd};
 use crate::generations::With;
 use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, words_of_sse2};
 
@@ -57,7 +57,7 @@ const LARGER_SIZE: i32 = 0b1011;
 macro_rules! register {
     (
         $(#[$docs:meta])*
-        $name:ident: $vector:ident = $lanes:literal of $lane:ident,
+        $name:ident: $vector:ident = $lanes:literal of $lane:ident, one: $one:ty,
         $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident,
         $and:ident, $andnot:ident, $or:ident, larger: $larger:ident,
         words: $words:ident = $count:literal, some: $some:ident $(, sines: $sines:ident)?
@@ -121,6 +121,7 @@ macro_rules! register {
         }
 
         impl Simd<$lane> for $name {
+            type One = $one;
             /// All bits set, or none.
             type Mask = Self;
             type Chunk = [$lane; $lanes];
@@ -234,7 +235,7 @@ macro_rules! register {
 
 register! {
     /// A register of SSE2.
-    F64x2: __m128d = 2 of f64,
+    F64x2: __m128d = 2 of f64, one: f64,
     _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd,
     _mm_and_pd, _mm_andnot_pd, _mm_or_pd, larger: _mm_max_pd,
     words: words_of_sse2 = 4, some: one_by_one
@@ -242,7 +243,7 @@ register! {
 
 register! {
     /// A register of SSE2.
-    F32x4: __m128 = 4 of f32,
+    F32x4: __m128 = 4 of f32, one: f32,
     _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps,
     _mm_and_ps, _mm_andnot_ps, _mm_or_ps, larger: _mm_max_ps,
     words: words_of_sse2 = 4, some: one_by_one
@@ -250,7 +251,7 @@ register! {
 
 register! {
     /// A register of AVX2.
-    F64x4: __m256d = 4 of f64,
+    F64x4: __m256d = 4 of f64, one: Fused<f64>,
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
     _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd, larger: _mm256_max_pd,
     words: words_of_avx2 = 8, some: one_by_one, sines: fused
@@ -258,7 +259,7 @@ register! {
 
 register! {
     /// A register of AVX2.
-    F32x8: __m256 = 8 of f32,
+    F32x8: __m256 = 8 of f32, one: Fused<f32>,
     _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps,
     _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps, larger: _mm256_max_ps,
     words: words_of_avx2 = 8, some: one_by_one, sines: fused
@@ -266,7 +267,7 @@ register! {
 
 register! {
     /// A register of AVX-512.
-    F64x8: __m512d = 8 of f64,
+    F64x8: __m512d = 8 of f64, one: Fused<f64>,
     _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_sqrt_pd,
     _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd, larger: _mm512_range_pd,
     words: words_of_avx512 = 16, some: masked_f64, sines: fused
@@ -274,7 +275,7 @@ register! {
 
 register! {
     /// A register of AVX-512.
-    F32x16: __m512 = 16 of f32,
+    F32x16: __m512 = 16 of f32, one: Fused<f32>,
     _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps,
     _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps, larger: _mm512_range_ps,
     words: words_of_avx512 = 16, some: masked_f32, sines: fused

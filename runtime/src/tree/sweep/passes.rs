@@ -8,7 +8,7 @@ use super::strip::{Output, StripView};
 use super::view::View;
 use crate::scalar::Scalar;
 use crate::simd::{Kernel, Simd};
-use crate::tree::columns::{read, write, write_some};
+use crate::tree::columns::{read, write};
 use crate::tree::equations::{LinkEquations, LinkMotion, Row};
 use crate::tree::memory::Sizes;
 use crate::tree::shared::Shared;
@@ -95,15 +95,11 @@ where
         }
     }
 
-    /// The constants of a generation; zeros if it has none, or constants are a row a
-    /// link.
+    /// The constants of a generation; zeros if it has none.
     #[inline(always)]
     fn row(&self, generation: usize) -> E::Constants<V> {
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
         let length = <E::Constants<V> as Row<V>>::LENGTH;
-        if Self::BY_LINK {
-            return row;
-        }
         let start = generation * length;
         if let Some(numbers) = self.view.constants.get(start..start + length) {
             let mut i = 0;
@@ -133,29 +129,209 @@ where
         self.row(E::COPIES.len().wrapping_sub(1))
     }
 
-    /// The constants of neighbours: those of their generation, or their own.
+    /// The constants of the links from `at` on, each its own.
     #[inline(always)]
-    unsafe fn constants(&self, row: &E::Constants<V>, at: usize) -> E::Constants<V> {
-        let mut row = *row;
-        if Self::BY_LINK {
-            let mut column = 0;
-            while column < <E::Constants<V> as Row<V>>::LENGTH {
-                // SAFETY: see the top.
-                row.as_mut()[column] = unsafe { self.view.constant(column, at) };
-                column += 1;
-            }
-            if at == 0 {
-                self.take_torque(&mut row);
-            }
+    unsafe fn constants(&self, at: usize) -> E::Constants<V> {
+        let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
+        let mut column = 0;
+        while column < <E::Constants<V> as Row<V>>::LENGTH {
+            // SAFETY: see the top.
+            row.as_mut()[column] = unsafe { self.view.constant(column, at) };
+            column += 1;
+        }
+        if at == 0 {
+            self.take_torque(&mut row);
         }
         row
+    }
+
+    /// From the leaves to the first strip.
+    #[inline(always)]
+    pub(in crate::tree) fn up(&self) {
+        if !Self::BY_LINK {
+            return self.generations_up();
+        }
+        let mut strips = self.strips;
+        while let Some((strip, before)) = strips.split_last() {
+            if strip.length < V::LANES {
+                Passes::<E, N, T, V::One>::of(self.view).links_up(strip);
+            } else {
+                self.links_up(strip);
+            }
+            self.attach(strip);
+            strips = before;
+        }
+    }
+
+    /// From the first strip, the acceleration of whose pivots is the root's or in
+    /// memory, to the leaves.
+    #[inline(always)]
+    pub(in crate::tree) fn down(&self, out: &mut impl Output<T>) {
+        if !Self::BY_LINK {
+            return self.generations_down(out);
+        }
+        let mut strips = self.strips;
+        while let Some((strip, behind)) = strips.split_first() {
+            self.hand_down(strip);
+            if strip.length < V::LANES {
+                Passes::<E, N, T, V::One>::of(self.view).links_down(strip, out);
+            } else {
+                self.links_down(strip, out);
+            }
+            strips = behind;
+        }
+    }
+
+    /// A strip of links with constants of their own, up.
+    #[inline(always)]
+    fn links_up(&self, strip: &Strip) {
+        let near = StripView::of(self.view, strip, 0);
+        let mut places = near.places::<V>();
+        while let Some(at) = places.next() {
+            // SAFETY: see the top.
+            let constants = unsafe { self.constants(strip.first.own + at) };
+            // SAFETY: see the top.
+            let link = unsafe { near.motion(at, E::JOINTS) };
+            if strip.copies == 0 {
+                let response = E::leaf(&constants, link);
+                // SAFETY: see the top.
+                unsafe { near.respond(at, &response) };
+                continue;
+            }
+            // SAFETY: see the top.
+            let (response, elimination) = E::inner(&constants, link, unsafe { near.sums(at) });
+            // SAFETY: see the top.
+            unsafe { near.respond(at, &response) };
+            // SAFETY: see the top.
+            unsafe { near.keep(at, &elimination) };
+        }
+    }
+
+    /// The same down; the accelerations of pivots are in memory but for the root's.
+    #[inline(always)]
+    fn links_down(&self, strip: &Strip, out: &mut impl Output<T>) {
+        let near = StripView::of(self.view, strip, 0);
+        let mut places = near.places::<V>();
+        while let Some(at) = places.next() {
+            let pivot = match &self.view.root {
+                Some([x, y]) if strip.first.own == 0 => [V::splat(*x), V::splat(*y)],
+                // SAFETY: see the top.
+                _ => unsafe { near.responses(at) },
+            };
+            // SAFETY: see the top.
+            let constants = unsafe { self.constants(strip.first.own + at) };
+            // SAFETY: see the top.
+            let link = unsafe { near.motion(at, E::JOINTS) };
+            if strip.copies == 0 {
+                let acceleration = E::accelerate_leaf(&constants, link, pivot);
+                // SAFETY: see the top.
+                unsafe { near.accelerate(out, at, acceleration) };
+                continue;
+            }
+            // SAFETY: see the top.
+            let elimination = unsafe { near.elimination(at) };
+            let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
+            // SAFETY: see the top.
+            unsafe { near.accelerate(out, at, acceleration) };
+            // SAFETY: see the top.
+            unsafe { near.carry(at, &carried) };
+        }
+    }
+
+    /// Adds the responses of a strip to the sums of the parents.
+    #[inline(always)]
+    fn attach(&self, strip: &Strip) {
+        let (from, to) = strip.attachments;
+        for attachment in self.attachments.get(from..to).unwrap_or_default() {
+            let mut at = 0;
+            while at + V::LANES <= attachment.length {
+                // SAFETY: see the top.
+                unsafe { self.attach_at(attachment, at) };
+                at += V::LANES;
+            }
+            // The last ones one by one: what is written narrow is read narrow soon.
+            let one = Passes::<E, N, T, V::One>::of(self.view);
+            while at < attachment.length {
+                // SAFETY: see the top.
+                unsafe { one.attach_at(attachment, at) };
+                at += 1;
+            }
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn attach_at(&self, attachment: &Attachment, at: usize) {
+        let (child, parent) = (attachment.child + at, attachment.parent + at);
+        let (view, slots) = (self.view, self.view.slots);
+        // SAFETY: see the top.
+        let (constants, link) = unsafe { (self.constants(child), self.parent(parent)) };
+        // SAFETY: see the top.
+        let response = unsafe { read(view.responses.add(child), slots) };
+        let own = E::attach(&constants, link, response);
+        let mut sums = own;
+        if !attachment.first {
+            // SAFETY: see the top.
+            sums = unsafe { read(view.sums.add(parent), slots) };
+            add(&mut sums, &own);
+        }
+        // SAFETY: see the top.
+        unsafe { write(&sums, view.sums.add(parent), slots) };
+    }
+
+    /// Writes the accelerations of the pivots of a strip.
+    #[inline(always)]
+    fn hand_down(&self, strip: &Strip) {
+        let (from, to) = strip.attachments;
+        for attachment in self.attachments.get(from..to).unwrap_or_default() {
+            let mut at = 0;
+            while at + V::LANES <= attachment.length {
+                // SAFETY: see the top.
+                unsafe { self.hand_down_at(attachment, at) };
+                at += V::LANES;
+            }
+            let one = Passes::<E, N, T, V::One>::of(self.view);
+            while at < attachment.length {
+                // SAFETY: see the top.
+                unsafe { one.hand_down_at(attachment, at) };
+                at += 1;
+            }
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn hand_down_at(&self, attachment: &Attachment, at: usize) {
+        let (child, parent) = (attachment.child + at, attachment.parent + at);
+        let (view, slots) = (self.view, self.view.slots);
+        // SAFETY: see the top.
+        let (constants, link) = unsafe { (self.constants(child), self.parent(parent)) };
+        // SAFETY: see the top.
+        let carried = unsafe { read(view.sums.add(parent), slots) };
+        let pivot = E::pivot(&constants, link, carried);
+        // SAFETY: see the top.
+        unsafe { write(&pivot, view.responses.add(child), slots) };
+    }
+
+    /// Motions of the links from `at` on, without those of joints.
+    #[inline(always)]
+    unsafe fn parent(&self, at: usize) -> LinkMotion<V> {
+        // SAFETY: see the top.
+        let [sine, cosine]: [V; 2] = unsafe { read(self.view.sincos.add(at), self.view.links) };
+        // SAFETY: see the top.
+        let omega = unsafe { V::read(self.view.omega.add(at)) };
+        LinkMotion {
+            sine,
+            cosine,
+            omega,
+            joint_angle: omega,
+            joint_rate: omega,
+        }
     }
 
     /// From the last generation to the first. The equations stand here once, for links
     /// above leaves, in the uppermost generations and between: every copy of them is
     /// compiled with each model, three times.
     #[inline(always)]
-    pub(in crate::tree) fn up(&self) {
+    fn generations_up(&self) {
         let leaf = self.leaf();
         let mut responses = <E::Response<V> as Row<V>>::filled(V::from_f64(0.0));
         let mut strips = self.strips;
@@ -166,40 +342,20 @@ where
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
                 // SAFETY: see the top.
-                let constants = unsafe { self.constants(&row, strip.first.own + at) };
-                // SAFETY: see the top.
                 let link = unsafe { near.motion(at, E::JOINTS) };
-                if Self::BY_LINK && strip.copies == 0 {
-                    let response = E::leaf(&constants, link);
-                    // SAFETY: see the top.
-                    unsafe { near.respond_alone(at, &response) };
-                    continue;
-                }
-                let below = match (Self::BY_LINK, strip.leaves) {
-                    // SAFETY: see the top.
-                    (true, _) => unsafe { near.sums(at) },
-                    (_, true) => Self::leaves(&near, at, &leaf, link),
-                    _ if strip.lanes <= V::LANES => {
+                let below = match strip.leaves {
+                    true => Self::leaves(&near, at, &leaf, link),
+                    false if strip.lanes <= V::LANES => {
                         Self::neighbours(&responses, strip.length, near.copies, &below_row, link)
                     }
-                    _ => Self::sum(&near, at, &below_row, link),
+                    false => Self::sum(&near, at, &below_row, link),
                 };
                 let elimination;
-                (responses, elimination) = E::inner(&constants, link, below);
-                if Self::BY_LINK {
-                    // SAFETY: see the top.
-                    unsafe { near.respond_alone(at, &responses) };
-                    // SAFETY: see the top.
-                    unsafe { near.keep_alone(at, &elimination) };
-                } else {
-                    // SAFETY: see the top.
-                    unsafe { near.respond(at, &responses) };
-                    // SAFETY: see the top.
-                    unsafe { near.keep(at, &elimination) };
-                }
-            }
-            if Self::BY_LINK {
-                self.attach(strip);
+                (responses, elimination) = E::inner(&row, link, below);
+                // SAFETY: see the top.
+                unsafe { near.respond(at, &responses) };
+                // SAFETY: see the top.
+                unsafe { near.keep(at, &elimination) };
             }
             strips = before;
         }
@@ -268,10 +424,9 @@ where
         E::attach(constants, link, sums)
     }
 
-    /// From the first generation, the acceleration of whose pivots is the root's or in
-    /// memory, to the last.
+    /// From the first generation to the last.
     #[inline(always)]
-    pub(in crate::tree) fn down(&self, out: &mut impl Output<T>) {
+    fn generations_down(&self, out: &mut impl Output<T>) {
         let leaf = self.leaf();
         let mut known = self.view.root.is_some();
         let mut pivot = match &self.view.root {
@@ -285,34 +440,18 @@ where
             let near = StripView::of(self.view, strip, Self::BRANCHING);
             let in_register = strip.lanes <= V::LANES;
             let mut places = near.places::<V>();
-            if Self::BY_LINK {
-                self.hand_down(strip);
-            }
             while let Some(at) = places.next() {
                 if !known {
                     // SAFETY: see the top.
                     pivot = unsafe { near.responses(at) };
                 }
                 // SAFETY: see the top.
-                let constants = unsafe { self.constants(&row, strip.first.own + at) };
-                // SAFETY: see the top.
                 let link = unsafe { near.motion(at, E::JOINTS) };
-                if Self::BY_LINK && strip.copies == 0 {
-                    let acceleration = E::accelerate_leaf(&constants, link, pivot);
-                    // SAFETY: see the top.
-                    unsafe { near.accelerate(out, at, acceleration) };
-                    continue;
-                }
                 // SAFETY: see the top.
                 let elimination = unsafe { near.elimination(at) };
-                let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
+                let (acceleration, carried) = E::accelerate(&row, link, elimination, pivot);
                 // SAFETY: see the top.
                 unsafe { near.accelerate(out, at, acceleration) };
-                if Self::BY_LINK {
-                    // SAFETY: see the top.
-                    unsafe { near.carry_alone(at, &carried) };
-                    continue;
-                }
                 let mut copy = 0;
                 if strip.leaves {
                     let below = E::pivot(&leaf, link, carried);
@@ -328,7 +467,8 @@ where
                 }
                 let below = E::pivot(&below_row, link, carried);
                 if in_register {
-                    pivot = below.map(|number| number.tile_lanes(strip.length));
+                    let [x, y] = below;
+                    pivot = [x.tile_lanes(strip.length), y.tile_lanes(strip.length)];
                 } else {
                     while copy < near.copies {
                         // SAFETY: see the top.
@@ -337,99 +477,8 @@ where
                     }
                 }
             }
-            known = in_register && !Self::BY_LINK;
+            known = in_register;
             strips = behind;
-        }
-    }
-
-    /// Adds the responses of a strip to the sums of the parents.
-    #[inline(always)]
-    fn attach(&self, strip: &Strip) {
-        let (from, to) = strip.attachments;
-        let row = self.row(0);
-        for attachment in self.attachments.get(from..to).unwrap_or_default() {
-            let &Attachment {
-                parent,
-                child,
-                length,
-                first,
-            } = attachment;
-            let mut at = 0;
-            while at < length {
-                // SAFETY: see the top.
-                let constants = unsafe { self.constants(&row, child + at) };
-                // SAFETY: see the top.
-                let link = unsafe { self.parent(parent + at) };
-                let slots = self.view.slots;
-                // SAFETY: see the top.
-                let response = unsafe { read(self.view.responses.add(child + at), slots) };
-                let mut sums = E::attach(&constants, link, response);
-                let place = self.view.sums.wrapping_add(parent + at);
-                if !first {
-                    // SAFETY: see the top.
-                    let before: E::Sums<V> = unsafe { read(place, slots) };
-                    let own = sums;
-                    sums = before;
-                    add(&mut sums, &own);
-                }
-                match length - at >= V::LANES {
-                    // SAFETY: see the top.
-                    true => unsafe { write(&sums, place, slots) },
-                    // SAFETY: see the top.
-                    false => unsafe { write_some(&sums, place, slots, length - at) },
-                }
-                at += V::LANES;
-            }
-        }
-    }
-
-    /// Writes the accelerations of the pivots of a strip.
-    #[inline(always)]
-    fn hand_down(&self, strip: &Strip) {
-        let (from, to) = strip.attachments;
-        let row = self.row(0);
-        for attachment in self.attachments.get(from..to).unwrap_or_default() {
-            let &Attachment {
-                parent,
-                child,
-                length,
-                ..
-            } = attachment;
-            let mut at = 0;
-            while at < length {
-                // SAFETY: see the top.
-                let constants = unsafe { self.constants(&row, child + at) };
-                // SAFETY: see the top.
-                let link = unsafe { self.parent(parent + at) };
-                let slots = self.view.slots;
-                // SAFETY: see the top.
-                let carried = unsafe { read(self.view.sums.add(parent + at), slots) };
-                let pivot = E::pivot(&constants, link, carried);
-                let place = self.view.responses.wrapping_add(child + at);
-                match length - at >= V::LANES {
-                    // SAFETY: see the top.
-                    true => unsafe { write(&pivot, place, slots) },
-                    // SAFETY: see the top.
-                    false => unsafe { write_some(&pivot, place, slots, length - at) },
-                }
-                at += V::LANES;
-            }
-        }
-    }
-
-    /// Motions of the links from `at` on, without those of joints.
-    #[inline(always)]
-    unsafe fn parent(&self, at: usize) -> LinkMotion<V> {
-        // SAFETY: see the top.
-        let [sine, cosine]: [V; 2] = unsafe { read(self.view.sincos.add(at), self.view.links) };
-        // SAFETY: see the top.
-        let omega = unsafe { V::read(self.view.omega.add(at)) };
-        LinkMotion {
-            sine,
-            cosine,
-            omega,
-            joint_angle: omega,
-            joint_rate: omega,
         }
     }
 }

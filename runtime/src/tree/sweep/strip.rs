@@ -7,7 +7,7 @@ use core::marker::PhantomData;
 use super::view::View;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
-use crate::tree::columns::{read, write, write_some};
+use crate::tree::columns::{read, write};
 use crate::tree::equations::{LinkMotion, Row};
 use crate::tree::strips::Strip;
 
@@ -208,33 +208,10 @@ impl<'a, T: Scalar> StripView<'a, T> {
         unsafe { read(self.sums.add(at), self.slots) }
     }
 
-    /// Writes where other links stand right behind the last one.
     #[inline(always)]
-    unsafe fn write_own<V: Simd<T>, A: Row<V>>(&self, row: &A, place: *mut T) {
-        match self.length >= V::LANES {
-            // SAFETY: see the top.
-            true => unsafe { write(row, place, self.slots) },
-            // SAFETY: see the top.
-            false => unsafe { write_some(row, place, self.slots, self.length) },
-        }
-    }
-
-    #[inline(always)]
-    pub(super) unsafe fn respond_alone<V: Simd<T>, A: Row<V>>(&self, at: usize, row: &A) {
+    pub(super) unsafe fn carry<V: Simd<T>, A: Row<V>>(&self, at: usize, row: &A) {
         // SAFETY: see the top.
-        unsafe { self.write_own(row, self.responses.add(at)) }
-    }
-
-    #[inline(always)]
-    pub(super) unsafe fn keep_alone<V: Simd<T>, A: Row<V>>(&self, at: usize, row: &A) {
-        // SAFETY: see the top.
-        unsafe { self.write_own(row, self.eliminations.add(at)) }
-    }
-
-    #[inline(always)]
-    pub(super) unsafe fn carry_alone<V: Simd<T>, A: Row<V>>(&self, at: usize, row: &A) {
-        // SAFETY: see the top.
-        unsafe { self.write_own(row, self.sums.add(at)) }
+        unsafe { write(row, self.sums.add(at), self.slots) }
     }
 
     /// From one link to the next in the tree: neighbours in lanes stand side by side.
