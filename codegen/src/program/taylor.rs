@@ -158,10 +158,10 @@ impl EntryList<'_, '_> {
     }
 
     /// Chooses units of length and of mass, which change nothing but rounding: one
-    /// rounded constant less is one error less in long motions. A unit of length is the distance
-    /// from which the last link hangs. Where all constants are known, the unit of mass is
-    /// the one with which they round least; else the moment of inertia of the last
-    /// link is one.
+    /// rounded constant less is one error less in long motions. The unit of length is
+    /// the distance from which the last link hangs. Where all constants are known, the
+    /// unit of mass is the one with which they round least; else the moment of inertia
+    /// of the last link is one.
     fn choose_units(&mut self, scene: &Scene, outputs: &mut TaylorOutputs) {
         self.choose_length(scene, outputs);
         let factor = self.factor(scene, outputs);

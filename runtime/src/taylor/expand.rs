@@ -11,8 +11,9 @@
 //! a link are all there is, for a tree of any shape and depth.
 //!
 //! In each order X follows from the equation, C from lower orders, and then S and Y
-//! by [`elimination`](super::elimination) along the tree: its factors, formed once,
-//! serve all orders. From order 28 on, which is that of tolerances near rounding,
+//! from a linear system, by [`elimination`](super::elimination) along the tree or, for
+//! one state of a small tree, by [`matrices`](super::dense): what these start from is
+//! formed once and serves all orders. From order 28 on, which is that of tolerances near rounding,
 //! the S of order 0 is refined once more.
 
 use super::bias::{Bias, Constant, Moving};
@@ -23,10 +24,10 @@ use super::quad::{OneLink, Quad};
 use super::series::SERIES;
 use crate::scalar::Scalar;
 
-/// Which link of a tree hangs on which.
+/// Says which link of a tree hangs on which.
 pub trait Connectivity<const N: usize> {
-    /// The parent of each link, which comes before it; of the root, link 0, nothing
-    /// is asked.
+    /// Index of each link's parent, which comes before it. That of the root, link 0, does
+    /// not count.
     const PARENTS: [usize; N];
 
     /// False if centres of mass and pivots lie on the links' axes: then all second
@@ -56,7 +57,7 @@ pub trait Connectivity<const N: usize> {
     };
 }
 
-/// Where an expansion starts.
+/// State at which an expansion starts.
 #[derive(Clone, Copy, Debug)]
 pub struct Start<'a, T, const N: usize> {
     /// Angles θ, rad.
@@ -121,7 +122,8 @@ pub const fn workspace(links: usize, order: usize) -> usize {
 /// Where `Q` or the length of `work` ([`workspace`]) does not fit, all coefficients
 /// are NaN.
 ///
-/// Complexity: O(n p) for each of p orders of n links. Uses AVX2 and FMA for `f64`
+/// Complexity: O(n p) for each of p orders of n links, plus O(n²) where matrices are
+/// used. Uses AVX2 and FMA for `f64`
 /// where the machine has them: results there differ by rounding from those
 /// elsewhere.
 #[inline(always)]
@@ -154,13 +156,14 @@ pub fn expand<T: Scalar, C: Connectivity<N>, const N: usize, const Q: usize, F>(
     }
 }
 
-/// Up to so many links matrices are faster than the elimination, for one state: µs for an
-/// expansion to order 22, by matrices and by elimination, 0.35 and 0.39 of three links, 0.83 and 0.92 of
-/// seven, 2.5 and 3.0 of fifteen, 8.1 and 5.7 of thirty-one.
+/// Number of links up to which one state takes matrices, as long as these are faster
+/// than the elimination. An expansion to order 22 takes 0.35 µs by matrices and 0.39 µs
+/// by elimination for three links, 0.83 and 0.92 for seven, 2.5 and 3.0 for fifteen, and
+/// 8.1 and 5.7 for thirty-one.
 const MATRICES: usize = 15;
 
-/// Runs the orders in packs of links, or link by link where a number is several
-/// already.
+/// Runs the orders in packs of links, or link by link where a number stands for several
+/// states already.
 #[inline(always)]
 fn run<T: Scalar, C: Connectivity<N>, B: Bias<T, N>, const N: usize, const Q: usize>(
     start: &Start<'_, T, N>,
