@@ -15,6 +15,7 @@ mod names;
 mod observables;
 mod parts;
 mod quantities;
+mod strip_powers;
 mod strip_tables;
 mod strips;
 mod stub;

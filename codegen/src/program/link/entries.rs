@@ -1,8 +1,9 @@
 //! The equations of one link as entry points of their own, for trees in loops.
 
+use super::columns::Column;
 use super::deficit::{Deficit, Rest};
 use super::equations::{Attached, Elimination, Link, Response};
-use super::strips::{Column, Strips, Table};
+use super::strips::{Strips, Table};
 use crate::mechanics::{Drive, Mechanics};
 use crate::program::entries::EntryList;
 use crate::program::lower::Door;

@@ -7,6 +7,7 @@
 //! from the root to the leaves it is formed. `equations` are those of one link,
 //! `tree` takes them through a tree that is written out.
 
+mod columns;
 mod deficit;
 mod entries;
 mod equations;
@@ -15,7 +16,8 @@ mod strips;
 mod torques;
 mod tree;
 
-pub use strips::{Column, Strip, Strips};
+pub use columns::Column;
+pub use strips::{Strip, Strips};
 
 use crate::scene::{LinkId, Scene};
 
