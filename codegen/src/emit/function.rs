@@ -304,11 +304,9 @@ impl Emission<'_> {
         let array = ident(Argument::Motion.name());
         let names = elements.iter().enumerate().filter_map(|(index, name)| {
             let field = ident(&self.input_name(Argument::Motion, index));
-            let read = name.to_string() != "_";
-            let same = name.to_string() == field.to_string();
-            match (read, same) {
-                (false, _) => None,
-                (_, true) => Some(quote!(#field)),
+            match name.to_string() {
+                name if name == "_" => None,
+                name if field == name => Some(quote!(#field)),
                 _ => Some(quote!(#field: #name)),
             }
         });

@@ -15,6 +15,7 @@ mod observables;
 mod parts;
 mod quantities;
 mod sink;
+mod strip_powers;
 mod strip_tables;
 mod strips;
 mod stub;

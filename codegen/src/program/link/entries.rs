@@ -1,11 +1,11 @@
 //! The equations of one link as entry points of their own, for trees in loops.
 
+use super::columns::Column;
 use super::deficit::{Deficit, Rest};
 use super::equations::{Attached, Elimination, Link, Response};
-use super::strips::{Column, Strips, Table};
-use crate::mechanics::{DriveTerms, Mechanics};
+use super::strips::{Strips, Table};
+use crate::mechanics::Mechanics;
 use crate::program::entries::EntryList;
-use crate::program::lower::Door;
 use crate::program::pair::Pair;
 use crate::program::{Argument, LinkFunction, Op, Purpose, Shape, ValueId};
 use crate::scene::Scene;
@@ -116,45 +116,6 @@ impl EntryList<'_, '_> {
             arguments,
             outputs,
             shape,
-        );
-    }
-
-    /// Apparent gravity at the root's pivot and, where there is a drive, the torque on
-    /// the root, in reduced units.
-    fn root(&mut self, mechanics: &Mechanics, table: &Table) {
-        let units = &table.units;
-        let mut door = Door::new(&mechanics.absolute, Argument::Theta, None, None);
-        let drive: Option<&DriveTerms> = mechanics.drive.as_ref();
-        let builder = &mut self.lowering.builder;
-        let zero = builder.integer(0);
-        let mut outputs = vec![zero, table.root_gravity];
-        self.push(
-            "root_gravity",
-            Purpose::RootGravity,
-            &[],
-            outputs.clone(),
-            Shape::Vector,
-        );
-        let Some(drive) = drive else { return };
-        outputs = vec![zero; 3];
-        for motion in &drive.pivot {
-            if let Some(symbol) = motion.acceleration {
-                let acceleration = self.lowering.temporal(&mut door, symbol);
-                let builder = &mut self.lowering.builder;
-                let reduced = builder.mul(units.per_length, acceleration);
-                outputs[usize::from(motion.name == "y")] = builder.neg(reduced);
-            }
-        }
-        if let Some(torque) = drive.torque {
-            let torque = self.lowering.temporal(&mut door, torque);
-            outputs[2] = self.lowering.builder.mul(table.per_torque, torque);
-        }
-        self.push(
-            "root_drive",
-            Purpose::RootDrive,
-            &[Argument::Time],
-            outputs,
-            Shape::Vector,
         );
     }
 

@@ -4,9 +4,9 @@
 //! where a tree is written out, elements of arguments where the link stands in a loop.
 
 use super::deficit::Deficit;
-use crate::program::{Op, ValueId};
 use crate::program::builder::Builder;
 use crate::program::pair::Pair;
+use crate::program::{Op, ValueId};
 
 /// A link: its constants in reduced units (`reduced_units`), and its motion.
 #[derive(Clone)]
@@ -136,7 +136,7 @@ impl Link {
             deficit,
             bias_force,
         } = response;
-        let y = builder.turn(place, v);
+        let y = self.attachment(builder, place);
         // Where the trace is a constant so is the lever, and N enters without it.
         let (part, first_moment, thrown) = if deficit.has_constant_trace() {
             let half = deficit.half_trace(builder);
@@ -157,7 +157,12 @@ impl Link {
             let part = deficit.times(builder, y);
             let whole = builder.turn(moment, v);
             let first_moment = builder.sub_pairs(whole, part);
+            builder.hint(trace, &format!("deficit_trace{}", self.suffix));
             builder.hint(lever[0], &format!("centrifugal_moment{}", self.suffix));
+            builder.hint(
+                lever[1],
+                &format!("lateral_centrifugal_moment{}", self.suffix),
+            );
             let moment = builder.turn(lever, v);
             (part, first_moment, builder.add_pairs(moment, part))
         };
@@ -187,6 +192,15 @@ impl Link {
             force,
             torque,
         }
+    }
+
+    /// y = λ v.
+    fn attachment(&self, builder: &mut Builder, place: Pair) -> Pair {
+        let y = builder.turn(place, self.direction);
+        for (component, axis) in y.into_iter().zip(["x", "y"]) {
+            builder.hint(component, &format!("attachment_{axis}{}", self.suffix));
+        }
+        y
     }
 
     /// ĥ and M.
@@ -277,6 +291,7 @@ impl Link {
         if !builder.is(self.inverse_length, 1) {
             builder.name(tangential, &format!("tangential{}", self.suffix));
         }
+        builder.hint(tangential, &format!("tangential{}", self.suffix));
         let alpha = builder.mul(self.inverse_length, tangential);
         if !self.suffix.is_empty() {
             builder.name(alpha, &format!("alpha{}", self.suffix));
@@ -299,7 +314,7 @@ impl Link {
         tangential: ValueId,
     ) -> Pair {
         let centripetal = self.centripetal(builder);
-        let y = builder.turn(place, self.direction);
+        let y = self.attachment(builder, place);
         let inwards = inwards(builder, centripetal, y);
         let forwards = builder.scale_pair(tangential, y);
         let steady = builder.sub_pairs(gravity, inwards);

@@ -7,15 +7,19 @@
 //! from the root to the leaves it is formed. `equations` are those of one link,
 //! `tree` takes them through a tree that is written out.
 
+mod bodies;
+mod columns;
 mod deficit;
 mod entries;
 mod equations;
 mod reduced_units;
+mod root;
 mod strips;
 mod torques;
 mod tree;
 
-pub use strips::{Column, Strip, Strips};
+pub use columns::Column;
+pub use strips::{Strip, Strips};
 
 use crate::scene::{LinkId, Scene};
 

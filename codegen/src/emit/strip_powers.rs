@@ -1,0 +1,117 @@
+//! Energies, drive and powers of trees in loops.
+
+use super::Emission;
+use super::doc_text::doc_lines;
+use crate::program::Purpose;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+impl Emission<'_> {
+    /// The energies, which bodies compute.
+    pub(super) fn strip_energies(&self) -> TokenStream {
+        if !self.scene.requests.energies {
+            return TokenStream::new();
+        }
+        let frame = match self.frame_note() {
+            "" => None,
+            note => Some(quote!(#[doc = #note])),
+        };
+        quote! {
+            /// Kinetic energy K (in J) at angles `theta` (in rad) and angular velocities
+            /// `omega` (in rad/s): Σ ½ m **V**² + ½ I ω² over the links, **V** being the
+            /// velocities of their centres of mass. NaN for slices of another length than
+            /// there are links. O(links).
+            #frame
+            #[must_use]
+            pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
+                self.bodies.kinetic_energy(theta, omega)
+            }
+
+            /// Potential energy U (in J) at angles `theta` (in rad), zero where all are
+            /// zero: Σ m g h + ½ κ (θ − θ_parent)² over the links, h being the height of
+            /// their centres of mass, κ the stiffness of torsion springs. NaN for a slice
+            /// of another length than there are links. O(links).
+            #[must_use]
+            pub fn potential_energy(&self, theta: &[T]) -> T {
+                self.bodies.potential_energy(theta)
+            }
+        }
+    }
+
+    /// The drive as functions of time, and where energies are asked for its power and
+    /// that of friction.
+    pub(super) fn strip_drive(&self) -> TokenStream {
+        let entries = [Purpose::Drive, Purpose::RootDrive].map(|purpose| self.entry(purpose));
+        let [Some(entry), Some(root)] = entries else {
+            return TokenStream::new();
+        };
+        let (runtime, drive, root_body) =
+            (self.runtime(), self.function(entry), self.plain_body(root));
+        let root_docs = self.entry_docs(root);
+        let drive = quote! {
+            #drive
+
+            #root_docs
+            #[inline(always)]
+            fn root_drive(&self, time: T) -> #runtime::tree::RootDrive<T> {
+                let [gravity_x, gravity_y, torque] = { #root_body };
+                #runtime::tree::RootDrive {
+                    pivot: [gravity_x, gravity_y],
+                    torque,
+                }
+            }
+        };
+        if !self.scene.requests.energies {
+            return drive;
+        }
+        let power = doc_lines(&[
+            "Power (in W) of the drive on the whole tree at `time` (in s), angles `theta` (in rad) and angular velocities `omega` (in rad/s): dE/dt of E = K + U without friction. NaN for slices of another length than there are links. O(links).".to_owned(),
+            String::new(),
+            "```text".to_owned(),
+            "P = τ ω_root − a_x Σ m V_x − a_y Σ m V_y".to_owned(),
+            "```".to_owned(),
+            String::new(),
+            "with the velocities **V** of the centres of mass in the frame that moves with the pivot.".to_owned(),
+        ]);
+        let mut links = self.scene.links.iter();
+        let braked = links.any(|link| link.friction.is_some() || link.drag.is_some());
+        let friction = braked.then(|| {
+            let docs = doc_lines(&[
+                "Power −Σ c (ω − ω_parent)² + k ω² (in W) of friction c and drag k on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`. NaN for a slice of another length than there are links. O(links).".to_owned(),
+            ]);
+            quote! {
+                #docs
+                #[must_use]
+                pub fn friction_power(&self, omega: &[T]) -> T {
+                    self.bodies.friction_power(omega)
+                }
+            }
+        });
+        quote! {
+            #drive
+
+            #power
+            #[must_use]
+            pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
+                self.bodies.drive_power(self.drive(time), theta, omega)
+            }
+
+            #friction
+        }
+    }
+
+    pub(super) fn strip_energy(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
+                fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
+                    self.bodies.kinetic_energy(theta, omega)
+                }
+
+                fn potential_energy_of(&self, theta: &[T]) -> T {
+                    self.bodies.potential_energy(theta)
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Quantities of links as constants of the model, and links as bodies.
+
+use crate::mechanics::Mechanics;
+use crate::program::lower::Lowering;
+use crate::program::{ConstantId, Setup, ValueId};
+use crate::scene::{Link, Offset, Quantity, Scene};
+
+impl Lowering<'_> {
+    /// A quantity of the description as a constant.
+    fn quantity(&mut self, quantity: &Quantity) -> ConstantId {
+        let mechanics: &Mechanics = self.mechanics;
+        match quantity {
+            Quantity::Exact(number) => self.builder.setup.number(number.clone()),
+            Quantity::Parameter(id) => self.constant(mechanics.parameters[id.0]),
+            Quantity::Sum(parts) => self.folded(parts, Setup::add, 0),
+            Quantity::Product(parts) => self.folded(parts, Setup::mul, 1),
+            Quantity::Quotient(above, below) => {
+                let (above, below) = (self.quantity(above), self.quantity(below));
+                self.builder.setup.div(above, below)
+            }
+            Quantity::Power(base, exponent) => {
+                let base = self.quantity(base);
+                self.builder.setup.power(base, *exponent)
+            }
+            Quantity::Negative(value) => {
+                let value = self.quantity(value);
+                self.builder.setup.neg(value)
+            }
+        }
+    }
+
+    fn folded(
+        &mut self,
+        parts: &[Quantity],
+        operation: fn(&mut Setup, ConstantId, ConstantId) -> ConstantId,
+        start: i64,
+    ) -> ConstantId {
+        let start = self.builder.setup.number(start.into());
+        parts.iter().fold(start, |total, part| {
+            let part = self.quantity(part);
+            operation(&mut self.builder.setup, total, part)
+        })
+    }
+
+    pub(super) fn value_of(&mut self, quantity: &Quantity) -> ValueId {
+        let constant = self.quantity(quantity);
+        self.builder.constant(constant)
+    }
+
+    pub(super) fn values_of(&mut self, point: &Offset) -> [ValueId; 2] {
+        [self.value_of(&point.along), self.value_of(&point.lateral)]
+    }
+
+    /// A link as a body, see [`Strip::body`](super::Strip).
+    pub(super) fn body(&mut self, scene: &Scene, link: &Link) -> [ConstantId; 12] {
+        let gravity = self.quantity(&scene.gravity);
+        let mut at = |quantity: &Quantity| self.quantity(quantity);
+        let (mass, inertia) = (at(&link.mass), at(&link.inertia));
+        let [d, e] = [&link.com.along, &link.com.lateral].map(&mut at);
+        let [along, across] = [&link.pivot.along, &link.pivot.lateral].map(&mut at);
+        let forces = [&link.spring, &link.friction, &link.drag];
+        let [spring, friction, drag] = forces.map(|force| match force {
+            Some(force) => at(force),
+            None => at(&Quantity::zero()),
+        });
+        let setup = &mut self.builder.setup;
+        let two = setup.number(2.into());
+        let [h, k] = [d, e].map(|place| setup.mul(mass, place));
+        let squares = [setup.mul(h, d), setup.mul(k, e)];
+        let about = squares
+            .into_iter()
+            .fold(inertia, |sum, square| setup.add(sum, square));
+        [
+            setup.div(mass, two),
+            h,
+            k,
+            setup.div(about, two),
+            along,
+            across,
+            setup.mul(gravity, mass),
+            setup.mul(gravity, h),
+            setup.mul(gravity, k),
+            setup.div(spring, two),
+            friction,
+            drag,
+        ]
+    }
+}

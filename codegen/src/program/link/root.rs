@@ -1,0 +1,48 @@
+//! What the root of a tree in loops takes from above.
+
+use super::strips::Table;
+use crate::mechanics::{Drive, Mechanics};
+use crate::program::entries::EntryList;
+use crate::program::lower::Door;
+use crate::program::{Argument, Purpose, Shape};
+
+impl EntryList<'_, '_> {
+    /// Apparent gravity at the root's pivot and, where there is a drive, the torque on
+    /// the root, in reduced units.
+    pub(super) fn root(&mut self, mechanics: &Mechanics, table: &Table) {
+        let units = &table.units;
+        let mut door = Door::new(&mechanics.absolute, Argument::Theta, None, None);
+        let drive: Option<&Drive> = mechanics.drive.as_ref();
+        let builder = &mut self.lowering.builder;
+        let zero = builder.integer(0);
+        let mut outputs = vec![zero, table.root_gravity];
+        self.push(
+            "root_gravity",
+            Purpose::RootGravity,
+            &[],
+            outputs.clone(),
+            Shape::Vector,
+        );
+        let Some(drive) = drive else { return };
+        outputs = vec![zero; 3];
+        for motion in &drive.pivot {
+            if let Some(symbol) = motion.acceleration {
+                let acceleration = self.lowering.temporal(&mut door, symbol);
+                let builder = &mut self.lowering.builder;
+                let reduced = builder.mul(units.per_length, acceleration);
+                outputs[usize::from(motion.name == "y")] = builder.neg(reduced);
+            }
+        }
+        if let Some(torque) = drive.torque {
+            let torque = self.lowering.temporal(&mut door, torque);
+            outputs[2] = self.lowering.builder.mul(table.per_torque, torque);
+        }
+        self.push(
+            "root_drive",
+            Purpose::RootDrive,
+            &[Argument::Time],
+            outputs,
+            Shape::Vector,
+        );
+    }
+}
