@@ -141,6 +141,9 @@ pub trait Simd<T>: Scalar {
     /// So many numbers may be written there.
     unsafe fn write_some(self, start: *mut T, count: usize);
 
+    /// Returns the number in the first lane.
+    fn first(self) -> T;
+
     /// Returns the numbers moved forward: lane `i` gets lane `first + i`; what has
     /// none there is left open.
     fn rotate_lanes(self, first: usize) -> Self;

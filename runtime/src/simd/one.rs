@@ -161,6 +161,11 @@ macro_rules! fused {
             }
 
             #[inline(always)]
+            fn first(self) -> $float {
+                self.0
+            }
+
+            #[inline(always)]
             fn rotate_lanes(self, _first: usize) -> Self {
                 self
             }

@@ -95,6 +95,11 @@ impl<T: Scalar> Simd<T> for T {
     }
 
     #[inline(always)]
+    fn first(self) -> T {
+        self
+    }
+
+    #[inline(always)]
     fn rotate_lanes(self, _first: usize) -> Self {
         self
     }
@@ -201,6 +206,11 @@ impl<T: Lane, const N: usize> Simd<T> for Lanes<T, N> {
         for (place, number) in places.iter_mut().zip(self.0) {
             *place = number;
         }
+    }
+
+    #[inline(always)]
+    fn first(self) -> T {
+        self.0.first().copied().unwrap_or(T::NAN)
     }
 
     #[inline(always)]

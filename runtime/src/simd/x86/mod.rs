@@ -208,6 +208,11 @@ macro_rules! register {
             }
 
             #[inline(always)]
+            fn first(self) -> $lane {
+                self.to_array()[0]
+            }
+
+            #[inline(always)]
             fn rotate_lanes(self, first: usize) -> Self {
                 static WORDS: [[u32; $count]; $lanes] = rotated();
                 self.permuted(&WORDS[first % $lanes])

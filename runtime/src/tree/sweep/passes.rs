@@ -151,14 +151,15 @@ where
         if !Self::BY_LINK {
             return self.generations_up();
         }
+        let one = Passes::<E, N, T, V::One>::of(self.view);
         let mut strips = self.strips;
         while let Some((strip, before)) = strips.split_last() {
-            if strip.length < V::LANES {
-                Passes::<E, N, T, V::One>::of(self.view).links_up(strip);
+            if Self::is_short(strip) {
+                one.one_by_one_up(strip);
             } else {
                 self.links_up(strip);
+                self.attach(strip);
             }
-            self.attach(strip);
             strips = before;
         }
     }
@@ -170,103 +171,165 @@ where
         if !Self::BY_LINK {
             return self.generations_down(out);
         }
+        let one = Passes::<E, N, T, V::One>::of(self.view);
         let mut strips = self.strips;
         while let Some((strip, behind)) = strips.split_first() {
-            self.hand_down(strip);
-            if strip.length < V::LANES {
-                Passes::<E, N, T, V::One>::of(self.view).links_down(strip, out);
+            if Self::is_short(strip) {
+                one.one_by_one_down(strip, out);
             } else {
+                self.hand_down(strip);
                 self.links_down(strip, out);
             }
             strips = behind;
         }
     }
 
-    /// A strip of links with constants of their own, up.
+    /// The links are too few for a register: they go one by one, and what is written
+    /// narrow is read narrow soon.
     #[inline(always)]
-    fn links_up(&self, strip: &Strip) {
-        let near = StripView::of(self.view, strip, 0);
-        let mut places = near.places::<V>();
-        while let Some(at) = places.next() {
+    fn is_short(strip: &Strip) -> bool {
+        V::LANES == 1 || strip.length < V::LANES
+    }
+
+    /// A strip of links with constants of their own, up, in vectors of one; each link's
+    /// response goes to the parent at once.
+    #[inline(always)]
+    fn one_by_one_up(&self, strip: &Strip) {
+        if strip.first.own == 0 {
             // SAFETY: see the top.
-            let constants = unsafe { self.constants(strip.first.own + at) };
-            // SAFETY: see the top.
-            let link = unsafe { near.motion(at, E::JOINTS) };
-            if strip.copies == 0 {
-                let response = E::leaf(&constants, link);
+            let _ = unsafe { self.response(strip, 0) };
+        }
+        let (from, to) = strip.attachments;
+        for attachment in self.attachments.get(from..to).unwrap_or_default() {
+            let mut at = 0;
+            while at < attachment.length {
                 // SAFETY: see the top.
-                unsafe { near.respond(at, &response) };
-                continue;
+                let response = unsafe { self.response(strip, attachment.child + at) };
+                // SAFETY: see the top.
+                unsafe { self.attach_at(attachment, at, response) };
+                at += 1;
             }
-            // SAFETY: see the top.
-            let (response, elimination) = E::inner(&constants, link, unsafe { near.sums(at) });
-            // SAFETY: see the top.
-            unsafe { near.respond(at, &response) };
-            // SAFETY: see the top.
-            unsafe { near.keep(at, &elimination) };
         }
     }
 
-    /// The same down; the accelerations of pivots are in memory but for the root's.
+    /// The same down.
+    #[inline(always)]
+    fn one_by_one_down(&self, strip: &Strip, out: &mut impl Output<T>) {
+        if let (0, Some([x, y])) = (strip.first.own, &self.view.root) {
+            let pivot = [V::splat(*x), V::splat(*y)];
+            // SAFETY: see the top.
+            unsafe { self.accelerate(strip, 0, pivot, out) };
+        }
+        let (from, to) = strip.attachments;
+        for attachment in self.attachments.get(from..to).unwrap_or_default() {
+            let mut at = 0;
+            while at < attachment.length {
+                // SAFETY: see the top.
+                let pivot = unsafe { self.pivot_at(attachment, at) };
+                // SAFETY: see the top.
+                unsafe { self.accelerate(strip, attachment.child + at, pivot, out) };
+                at += 1;
+            }
+        }
+    }
+
+    /// The responses of the links of a strip from the place `at` on.
+    #[inline(always)]
+    unsafe fn response(&self, strip: &Strip, at: usize) -> E::Response<V> {
+        let (view, slots) = (self.view, self.view.slots);
+        // SAFETY: see the top.
+        let (constants, link) = unsafe { (self.constants(at), self.motion(at, E::JOINTS)) };
+        if strip.copies == 0 {
+            return E::leaf(&constants, link);
+        }
+        // SAFETY: see the top.
+        let sums = unsafe { read(view.sums.add(at), slots) };
+        let (response, elimination) = E::inner(&constants, link, sums);
+        // SAFETY: see the top.
+        unsafe { write(&elimination, view.eliminations.add(at), slots) };
+        response
+    }
+
+    /// Writes the accelerations of the links of a strip from the place `at` on, and
+    /// what they hand to their children.
+    #[inline(always)]
+    unsafe fn accelerate(&self, strip: &Strip, at: usize, pivot: [V; 2], out: &mut impl Output<T>) {
+        let (view, slots) = (self.view, self.view.slots);
+        // SAFETY: see the top.
+        let (constants, link) = unsafe { (self.constants(at), self.motion(at, E::JOINTS)) };
+        if strip.copies == 0 {
+            let acceleration = E::accelerate_leaf(&constants, link, pivot);
+            // SAFETY: see the top.
+            unsafe { out.write(at, acceleration, V::LANES) };
+            return;
+        }
+        // SAFETY: see the top.
+        let elimination = unsafe { read(view.eliminations.add(at), slots) };
+        let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
+        // SAFETY: see the top.
+        unsafe { out.write(at, acceleration, V::LANES) };
+        // SAFETY: see the top.
+        unsafe { write(&carried, view.sums.add(at), slots) };
+    }
+
+    /// A strip of links with constants of their own, up.
+    #[inline(always)]
+    fn links_up(&self, strip: &Strip) {
+        let (view, mut places) = (self.view, StripView::places_of::<V>(strip));
+        while let Some(place) = places.next() {
+            let at = strip.first.own + place;
+            // SAFETY: see the top.
+            let response = unsafe { self.response(strip, at) };
+            // SAFETY: see the top.
+            unsafe { write(&response, view.responses.add(at), view.slots) };
+        }
+    }
+
+    /// The same down; the accelerations of pivots are in memory.
     #[inline(always)]
     fn links_down(&self, strip: &Strip, out: &mut impl Output<T>) {
-        let near = StripView::of(self.view, strip, 0);
-        let mut places = near.places::<V>();
-        while let Some(at) = places.next() {
-            let pivot = match &self.view.root {
-                Some([x, y]) if strip.first.own == 0 => [V::splat(*x), V::splat(*y)],
-                // SAFETY: see the top.
-                _ => unsafe { near.responses(at) },
-            };
+        let (view, mut places) = (self.view, StripView::places_of::<V>(strip));
+        while let Some(place) = places.next() {
+            let at = strip.first.own + place;
             // SAFETY: see the top.
-            let constants = unsafe { self.constants(strip.first.own + at) };
+            let pivot = unsafe { read(view.responses.add(at), view.slots) };
             // SAFETY: see the top.
-            let link = unsafe { near.motion(at, E::JOINTS) };
-            if strip.copies == 0 {
-                let acceleration = E::accelerate_leaf(&constants, link, pivot);
-                // SAFETY: see the top.
-                unsafe { near.accelerate(out, at, acceleration) };
-                continue;
-            }
-            // SAFETY: see the top.
-            let elimination = unsafe { near.elimination(at) };
-            let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
-            // SAFETY: see the top.
-            unsafe { near.accelerate(out, at, acceleration) };
-            // SAFETY: see the top.
-            unsafe { near.carry(at, &carried) };
+            unsafe { self.accelerate(strip, at, pivot, out) };
         }
     }
 
     /// Adds the responses of a strip to the sums of the parents.
     #[inline(always)]
     fn attach(&self, strip: &Strip) {
-        let (from, to) = strip.attachments;
+        let one = Passes::<E, N, T, V::One>::of(self.view);
+        let (view, (from, to)) = (self.view, strip.attachments);
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
             while at + V::LANES <= attachment.length {
                 // SAFETY: see the top.
-                unsafe { self.attach_at(attachment, at) };
+                let response =
+                    unsafe { read(view.responses.add(attachment.child + at), view.slots) };
+                // SAFETY: see the top.
+                unsafe { self.attach_at(attachment, at, response) };
                 at += V::LANES;
             }
-            // The last ones one by one: what is written narrow is read narrow soon.
-            let one = Passes::<E, N, T, V::One>::of(self.view);
             while at < attachment.length {
                 // SAFETY: see the top.
-                unsafe { one.attach_at(attachment, at) };
+                let response =
+                    unsafe { read(view.responses.add(attachment.child + at), view.slots) };
+                // SAFETY: see the top.
+                unsafe { one.attach_at(attachment, at, response) };
                 at += 1;
             }
         }
     }
 
     #[inline(always)]
-    unsafe fn attach_at(&self, attachment: &Attachment, at: usize) {
+    unsafe fn attach_at(&self, attachment: &Attachment, at: usize, response: E::Response<V>) {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
         let (view, slots) = (self.view, self.view.slots);
         // SAFETY: see the top.
-        let (constants, link) = unsafe { (self.constants(child), self.parent(parent)) };
-        // SAFETY: see the top.
-        let response = unsafe { read(view.responses.add(child), slots) };
+        let (constants, link) = unsafe { (self.constants(child), self.motion(parent, false)) };
         let own = E::attach(&constants, link, response);
         let mut sums = own;
         if !attachment.first {
@@ -281,49 +344,69 @@ where
     /// Writes the accelerations of the pivots of a strip.
     #[inline(always)]
     fn hand_down(&self, strip: &Strip) {
-        let (from, to) = strip.attachments;
+        let one = Passes::<E, N, T, V::One>::of(self.view);
+        let (view, (from, to)) = (self.view, strip.attachments);
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
             while at + V::LANES <= attachment.length {
                 // SAFETY: see the top.
-                unsafe { self.hand_down_at(attachment, at) };
+                let pivot = unsafe { self.pivot_at(attachment, at) };
+                // SAFETY: see the top.
+                unsafe {
+                    write(
+                        &pivot,
+                        view.responses.add(attachment.child + at),
+                        view.slots,
+                    )
+                };
                 at += V::LANES;
             }
-            let one = Passes::<E, N, T, V::One>::of(self.view);
             while at < attachment.length {
                 // SAFETY: see the top.
-                unsafe { one.hand_down_at(attachment, at) };
+                let pivot = unsafe { one.pivot_at(attachment, at) };
+                // SAFETY: see the top.
+                unsafe {
+                    write(
+                        &pivot,
+                        view.responses.add(attachment.child + at),
+                        view.slots,
+                    )
+                };
                 at += 1;
             }
         }
     }
 
+    /// The accelerations of the pivots of children.
     #[inline(always)]
-    unsafe fn hand_down_at(&self, attachment: &Attachment, at: usize) {
+    unsafe fn pivot_at(&self, attachment: &Attachment, at: usize) -> [V; 2] {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
-        let (view, slots) = (self.view, self.view.slots);
         // SAFETY: see the top.
-        let (constants, link) = unsafe { (self.constants(child), self.parent(parent)) };
+        let (constants, link) = unsafe { (self.constants(child), self.motion(parent, false)) };
         // SAFETY: see the top.
-        let carried = unsafe { read(view.sums.add(parent), slots) };
-        let pivot = E::pivot(&constants, link, carried);
-        // SAFETY: see the top.
-        unsafe { write(&pivot, view.responses.add(child), slots) };
+        let carried = unsafe { read(self.view.sums.add(parent), self.view.slots) };
+        E::pivot(&constants, link, carried)
     }
 
-    /// Motions of the links from `at` on, without those of joints.
+    /// The motions of the links from `at` on, with those of joints where asked for.
     #[inline(always)]
-    unsafe fn parent(&self, at: usize) -> LinkMotion<V> {
+    unsafe fn motion(&self, at: usize, joints: bool) -> LinkMotion<V> {
+        let view = self.view;
         // SAFETY: see the top.
-        let [sine, cosine]: [V; 2] = unsafe { read(self.view.sincos.add(at), self.view.links) };
+        let [sine, cosine]: [V; 2] = unsafe { read(view.sincos.add(at), view.links) };
         // SAFETY: see the top.
-        let omega = unsafe { V::read(self.view.omega.add(at)) };
+        let omega = unsafe { V::read(view.omega.add(at)) };
+        let [joint_angle, joint_rate] = match joints {
+            // SAFETY: see the top.
+            true => unsafe { read(view.joint_motions.add(at), view.links) },
+            false => [omega; 2],
+        };
         LinkMotion {
             sine,
             cosine,
             omega,
-            joint_angle: omega,
-            joint_rate: omega,
+            joint_angle,
+            joint_rate,
         }
     }
 
