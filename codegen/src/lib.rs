@@ -72,16 +72,15 @@ pub fn stages_without(
     let Some(scene) = scene::resolve(&description, &mut report) else {
         return Err(refuse(&description, report));
     };
-    let derived = scene.derived();
-    let mechanics = match mechanics::derive(&derived) {
+
+    let mechanics = match mechanics::derive(&scene) {
         Ok(mechanics) => mechanics,
         Err(error) => {
             report.push(underivable(&description, &error));
             return Err(refuse(&description, report));
         }
     };
-    let program = program::lower_without(off, &derived, &mechanics);
-    drop(derived);
+    let program = program::lower_without(off, &scene, &mechanics);
     if let Some(name) = program.unrepresentable_constant() {
         let name = name.to_owned();
         report.error(Span::call_site(), Message::ConstantRange { name });

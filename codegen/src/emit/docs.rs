@@ -7,7 +7,7 @@ use crate::mechanics;
 use crate::mechanics::Counting;
 use crate::mechanics::coordinates::Kind;
 use crate::mechanics::expression::Expr;
-use crate::program::{Argument, Entry, Purpose};
+use crate::program::{Argument, Entry, LinkFunction, Purpose};
 use crate::scene::Solve;
 use proc_macro2::TokenStream;
 
@@ -27,11 +27,8 @@ impl Emission<'_> {
     /// What the model's docs say beside its author's words.
     pub(super) fn model_docs(&self) -> Vec<String> {
         let scene = self.scene;
-        if let Some(generations) = &scene.generations {
-            return self.generations_docs(generations);
-        }
-        if scene.table.is_some() {
-            return self.table_docs();
+        if scene.in_loops() {
+            return self.strip_docs();
         }
         let links: Vec<&str> = scene.links.iter().map(|link| link.name.as_str()).collect();
         let mut lines = vec![format!(
@@ -255,12 +252,22 @@ impl Emission<'_> {
             Purpose::TotalFrictionPower => vec![
                 "Power −2 R (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.".into(),
             ],
+            Purpose::Link(function) => vec![link_meaning(function).into()],
+            Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
+            Purpose::RootDrive => vec![
+                "What the drive adds to the apparent gravity at the root's pivot at `time` (in s), −a_x/l and −a_y/l, and its torque τ/(m l²) on the root.".into(),
+            ],
         };
         lines
     }
 
     /// Formulas as a text block and, folded away, as LaTeX.
     pub(super) fn show(&self, formulas: &[Formula], lines: &mut Vec<String>) {
+        self.show_rows(formulas, ROWS, lines);
+    }
+
+    /// The same with at most so many rows.
+    pub(super) fn show_rows(&self, formulas: &[Formula], most: usize, lines: &mut Vec<String>) {
         let texts: Vec<String> = formulas
             .iter()
             .map(|f| format!("{} = {}", f.left, self.text(&f.right)))
@@ -268,7 +275,7 @@ impl Emission<'_> {
         if texts.is_empty() || texts.iter().any(|text| text.len() > LONGEST_FORMULA) {
             return;
         }
-        let shown = texts.len().min(ROWS);
+        let shown = texts.len().min(most);
         lines.push(String::new());
         lines.push("```text".into());
         lines.extend(texts[..shown].iter().flat_map(|text| broken(text)));
@@ -299,7 +306,29 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::Coordinates => Some("symmetric `coordinates` (in rad)"),
         Argument::Rates => Some("their `rates` (in rad/s)"),
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
-        Argument::Absolute | Argument::Symmetric => None,
+        _ => None,
+    }
+}
+
+/// A function of the recursion, in words.
+fn link_meaning(function: LinkFunction) -> &'static str {
+    match function {
+        LinkFunction::Leaf => {
+            "The response of a link without children: N and γ, and the torque of its joint on the parent where joints have torques."
+        }
+        LinkFunction::Attach => {
+            "The response of a child about the pivot of its parent, whose motion is given: as it is where all children share one pivot."
+        }
+        LinkFunction::Inner => {
+            "The response of a link with children, and b/J and κ/J, which `accelerate` takes."
+        }
+        LinkFunction::Pivot => "The apparent gravity at a child's pivot.",
+        LinkFunction::Accelerate => {
+            "The angular acceleration (in rad/s²) of a link with children, and what it hands them."
+        }
+        LinkFunction::AccelerateLeaf => {
+            "The angular acceleration (in rad/s²) of a link without children."
+        }
     }
 }
 

@@ -68,7 +68,7 @@ impl Emission<'_> {
                 None => Vec::new(),
             },
             Purpose::AntiphaseDrivePower(n) => self.power_formulas(&mechanics.transfers[n].drive),
-            Purpose::Drive => self.drive_formulas(),
+            Purpose::Drive | Purpose::RootDrive => self.drive_formulas(),
             Purpose::DrivePower => match mechanics.drive.as_ref().and_then(|d| d.power.as_ref()) {
                 Some(power) => self.power_formulas(power),
                 None => Vec::new(),
@@ -93,7 +93,9 @@ impl Emission<'_> {
             | Purpose::ToSymmetric
             | Purpose::FromSymmetric
             | Purpose::SymmetricVelocities
-            | Purpose::Hamiltonian => Vec::new(),
+            | Purpose::Hamiltonian
+            | Purpose::Link(_)
+            | Purpose::RootGravity => Vec::new(),
         }
     }
 

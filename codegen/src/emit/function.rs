@@ -79,6 +79,17 @@ impl Emission<'_> {
                 let size = Literal::usize_unsuffixed(size);
                 quote!([[T; #size]; #size])
             }
+            Shape::Split(first) => {
+                let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
+                let first = match first {
+                    1 => quote!(T),
+                    _ => {
+                        let first = Literal::usize_unsuffixed(first);
+                        quote!([T; #first])
+                    }
+                };
+                quote!((#first, [T; #rest]))
+            }
             Shape::Transfer => quote!(#runtime::Transfer<T>),
             Shape::Transfers(count) => {
                 let count = Literal::usize_unsuffixed(count);
@@ -89,6 +100,12 @@ impl Emission<'_> {
                 quote!(#runtime::Budget<T, #count>)
             }
         }
+    }
+
+    /// The body of a function that is short.
+    pub(super) fn plain_body(&self, entry: &Entry) -> TokenStream {
+        let needed = self.program.needed(&entry.outputs);
+        self.body(entry, &needed).0
     }
 
     /// The body of a function, and the parts behind it if it is long.
@@ -248,8 +265,12 @@ impl Emission<'_> {
                 quote!(let _ = #array;)
             };
         }
+        let length = match &self.program.strips {
+            Some(strips) => strips.length(argument),
+            None => self.scene.links.len(),
+        };
         let mut any = false;
-        let elements: Vec<TokenStream> = (0..self.scene.links.len())
+        let elements: Vec<TokenStream> = (0..length)
             .map(|index| {
                 let name = read
                     .iter()
@@ -265,11 +286,33 @@ impl Emission<'_> {
                 }
             })
             .collect();
-        if any {
-            quote!(let [#(#elements),*] = *#array;)
-        } else {
-            quote!(let _ = #array;)
+        match argument {
+            _ if !any => quote!(let _ = #array;),
+            Argument::Motion => self.motion_taken_apart(&elements),
+            Argument::Response
+            | Argument::Sums
+            | Argument::Elimination
+            | Argument::Carried
+            | Argument::Pivot => quote!(let [#(#elements),*] = #array;),
+            _ => quote!(let [#(#elements),*] = *#array;),
         }
+    }
+
+    /// `let LinkMotion { sine, cosine, .. } = link;`
+    fn motion_taken_apart(&self, elements: &[TokenStream]) -> TokenStream {
+        let runtime = self.runtime();
+        let array = ident(Argument::Motion.name());
+        let names = elements.iter().enumerate().filter_map(|(index, name)| {
+            let field = ident(&self.input_name(Argument::Motion, index));
+            match name.to_string() {
+                name if name == "_" => None,
+                name if field == name => Some(quote!(#field)),
+                _ => Some(quote!(#field: #name)),
+            }
+        });
+        let names: Vec<TokenStream> = names.collect();
+        let rest = (names.len() < elements.len()).then(|| quote!(..));
+        quote!(let #runtime::tree::LinkMotion { #(#names,)* #rest } = #array;)
     }
 
     /// `let (sin_parent, cos_parent) = theta_parent.sin_cos();`
@@ -306,6 +349,13 @@ impl Emission<'_> {
             Shape::Matrix(size) => {
                 let rows = values.chunks(size).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
+            }
+            Shape::Split(first) => {
+                let (first, second) = values.split_at(first);
+                match first {
+                    [first] => quote!((#first, [#(#second),*])),
+                    _ => quote!(([#(#first),*], [#(#second),*])),
+                }
             }
             Shape::Transfer => {
                 let (kinetic, potential) = (&values[0], &values[1]);

@@ -2,8 +2,6 @@
 //! entry point, the runtime's traits, and the docs that carry the formulas.
 
 mod budget;
-mod cast;
-mod columns;
 mod doc_text;
 mod docs;
 mod drive;
@@ -11,19 +9,15 @@ mod expressions;
 mod formulas;
 mod function;
 mod gather;
-mod generations;
 mod late;
-mod link_equations;
-mod loops;
 mod model;
 mod names;
 mod observables;
-mod one_link;
 mod parts;
-mod places;
 mod quantities;
+mod strip_tables;
+mod strips;
 mod stub;
-mod table;
 mod taylor;
 mod taylor_order;
 mod taylor_rules;
@@ -66,12 +60,8 @@ pub fn emit(
     };
     let (model, values) = (emission.model(), emission.values());
     // The tables of loops are long: they come last.
-    if let Some(generations) = &scene.generations {
-        let code = emission.generations(generations);
-        return quote!(#model #code #values);
-    }
-    if let Some(table) = &scene.table {
-        let code = emission.table(table);
+    if let Some(strips) = &program.strips {
+        let code = emission.in_strips(strips);
         return quote!(#model #code #values);
     }
     let functions = program.entries.iter().map(|entry| match entry.purpose {
@@ -112,10 +102,9 @@ impl Emission<'_> {
     /// named ones behind them, in order.
     fn stored_constants(&self) -> Vec<ConstantId> {
         let mut stored = BTreeSet::new();
-        // Of loops' programs the drive alone is code.
+        // The gravity of loops is part of their tree.
         let entries = self.program.entries.iter();
-        let loops = self.scene.in_loops();
-        for entry in entries.filter(|entry| !loops || entry.purpose == Purpose::Drive) {
+        for entry in entries.filter(|entry| entry.purpose != Purpose::RootGravity) {
             for value in self.program.needed(&entry.outputs) {
                 if let Op::Constant(id) = self.program.definition(value).op {
                     stored.insert(id);

@@ -2,7 +2,7 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use super::quantities::{Numbers, enclosed, product, sum};
+use super::quantities::{enclosed, product, sum};
 use super::tokens::{Binding, number_tokens};
 use crate::program::{ConstantId, ConstantOp};
 use crate::scene::{LinkId, Offset, ParameterId, Quantity, Sign};
@@ -26,14 +26,9 @@ impl Emission<'_> {
             let field = self.field(id);
             quote!(#field: T)
         });
-        let fields: Vec<TokenStream> = if self.scene.generations.is_some() {
-            let loops = self.generations_type();
-            self.loop_fields(quote!(generations: #loops))
-        } else if self.scene.table.is_some() {
-            let table = self.table_type();
-            self.loop_fields(quote!(links: #table))
-        } else {
-            fields.collect()
+        let fields: Vec<TokenStream> = match self.scene.in_loops() {
+            true => self.strip_fields(),
+            false => fields.collect(),
         };
         let constructor = match self.scene.parameters.is_empty() {
             true => self.literal_constructor(),
@@ -81,11 +76,8 @@ impl Emission<'_> {
 
     /// `let` lines for all stored constants, and the struct literal.
     fn constants(&self) -> TokenStream {
-        if let Some(generations) = &self.scene.generations {
-            return self.generations_value(&generations.constants);
-        }
-        if let Some(table) = &self.scene.table {
-            return self.table_value(table);
+        if let Some(strips) = &self.program.strips {
+            return self.strip_values(strips);
         }
         let (lines, fields) = self.constant_lines();
         quote! {
@@ -95,7 +87,7 @@ impl Emission<'_> {
     }
 
     /// `let` lines for all stored constants, and the names of their fields.
-    pub(super) fn constant_lines(&self) -> (Vec<TokenStream>, Vec<Ident>) {
+    fn constant_lines(&self) -> (Vec<TokenStream>, Vec<Ident>) {
         let mut known = BTreeMap::new();
         let (mut lines, mut fields) = (Vec::new(), Vec::new());
         for id in self.stored_constants() {
@@ -108,7 +100,7 @@ impl Emission<'_> {
         (lines, fields)
     }
 
-    fn constant_value(
+    pub(super) fn constant_value(
         &self,
         id: ConstantId,
         known: &BTreeMap<ConstantId, Ident>,
@@ -229,7 +221,7 @@ impl Emission<'_> {
                 self.requirement(&what, &quote!(parameters.#field), Sign::Any)
             });
         let signs = self.scene.requirements.iter().map(|requirement| {
-            let value = self.quantity(&requirement.quantity, Numbers::Double);
+            let value = self.quantity(&requirement.quantity);
             self.requirement(&requirement.what, &value, requirement.sign)
         });
         let regular = self.regularity();
@@ -275,7 +267,7 @@ impl Emission<'_> {
     /// Refuses parameters that make the mass matrix singular.
     fn regularity(&self) -> TokenStream {
         let runtime = self.runtime();
-        let double = |quantity: &Quantity| self.quantity(quantity, Numbers::Double);
+        let double = |quantity: &Quantity| self.quantity(quantity);
         let bodies = self.scene.links.iter().map(|link| {
             let what = format!(
                 "moment of inertia of `{}` about its pivot, in some configuration,",

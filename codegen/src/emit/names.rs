@@ -128,6 +128,11 @@ impl Emission<'_> {
                 Some(frame) => &frame.momenta,
                 None => &mechanics.absolute.momenta,
             },
+            argument => {
+                let strips = self.program.strips.as_ref();
+                let name = strips.map(|strips| strips.element(argument, index));
+                return name.unwrap_or_default().to_owned();
+            }
         };
         let code = &mechanics.symbols.get(symbols[index]).code;
         match argument {

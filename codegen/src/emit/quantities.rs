@@ -1,59 +1,27 @@
 //! Quantities of a scene as expressions in its parameters.
 
 use super::Emission;
-use super::tokens::{Binding, float, number_tokens};
+use super::tokens::{Binding, float};
 use crate::exact::Rational;
 use crate::scene::Quantity;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-/// What the numbers of an expression are written in.
-#[derive(Clone, Copy)]
-pub(super) enum Numbers {
-    /// `f64`.
-    Double,
-    /// The model's scalar.
-    Scalar,
-}
-
-impl Numbers {
-    fn one(self) -> TokenStream {
-        match self {
-            Self::Double => quote!(1.0),
-            Self::Scalar => quote!(T::from_f64(1.0)),
-        }
-    }
-
-    fn number(self, number: &Rational) -> (TokenStream, Binding) {
-        if let Self::Scalar = self {
-            return (number_tokens(number), Binding::Atom);
-        }
-        let size = float(number.to_f64().abs());
-        match number.is_negative() {
-            true => (quote!(-#size), Binding::Prefix),
-            false => (quote!(#size), Binding::Atom),
-        }
-    }
-}
-
 impl Emission<'_> {
-    /// A quantity, formed of the fields of `parameters`.
-    pub(super) fn quantity(&self, quantity: &Quantity, numbers: Numbers) -> TokenStream {
-        self.bound_quantity(quantity, numbers).0
+    /// A quantity in `f64`, formed of the fields of `parameters`.
+    pub(super) fn quantity(&self, quantity: &Quantity) -> TokenStream {
+        self.bound_quantity(quantity).0
     }
 
-    fn bound_quantity(&self, quantity: &Quantity, numbers: Numbers) -> (TokenStream, Binding) {
-        let at = |quantity: &Quantity, place: Binding| {
-            enclosed(self.bound_quantity(quantity, numbers), place)
-        };
+    fn bound_quantity(&self, quantity: &Quantity) -> (TokenStream, Binding) {
+        let at =
+            |quantity: &Quantity, place: Binding| enclosed(self.bound_quantity(quantity), place);
         let values = |parts: &[Quantity]| -> Vec<(TokenStream, Binding)> {
             let parts = parts.iter();
-            parts
-                .map(|part| self.bound_quantity(part, numbers))
-                .collect()
+            parts.map(|part| self.bound_quantity(part)).collect()
         };
         match quantity {
-            Quantity::Exact(number) => numbers.number(number),
+            Quantity::Exact(number) => double(number),
             Quantity::Parameter(id) => {
                 let field = format_ident!("{}", self.scene.parameters[id.0].name);
                 (quote!(parameters.#field), Binding::Atom)
@@ -65,19 +33,27 @@ impl Emission<'_> {
                 (quote!(#above / #below), Binding::Product)
             }
             Quantity::Power(base, exponent) => {
-                let base = self.bound_quantity(base, numbers);
+                let base = self.bound_quantity(base);
                 let power = product(vec![base; exponent.unsigned_abs() as usize]);
                 if *exponent > 0 {
                     return power;
                 }
-                let (one, power) = (numbers.one(), enclosed(power, Binding::Prefix));
-                (quote!(#one / #power), Binding::Product)
+                let power = enclosed(power, Binding::Prefix);
+                (quote!(1.0 / #power), Binding::Product)
             }
             Quantity::Negative(value) => {
                 let value = at(value, Binding::Atom);
                 (quote!(-#value), Binding::Prefix)
             }
         }
+    }
+}
+
+fn double(number: &Rational) -> (TokenStream, Binding) {
+    let size = float(number.to_f64().abs());
+    match number.is_negative() {
+        true => (quote!(-#size), Binding::Prefix),
+        false => (quote!(#size), Binding::Atom),
     }
 }
 

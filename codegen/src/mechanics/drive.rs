@@ -101,18 +101,36 @@ impl Derivation<'_> {
     /// moment of mass Σ m_l r_l above its value where all angles are zero, so
     /// that Q_i = τ ∂θ_root/∂θ_i − Σ_l m_l a·∂r_l/∂θ_i.
     pub(super) fn drive_work(&mut self, angles: &[SymbolId]) -> Formula {
-        let Some(scene) = self.scene.drive.as_ref() else {
-            return Formula::zero();
-        };
+        let (torque, [x, y]) = self.drive_signals();
         let mut work = Vec::new();
-        if let Some(torque) = &scene.torque {
-            let value = self.signal(torque);
-            let torque = self.given("drive_torque", "τ", "\\tau", value);
-            self.drive.torque = torque;
-            let torque = torque.map_or_else(Formula::zero, Formula::symbol);
+        if !torque.is_zero() {
             work.push(&torque * &Formula::symbol(angles[0]));
         }
+        if !x.is_zero() || !y.is_zero() {
+            for ((along, lateral), &angle) in self.mass_moments(angles).iter().zip(angles) {
+                let (cos, sin) = (self.cos(angle), self.sin(angle));
+                let fall = &Formula::integer(1) - &Formula::symbol(cos);
+                let sin = Formula::symbol(sin);
+                let to_side = &(along * &sin) - &(lateral * &fall);
+                let upwards = &(along * &fall) + &(lateral * &sin);
+                work.push(-(&x * &to_side));
+                work.push(-(&y * &upwards));
+            }
+        }
+        work.into_iter().sum()
+    }
+
+    /// Torque on the root and acceleration of its pivot, as symbols; zero where there
+    /// are none.
+    pub(super) fn drive_signals(&mut self) -> (Formula, [Formula; 2]) {
         let mut accelerations = [Formula::zero(), Formula::zero()];
+        let Some(scene) = self.scene.drive.as_ref() else {
+            return (Formula::zero(), accelerations);
+        };
+        if let Some(torque) = &scene.torque {
+            let value = self.signal(torque);
+            self.drive.torque = self.given("drive_torque", "τ", "\\tau", value);
+        }
         let axes = [("x", &scene.x), ("y", &scene.y)];
         for ((name, signal), place) in axes.into_iter().zip(&mut accelerations) {
             let Some(signal) = signal else { continue };
@@ -129,19 +147,11 @@ impl Derivation<'_> {
             *place = symbol.map_or_else(Formula::zero, Formula::symbol);
             self.drive.pivot.push((name, position, symbol));
         }
-        let [x, y] = accelerations;
-        if !x.is_zero() || !y.is_zero() {
-            for ((along, lateral), &angle) in self.mass_moments(angles).iter().zip(angles) {
-                let (cos, sin) = (self.cos(angle), self.sin(angle));
-                let fall = &Formula::integer(1) - &Formula::symbol(cos);
-                let sin = Formula::symbol(sin);
-                let to_side = &(along * &sin) - &(lateral * &fall);
-                let upwards = &(along * &fall) + &(lateral * &sin);
-                work.push(-(&x * &to_side));
-                work.push(-(&y * &upwards));
-            }
-        }
-        work.into_iter().sum()
+        let torque = self.drive.torque;
+        (
+            torque.map_or_else(Formula::zero, Formula::symbol),
+            accelerations,
+        )
     }
 
     /// First moments of the mass that each link carries, about its pivot, along
@@ -275,8 +285,8 @@ impl Derivation<'_> {
         })
     }
 
-    /// The drive as plain data.
-    pub(super) fn plain_drive(&self, frame: &Frame) -> Option<Drive> {
+    /// The drive as plain data, with its powers in a frame.
+    pub(super) fn plain_drive(&self, frame: Option<&Frame>) -> Option<Drive> {
         self.scene.drive.as_ref()?;
         let DerivedDrive {
             temporal,
@@ -292,8 +302,8 @@ impl Derivation<'_> {
             Temporal::Cos(argument) => Temporal::Cos(expr(argument)),
             Temporal::Given(value) => Temporal::Given(expr(value)),
         };
-        let energies = self.scene.requests.energies;
-        let power = || {
+        let frame = frame.filter(|_| self.scene.requests.energies);
+        let power = |frame: &Frame| {
             let forces = frame.drive_forces(self);
             let terms = forces.iter().zip(&frame.velocities);
             expr(&terms.map(|(force, &v)| force * &Formula::symbol(v)).sum())
@@ -309,8 +319,10 @@ impl Derivation<'_> {
                     acceleration: *acceleration,
                 })
                 .collect(),
-            power: energies.then(power),
-            friction_power: (energies && !friction.is_zero()).then(|| expr(friction)),
+            power: frame.map(power),
+            friction_power: frame
+                .filter(|_| !friction.is_zero())
+                .map(|_| expr(friction)),
         })
     }
 }

@@ -9,14 +9,17 @@ use super::inverse_mass::{Counting, Expansion as DerivedExpansion};
 use super::series::Series;
 use super::transfer::{self, SubHamiltonian};
 use super::{
-    Constant, Correction, Energies, Entry, Expansion, Frame, Mechanics, Observables, Parts,
-    Transfer, Truncated, WrittenOut,
+    Articulation, Constant, Correction, Energies, Entry, Expansion, Frame, Mechanics, Observables,
+    Parts, Transfer, Truncated, WrittenOut,
 };
 use crate::scene::{OrbitId, TransferRequest};
 use std::collections::BTreeMap;
 
 impl Derivation<'_> {
     pub(super) fn finish(mut self) -> Result<Mechanics, AlgebraError> {
+        if self.scene.in_loops() {
+            return Ok(self.finish_loops());
+        }
         let absolute = self.absolute_frame();
         let mut mechanics = Mechanics {
             symbols: Symbols::default(),
@@ -24,9 +27,10 @@ impl Derivation<'_> {
             trigonometry: BTreeMap::new(),
             combinations: Vec::new(),
             constants: Vec::new(),
-            drive: self.plain_drive(&absolute),
+            drive: self.plain_drive(Some(&absolute)),
             absolute: self.frame(&absolute),
             articulation: self.articulation(&absolute),
+            link: None,
             coordinates: Vec::new(),
             symmetric: None,
             sectors: None,
@@ -80,6 +84,33 @@ impl Derivation<'_> {
         mechanics.combinations = self.combinations;
         mechanics.symbols = self.symbols;
         Ok(mechanics)
+    }
+
+    /// A tree in loops: one link for all, and the drive.
+    fn finish_loops(mut self) -> Mechanics {
+        self.drive_signals();
+        let link = self.link_balance();
+        let gravity = self.quantity(&self.scene.gravity);
+        Mechanics {
+            parameters: self.parameters.clone(),
+            drive: self.plain_drive(None),
+            absolute: Frame::default(),
+            articulation: Articulation {
+                gravity: self.expr(&gravity.expand()),
+                joints: Vec::new(),
+            },
+            link: Some(link),
+            combinations: Vec::new(),
+            constants: Vec::new(),
+            coordinates: Vec::new(),
+            symmetric: None,
+            sectors: None,
+            expansion: None,
+            transfers: Vec::new(),
+            observables: Observables::default(),
+            trigonometry: self.trigonometry,
+            symbols: self.symbols,
+        }
     }
 
     /// Whether copies branch into copies, or have other links below them.

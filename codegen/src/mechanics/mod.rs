@@ -16,6 +16,7 @@ mod frame;
 mod hamiltonian;
 mod inverse_mass;
 mod lagrangian;
+mod link;
 mod observable;
 mod observable_rate;
 mod observables;
@@ -33,6 +34,7 @@ pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{Drive, PivotMotion, Temporal};
 pub use inverse_mass::Counting;
+pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use observables::{
     Canonical, EnergySymbols, FormedSymbols, FunctionOf, Observable, ObservableFrame, Observables,
     System,
@@ -80,7 +82,7 @@ pub struct Energies {
 
 /// The Lagrangian in one set of generalized coordinates and what follows from
 /// it. Equations of motion: Σ_j M_ij q̈_j + bias_i = 0.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Generalized coordinates.
     pub coordinates: Vec<SymbolId>,
@@ -216,10 +218,12 @@ pub struct Mechanics {
     pub constants: Vec<Constant>,
     /// What moves the tree from outside, if anything does.
     pub drive: Option<Drive>,
-    /// The mechanics in absolute angles.
+    /// The mechanics in absolute angles; without coordinates where the code is loops.
     pub absolute: Frame,
     /// The joints, from which their accelerations can be formed as well.
     pub articulation: Articulation,
+    /// The balance of one link, where the code is loops.
+    pub link: Option<LinkBalance>,
     /// The symmetric coordinates, if asked for.
     pub coordinates: Vec<Coordinate>,
     /// The mechanics in symmetric coordinates, if asked for. On nested trees its

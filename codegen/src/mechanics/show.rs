@@ -2,7 +2,9 @@
 
 use super::coordinates::Kind;
 use super::expression::{Expr, SymbolId};
-use super::{Counting, Drive, Entry, Frame, Mechanics, Parts, Sectors, Temporal, text};
+use super::{
+    Counting, Drive, Entry, Frame, LinkBalance, Mechanics, Parts, Sectors, Temporal, text,
+};
 use std::fmt;
 
 impl fmt::Display for Mechanics {
@@ -21,8 +23,13 @@ impl fmt::Display for Mechanics {
         if let Some(drive) = &self.drive {
             self.drive(f, drive)?;
         }
-        writeln!(f, "absolute angles")?;
-        self.frame(f, &self.absolute)?;
+        match &self.link {
+            Some(link) => self.link(f, link)?,
+            None => {
+                writeln!(f, "absolute angles")?;
+                self.frame(f, &self.absolute)?;
+            }
+        }
         if let Some(frame) = &self.symmetric {
             writeln!(f, "symmetric coordinates")?;
             self.coordinates(f, frame)?;
@@ -139,6 +146,13 @@ impl Mechanics {
             Some(stiffness) => self.matrix(f, "∂²U", stiffness),
             None => Ok(()),
         }
+    }
+
+    fn link(&self, f: &mut fmt::Formatter<'_>, link: &LinkBalance) -> fmt::Result {
+        writeln!(f, "one link, with the subtrees on one pivot of it")?;
+        link.formulas(&self.symbols)
+            .iter()
+            .try_for_each(|formula| self.line(f, &formula.left, &formula.right))
     }
 
     fn drive(&self, f: &mut fmt::Formatter<'_>, drive: &Drive) -> fmt::Result {

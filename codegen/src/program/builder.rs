@@ -32,6 +32,7 @@ impl Builder {
             entries,
             setup: self.setup,
             choice,
+            strips: None,
             without: self.off,
         }
     }

@@ -135,6 +135,15 @@ impl Setup {
         self.combine(a, b, -1)
     }
 
+    /// An integer power of a, which is not zero where that is negative.
+    pub(super) fn power(&mut self, a: ConstantId, exponent: i32) -> ConstantId {
+        let one = self.number(Rational::from(1));
+        (0..exponent.unsigned_abs()).fold(one, |power, _| match exponent > 0 {
+            true => self.mul(power, a),
+            false => self.div(power, a),
+        })
+    }
+
     fn combine(&mut self, a: ConstantId, b: ConstantId, exponent: i32) -> ConstantId {
         let (number_a, mut powers) = self.as_product(a);
         let (number_b, powers_b) = self.as_product(b);

@@ -1,13 +1,32 @@
 //! The entry points that a scene's requests lead to.
 
 use super::lower::{Door, Lowering};
-use super::{Argument, Choice, Entry, Purpose, Shape, ValueId};
+use super::{Argument, Choice, Entry, Operations, Purpose, Shape, Strips, ValueId};
 use crate::mechanics::coordinates::Kind;
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{Counting, Entry as MatrixEntry, Frame, Mechanics, Parts, Transfer};
-use crate::scene::{LinkId, Scene};
+use crate::scene::{LinkId, Scene, Solve};
 
-pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> (Vec<Entry>, Choice) {
+/// Entry points, the solve that they take, and the constants by strip.
+type Lowered = (Vec<Entry>, Choice, Option<Strips>);
+
+/// Those of a tree in loops, which take the recursion through it link by link.
+pub(super) fn link_entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
+    let mechanics = lowering.mechanics;
+    let mut list = EntryList {
+        lowering,
+        entries: Vec::new(),
+    };
+    let strips = list.link_functions(scene, mechanics);
+    let choice = Choice {
+        solve: Solve::Recursion,
+        factorization: Operations::default(),
+        recursion: Operations::default(),
+    };
+    (list.entries, choice, Some(strips))
+}
+
+pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     let mechanics = lowering.mechanics;
     let mut list = EntryList {
         lowering,
@@ -31,13 +50,10 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> (Vec<Entry>
         list.budgets(scene, sectors, request);
     }
     list.observables(scene, mechanics);
-    if let (Some(drive), true) = (&mechanics.drive, scene.requests.drive) {
-        list.drive(mechanics, drive);
-    }
     if scene.requests.taylor {
         list.taylor(mechanics);
     }
-    (list.entries, choice)
+    (list.entries, choice, None)
 }
 
 pub(super) struct EntryList<'l, 'm> {

@@ -27,11 +27,12 @@ pub struct Fused {
 }
 
 impl Program {
-    /// The fused sums of an entry point, which are those of accelerations: other
+    /// The fused sums of an entry point, which are those of accelerations and of links in loops: other
     /// functions run in plain numbers. Linear in the program's length, times a
     /// logarithm.
     pub fn fused(&self, entry: &Entry) -> BTreeMap<ValueId, Fused> {
-        if entry.purpose != Purpose::Accelerations || self.without == Some(Pass::Fusing) {
+        let accelerates = matches!(entry.purpose, Purpose::Accelerations | Purpose::Link(_));
+        if !accelerates || self.without == Some(Pass::Fusing) {
             return BTreeMap::new();
         }
         let needed = self.needed(&entry.outputs);

@@ -19,6 +19,7 @@ mod formed;
 mod fuse;
 mod handed;
 mod interpret;
+mod link;
 mod live;
 mod lower;
 mod named;
@@ -26,7 +27,6 @@ mod observables;
 mod pair;
 mod passes;
 mod rebuild;
-mod recursion;
 mod rules;
 mod scale;
 mod sectors;
@@ -42,6 +42,7 @@ pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use fuse::Fused;
+pub use link::{Column, Strip, Strips};
 use passes::PASSES;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
@@ -63,8 +64,12 @@ pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
 pub fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
     let mut lowering = lower::Lowering::new(mechanics);
     lowering.builder.off = off;
-    let (entries, choice) = entries::entries(scene, &mut lowering);
-    let program = lowering.builder.finish(entries, choice);
+    let (entries, choice, strips) = match scene.in_loops() {
+        true => entries::link_entries(scene, &mut lowering),
+        false => entries::entries(scene, &mut lowering),
+    };
+    let mut program = lowering.builder.finish(entries, choice);
+    program.strips = strips;
     PASSES
         .iter()
         .filter(|(pass, _)| off != Some(*pass))
@@ -101,6 +106,22 @@ pub enum Argument {
     Absolute,
     /// The same in symmetric coordinates.
     Symmetric,
+    /// Constants of one link of a tree in loops.
+    Constants,
+    /// Its motion: sine, cosine, angular velocity, joint angle, joint rate.
+    Motion,
+    /// What a subtree answers: deficit xx, xy, yy of the articulated inertia, bias
+    /// force, torque of its joint on the parent.
+    Response,
+    /// What all subtrees on a link answer.
+    Sums,
+    /// Kept of a link for the way down: gain and offset of its acceleration.
+    Elimination,
+    /// Handed down by a link: the apparent gravity at its children's pivot; with
+    /// several places that at its own, and the acceleration at distance 1.
+    Carried,
+    /// Apparent gravity at a link's pivot.
+    Pivot,
 }
 
 /// One operation. Operands are earlier values.
@@ -185,6 +206,8 @@ pub enum Shape {
     Transfer,
     /// That many `Transfer`s.
     Transfers(usize),
+    /// That many numbers (one alone is no array), and an array of the others.
+    Split(usize),
     /// A `Budget` of that many sectors: energies, transfers, powers.
     Budget(usize),
 }
@@ -269,6 +292,53 @@ pub enum Purpose {
     TotalFrictionPower,
     /// The observable with that number.
     Observable(usize, ObservableForm),
+    /// A function of the recursion, for one link of a tree in loops.
+    Link(LinkFunction),
+    /// Apparent gravity at the root's pivot of a tree in loops, in reduced units.
+    RootGravity,
+    /// What the drive adds to that, and its torque on the root, in reduced units.
+    RootDrive,
+}
+
+/// The functions that the recursion calls for each link of a tree in loops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkFunction {
+    /// The response of a link without children.
+    Leaf,
+    /// The response of a child about its parent's pivot.
+    Attach,
+    /// The response and the elimination of a link with children.
+    Inner,
+    /// The apparent gravity at a child's pivot.
+    Pivot,
+    /// The acceleration of a link with children, and what it hands down.
+    Accelerate,
+    /// The acceleration of a link without children.
+    AccelerateLeaf,
+}
+
+impl LinkFunction {
+    /// All of them, in the order of their entry points.
+    pub const ALL: [Self; 6] = [
+        Self::Leaf,
+        Self::Attach,
+        Self::Inner,
+        Self::Pivot,
+        Self::Accelerate,
+        Self::AccelerateLeaf,
+    ];
+
+    /// Its name in code.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Leaf => "leaf",
+            Self::Attach => "attach",
+            Self::Inner => "inner",
+            Self::Pivot => "pivot",
+            Self::Accelerate => "accelerate",
+            Self::AccelerateLeaf => "accelerate_leaf",
+        }
+    }
 }
 
 /// What a function says about an observable.
@@ -312,6 +382,8 @@ pub struct Program {
     pub setup: Setup,
     /// How the accelerations are solved for.
     pub choice: Choice,
+    /// The constants by strip, where the code is loops.
+    pub strips: Option<Strips>,
     /// The pass that was left out, for comparison.
     pub without: Option<Pass>,
 }

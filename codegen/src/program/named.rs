@@ -39,14 +39,7 @@ impl Lowering<'_> {
             Expr::Product(factors) => self.constant_fold(factors, Setup::mul, 1),
             Expr::Power(base, exponent) => {
                 let base = self.constant_expr(base);
-                let mut power = self.builder.setup.number(Rational::from(1));
-                for _ in 0..exponent.unsigned_abs() {
-                    power = match *exponent > 0 {
-                        true => self.builder.setup.mul(power, base),
-                        false => self.builder.setup.div(power, base),
-                    };
-                }
-                power
+                self.builder.setup.power(base, *exponent)
             }
         }
     }

@@ -15,7 +15,7 @@
 //! the roundings that its file states.
 
 use super::count::{Operations, operations};
-use super::{Program, ValueId, factors, lower_without};
+use super::{Entry, LinkFunction, Program, ValueId, factors, lower_without};
 use crate::mechanics::Mechanics;
 use crate::scene::Scene;
 use std::fmt::Write;
@@ -95,13 +95,17 @@ impl Pass {
 /// entry points, with all passes and without each. Without dead code left out, every
 /// entry point would be the whole program.
 pub fn worth(scene: &Scene, mechanics: &Mechanics) -> String {
-    let mut table = String::from(
-        "| without | accelerations | fused | waiting | all functions |\n|---|---|---:|---:|---:|\n",
+    let motion = match scene.in_loops() {
+        true => "one link with children",
+        false => "accelerations",
+    };
+    let mut table = format!(
+        "| without | {motion} | fused | waiting | all functions |\n|---|---|---:|---:|---:|\n"
     );
     let all = Pass::ALL.into_iter().filter(|pass| pass.is_counted());
     for off in std::iter::once(None).chain(all.map(Some)) {
         let program = lower_without(off, scene, mechanics);
-        let Some(motion) = program.entry("accelerations") else {
+        let Some(motion) = program.motion() else {
             continue;
         };
         let entries = program.entries.iter();
@@ -114,8 +118,8 @@ pub fn worth(scene: &Scene, mechanics: &Mechanics) -> String {
             "| {} | {} | {} | {} | {total} |",
             off.map_or("–", Pass::name),
             program.operations(&motion.outputs),
-            program.fused(motion).len(),
-            program.live(motion),
+            program.fused(&motion).len(),
+            program.live(&motion),
         );
         if off.is_none() {
             let whole = whole(&program);
@@ -124,6 +128,29 @@ pub fn worth(scene: &Scene, mechanics: &Mechanics) -> String {
         }
     }
     table
+}
+
+impl Program {
+    /// The accelerations; of a tree in loops, all that is done for a link with children.
+    fn motion(&self) -> Option<Entry> {
+        if self.strips.is_none() {
+            return self.entry("accelerations").cloned();
+        }
+        let functions = [
+            LinkFunction::Attach,
+            LinkFunction::Inner,
+            LinkFunction::Pivot,
+            LinkFunction::Accelerate,
+        ];
+        let mut all = self.entry(LinkFunction::Inner.name())?.clone();
+        let functions = functions.map(|function| self.entry(function.name()));
+        all.outputs = functions
+            .into_iter()
+            .flatten()
+            .flat_map(|entry| entry.outputs.iter().copied())
+            .collect();
+        Some(all)
+    }
 }
 
 /// Operations of all definitions, needed or not.

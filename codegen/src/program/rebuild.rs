@@ -4,17 +4,28 @@
 use super::{Argument, ConstantId, ConstantOp, Op, Program, ValueId};
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{Mechanics, Temporal, Trigonometric};
+use std::collections::BTreeMap;
 
 /// Expressions of a program's values in the symbols of its mechanics.
 pub struct Rebuilt<'a> {
     program: &'a Program,
     mechanics: &'a Mechanics,
+    given: BTreeMap<(Argument, usize), SymbolId>,
 }
 
 impl<'a> Rebuilt<'a> {
     /// Prepares the way back from `program` to the symbols of `mechanics`.
     pub fn new(program: &'a Program, mechanics: &'a Mechanics) -> Self {
-        Self { program, mechanics }
+        Self {
+            program,
+            mechanics,
+            given: BTreeMap::new(),
+        }
+    }
+
+    /// The same with symbols for elements of the arguments of link functions.
+    pub fn with_symbols(self, given: BTreeMap<(Argument, usize), SymbolId>) -> Self {
+        Self { given, ..self }
     }
 
     /// The expression that a value stands for, in constants, sines and cosines
@@ -51,6 +62,14 @@ impl<'a> Rebuilt<'a> {
             Argument::Coordinates | Argument::Symmetric => &symmetric?.coordinates,
             Argument::Rates => &symmetric?.velocities,
             Argument::Momenta => &symmetric?.momenta,
+            // What the elements of rows stand for is known to their reader.
+            Argument::Constants
+            | Argument::Motion
+            | Argument::Response
+            | Argument::Sums
+            | Argument::Elimination
+            | Argument::Carried
+            | Argument::Pivot => return self.given.get(&(argument, index)).copied(),
         };
         symbols.get(index).copied()
     }

@@ -15,6 +15,13 @@ impl Argument {
             Self::Rates => "rates",
             Self::Absolute => "absolute",
             Self::Symmetric => "symmetric",
+            Self::Constants => "constants",
+            Self::Motion => "link",
+            Self::Response => "response",
+            Self::Sums => "below",
+            Self::Elimination => "elimination",
+            Self::Carried => "carried",
+            Self::Pivot => "pivot",
         }
     }
 }
@@ -26,7 +33,7 @@ impl Argument {
             Self::Theta | Self::Coordinates | Self::Absolute | Self::Symmetric => "theta",
             Self::Omega | Self::Rates => "omega",
             Self::AbsoluteMomenta | Self::Momenta => "p",
-            Self::Time => "time",
+            other => other.name(),
         }
     }
 }
@@ -53,6 +60,16 @@ impl fmt::Display for Program {
             match &definition.exact {
                 Some(exact) => writeln!(f, "    # {} = {exact}", definition.name)?,
                 None => writeln!(f, "    # {}", definition.name)?,
+            }
+        }
+        if let Some(strips) = &self.strips {
+            writeln!(f, "strips")?;
+            for strip in &strips.strips {
+                let columns = strips.columns.iter().zip(&strip.constants);
+                let columns: Vec<String> = columns
+                    .map(|(column, id)| format!("{} k{}", column.name(), id.0))
+                    .collect();
+                writeln!(f, "  {}: {}", strip.name, columns.join(", "))?;
             }
         }
         for entry in &self.entries {

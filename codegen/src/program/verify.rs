@@ -63,16 +63,21 @@ impl Program {
     /// The name of a constant, or the number, that some entry point needs and
     /// that no `f64` can hold: rounded, it would be infinite, or zero without being zero.
     pub fn unrepresentable_constant(&self) -> Option<&str> {
-        self.entries
+        let mut values = self
+            .entries
             .iter()
-            .flat_map(|entry| self.needed(&entry.outputs))
-            .find_map(|value| match self.definition(value).op {
-                super::Op::Constant(id) => self.unrepresentable_in(id),
-                super::Op::Number(ref number) => {
-                    is_unrepresentable(number).then_some("a number of an observable")
-                }
-                _ => None,
-            })
+            .flat_map(|entry| self.needed(&entry.outputs));
+        let in_entries = values.find_map(|value| match self.definition(value).op {
+            super::Op::Constant(id) => self.unrepresentable_in(id),
+            super::Op::Number(ref number) => {
+                is_unrepresentable(number).then_some("a number of an observable")
+            }
+            _ => None,
+        });
+        let strips = self.strips.iter().flat_map(|strips| &strips.strips);
+        let mut rows =
+            strips.flat_map(|strip| strip.constants.iter().chain(strip.body.iter().flatten()));
+        in_entries.or_else(|| rows.find_map(|&id| self.unrepresentable_in(id)))
     }
 
     fn unrepresentable_in(&self, id: super::ConstantId) -> Option<&str> {
@@ -106,6 +111,7 @@ impl Program {
                 Shape::Pair => entry.outputs.len() >= 2 && entry.outputs.len() % 2 == 0,
                 Shape::Vector => !entry.outputs.is_empty(),
                 Shape::Matrix(size) => entry.outputs.len() == size * size,
+                Shape::Split(first) => (1..entry.outputs.len()).contains(&first),
                 Shape::Transfer => entry.outputs.len() == 2,
                 Shape::Transfers(count) => entry.outputs.len() == 2 * count,
                 Shape::Budget(count) => entry.outputs.len() == 3 * count,

@@ -13,17 +13,12 @@
 //! - what `requests` asks for can be derived for this tree.
 
 mod bodies;
-mod body_rows;
 mod drive;
 mod expand;
-mod forces;
-mod generations;
-mod link_constants;
+mod layout;
 mod names;
 mod observable_text;
 mod observables;
-mod offsets;
-mod places;
 mod probe;
 mod properties;
 mod quantity;
@@ -32,22 +27,17 @@ mod resolve;
 mod rule;
 mod singular;
 mod symbols;
-mod table;
 mod template;
 mod text;
 mod values;
 
-pub use body_rows::{body_rows, has_bodies};
 pub use drive::{Drive, Signal, TimeFunction};
-pub use forces::Forces;
-pub use generations::{Constants, Generations};
+pub use layout::Layout;
 pub use observables::{
     Function, OBSERVABLE_SUFFIXES, Observable, Observed, Place, Variable, VariableKind,
 };
-pub use places::columns as placed_columns;
 pub use quantity::Quantity;
 pub use resolve::resolve;
-pub use table::Table;
 
 /// Index of a link in [`Scene::links`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -91,12 +81,9 @@ pub struct Scene {
     /// Quantities of the user's own. One that is written in symmetric
     /// coordinates comes with `requests.symmetric`.
     pub observables: Vec<Observable>,
-    /// How many links each of `links` stands for, where the code is loops over
-    /// generations: then `links` holds one link of each generation, below each
-    /// other, and there are no groups.
-    pub generations: Option<Generations>,
-    /// The constants of all links, where the code is a loop over a table.
-    pub table: Option<Table>,
+    /// How the code takes the equations through the tree. Over generations, `links`
+    /// holds one link of each, below each other, and there are no groups.
+    pub layout: Layout,
 }
 
 /// Path of the runtime crate in the user's crate: `::branched_pendulum`, or
@@ -110,31 +97,16 @@ pub struct CratePath {
 }
 
 impl Scene {
-    /// Whether the code is loops, over generations or a table of links.
+    /// Whether the code is loops, over generations or links.
     pub fn in_loops(&self) -> bool {
-        self.generations.is_some() || self.table.is_some()
+        self.layout != Layout::Unrolled
     }
 
-    /// The scene that the algebra derives: itself, or the first link alone where
-    /// the code is loops, whose equations are those of one link under any force
-    /// (`emit::generations`).
-    pub fn derived(&self) -> std::borrow::Cow<'_, Self> {
-        if !self.in_loops() {
-            return std::borrow::Cow::Borrowed(self);
-        }
-        let mut first = Self {
-            requests: Requests {
-                drive: self.drive.is_some(),
-                ..Requests::default()
-            },
-            generations: None,
-            table: None,
-            ..self.clone()
-        };
-        first.links.truncate(1);
-        first.orbits.truncate(1);
-        first.groups.clear();
-        std::borrow::Cow::Owned(first)
+    /// Whether any centre of mass or pivot is beside a link's axis.
+    pub fn is_lateral(&self) -> bool {
+        let beside = |offset: &Offset| !offset.lateral.is_zero();
+        let mut links = self.links.iter();
+        links.any(|link| beside(&link.com) || beside(&link.pivot))
     }
 }
 
@@ -291,9 +263,6 @@ pub struct Requests {
     pub budget: Option<BudgetRequest>,
     /// Taylor coefficients of the motion.
     pub taylor: bool,
-    /// The drive by itself, as the code of driven trees in loops reads it; never
-    /// asked for by a description.
-    pub drive: bool,
 }
 
 /// Which forms of the sectors' budget are asked for; at least one. The forms

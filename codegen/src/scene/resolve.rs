@@ -2,12 +2,11 @@
 
 use super::drive::resolve_drive;
 use super::expand::{check_names, check_size, expand};
-use super::generations::{Asked, decide, generations, in_own_pivot};
+use super::layout::{self, Asked};
 use super::observables::resolve_observables;
 use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_solve};
 use super::rule::resolve_code;
 use super::singular::check_regular;
-use super::table;
 use super::template::Builder;
 use super::values::{Usage, Values};
 use super::{CratePath, Quantity, Scene, Sign};
@@ -44,12 +43,10 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     if let Some(rule) = whole {
         code = rule.code.map(|code| (code, rule.span)).or(code);
     }
-    // Otherwise it is a tree like any other.
-    let whole = whole.filter(|_| !in_own_pivot(&templates));
-    let loops = match whole {
+    let by_rule = match whole {
         Some(mut rule) => {
             rule.code = code.map(|(code, _)| code);
-            decide(rule, &mut templates, &asked, report).ok()?
+            Some(layout::of_rule(rule, &mut templates, &asked, report).ok()?)
         }
         None => None,
     };
@@ -58,7 +55,8 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     }
     let expansion = expand(&templates);
     let links = expansion.links.len();
-    let in_table = whole.is_none() && table::wanted(code, links, &templates, &asked, report);
+    let layout =
+        by_rule.unwrap_or_else(|| layout::of_links(code, links, &templates, &asked, report));
     let owners = check_names(&expansion, &templates, report);
     for (parameter, span) in values.parameters.iter().zip(&values.spans) {
         if owners.contains_key(&parameter.name) {
@@ -84,8 +82,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         requirements: values.requirements,
         requests: resolved.requests,
         observables: Vec::new(),
-        generations: None,
-        table: None,
+        layout,
     };
     if readable {
         if !scene.groups.is_empty() {
@@ -96,14 +93,6 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     // A link whose own values are wrong would look singular.
     if report.is_empty() {
         check_regular(&templates, report);
-    }
-    if report.is_empty()
-        && let Some(loops) = loops
-    {
-        scene.generations = generations(loops, &scene, report);
-    }
-    if report.is_empty() && in_table {
-        scene.table = table::table(&scene, report);
     }
     report.is_empty().then_some(scene)
 }

@@ -3,8 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, CratePath, Drive, Generations, Group, Link, Observable, Offset, Orbit,
-    Parameter, Requests, Requirement, Scene, Sign, TransferRequest,
+    BudgetRequest, CratePath, Drive, Group, Layout, Link, Observable, Offset, Orbit, Parameter,
+    Requests, Requirement, Scene, Sign, TransferRequest,
 };
 
 impl Display for Scene {
@@ -21,8 +21,7 @@ impl Display for Scene {
             requirements,
             requests,
             observables,
-            generations,
-            table,
+            layout,
         } = self;
         writeln!(f, "scene {name}")?;
         writeln!(f, "crate {crate_path}")?;
@@ -38,19 +37,13 @@ impl Display for Scene {
         {
             writeln!(f, "require {} {sign}: {what}", quantity.display(parameters))?;
         }
-        if let Some(Generations {
-            branching,
-            links,
-            constants: _,
-        }) = generations
-        {
-            writeln!(
+        match layout {
+            Layout::Unrolled => {}
+            Layout::Generations { branching, links } => writeln!(
                 f,
                 "{links} links in generations, {branching} under each; one of each:"
-            )?;
-        }
-        if table.is_some() {
-            writeln!(f, "in a loop over a table of links")?;
+            )?,
+            Layout::Links => writeln!(f, "in a loop over the links")?,
         }
         for link in links {
             self.write_link(link, f)?;
@@ -166,7 +159,6 @@ impl Display for Requests {
             transfer,
             budget,
             taylor,
-            drive: _,
         } = self;
         write!(f, "accelerations")?;
         if let Some(solve) = solve {

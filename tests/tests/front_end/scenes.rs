@@ -1,6 +1,6 @@
 //! Descriptions and scenes of small trees, as text.
 
-use branched_pendulum_codegen::scene::{Quantity, Scene};
+use branched_pendulum_codegen::scene::{Layout, Quantity, Scene};
 use branched_pendulum_codegen::stages;
 use proc_macro2::{TokenStream, TokenTree};
 
@@ -329,9 +329,11 @@ fn tokens_of_loops(generations: usize) -> usize {
     );
     let item = "struct Tree;".parse().unwrap();
     let stages = stages(attribute.parse().unwrap(), item).ok().unwrap();
+    let links = (1 << generations) - 1;
+    let branching = 2;
     assert_eq!(
-        stages.scene.generations.unwrap().links,
-        (1 << generations) - 1
+        stages.scene.layout,
+        Layout::Generations { branching, links }
     );
     count(stages.tokens)
 }
@@ -351,7 +353,10 @@ fn large_rules_get_loops_unless_something_stands_against_it() {
             "#[branched_pendulum(gravity = 9.8, a: generations(branching = 2, shape = rod, \
              mass = 1, length = 1, {rule})] struct Tree;"
         );
-        scene(&source).generations.map(|found| found.links)
+        match scene(&source).layout {
+            Layout::Generations { links, .. } => Some(links),
+            _ => None,
+        }
     };
     assert_eq!(links("count = 5)"), None);
     assert_eq!(links("count = 6)"), Some(63));

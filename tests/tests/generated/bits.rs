@@ -1,12 +1,14 @@
 //! Emitted code agrees with its program bit for bit: what the interpreter
 //! computes operation by operation is what the compiled function returns.
 
+use branched_pendulum::tree::{LinkEquations, LinkMotion, Row};
 use branched_pendulum::{Budget, Scalar, Transfer};
 use branched_pendulum_codegen::program::Argument;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
     chain::Chain,
     driven::{Driven, DrivenParameters},
+    driven_loops::{DrivenLoops, DrivenLoopsEquations, DrivenLoopsParameters},
     generations::Generations,
     nested::Nested,
     observed::{Observed, ObservedParameters},
@@ -236,6 +238,92 @@ fn functions_in_parts() {
     agree!("generations", Generations::new(), [], 15,
         two: [accelerations, budget_rest, budget_canonical, budget_velocity, budget_parseval,
               sector_transfers, transfer_matrix], one: []);
+}
+
+/// The functions of one link in loops, on rows of any numbers.
+#[test]
+fn functions_of_a_link_in_loops() {
+    type E = DrivenLoopsEquations;
+    let stages = scene("driven_loops");
+    let parameters = DrivenLoopsParameters {
+        push: 0.3,
+        pace: 7.1,
+    };
+    let model = DrivenLoops::new(parameters).expect("possible parameters");
+    let mut random = Random::new(7);
+    let mut compared = std::collections::BTreeSet::new();
+    for _ in 0..STATES {
+        let constants: <E as LinkEquations>::Constants<f64> = row(&mut random);
+        let [sine, cosine, omega, joint_angle, joint_rate] = random.array(-2.0, 2.0);
+        let link = LinkMotion {
+            sine,
+            cosine,
+            omega,
+            joint_angle,
+            joint_rate,
+        };
+        let response: <E as LinkEquations>::Response<f64> = row(&mut random);
+        let sums: <E as LinkEquations>::Sums<f64> = row(&mut random);
+        let elimination: <E as LinkEquations>::Elimination<f64> = row(&mut random);
+        let carried: <E as LinkEquations>::Carried<f64> = row(&mut random);
+        let pivot: [f64; 2] = row(&mut random);
+        let time = random.between(-5.0, 50.0);
+        let input = |argument: Argument, index: usize| match argument {
+            Argument::Constants => constants[index],
+            Argument::Motion => [sine, cosine, omega, joint_angle, joint_rate][index],
+            Argument::Response => response[index],
+            Argument::Sums => sums[index],
+            Argument::Elimination => elimination[index],
+            Argument::Carried => carried[index],
+            Argument::Pivot => pivot[index],
+            _ => time,
+        };
+        let (answer, kept) = E::inner(&constants, link, sums);
+        let (alpha, handed_down) = E::accelerate(&constants, link, elimination, pivot);
+        let compiled = [
+            ("leaf", E::leaf(&constants, link).to_vec()),
+            ("attach", E::attach(&constants, link, response).to_vec()),
+            ("inner", [answer.as_slice(), &kept].concat()),
+            ("pivot", E::pivot(&constants, link, carried).to_vec()),
+            ("accelerate", [&[alpha], handed_down.as_slice()].concat()),
+            (
+                "accelerate_leaf",
+                vec![E::accelerate_leaf(&constants, link, pivot)],
+            ),
+            ("drive", model.drive(time).to_vec()),
+        ];
+        for (name, compiled) in compiled {
+            let program = &stages.program;
+            let interpreted = program.evaluate(Scalar::sin_cos, name, &[0.3, 7.1], input);
+            let interpreted = interpreted.unwrap_or_else(|| panic!("no entry {name}"));
+            let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&compiled), bits(&interpreted), "{name}");
+            compared.insert(name);
+        }
+    }
+    // What the model alone sees are gravity and drive at the root.
+    compared.extend(["root_gravity", "root_drive"]);
+    let entries = stages.program.entries.iter();
+    assert!(entries.map(|entry| entry.name.as_str()).eq([
+        "leaf",
+        "attach",
+        "inner",
+        "pivot",
+        "accelerate",
+        "accelerate_leaf",
+        "root_gravity",
+        "root_drive",
+        "drive"
+    ]));
+    assert_eq!(compared.len(), stages.program.entries.len());
+}
+
+fn row<R: Row<f64>>(random: &mut Random) -> R {
+    let mut row = R::filled(0.0);
+    for value in row.as_mut() {
+        *value = random.between(-2.0, 2.0);
+    }
+    row
 }
 
 #[test]

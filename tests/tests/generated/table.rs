@@ -5,7 +5,7 @@ mod random_trees;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum_codegen::scene::{Quantity, Scene};
+use branched_pendulum_codegen::scene::{Layout, Quantity, Scene};
 use branched_pendulum_tests::oracle::{Link, Tree, closed_form};
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::source;
@@ -323,24 +323,26 @@ fn large_trees_get_a_table_of_a_few_lines_a_link() {
             comb(links, ", emit(energies)")
         ));
         assert_eq!(stages.scene.links.len(), links);
-        assert!(stages.scene.table.is_some());
+        assert_eq!(stages.scene.layout, Layout::Links);
         let text = branched_pendulum_codegen::layout(stages.tokens).unwrap();
         text.lines().count()
     };
     let [few, many] = [101, 401].map(lines);
     println!("{few} and {many} lines");
-    // A number on each line, thirteen of two constants a row.
+    // A number on each line, up to seventeen of two constants a row.
     assert!(many - few <= 300 * 20, "{few} {many}");
     assert!(few <= 101 * 20 + 300, "{few}");
 }
 
 #[test]
 fn small_trees_and_what_no_loop_does_are_written_out() {
-    assert!(scene_of(&comb(12, "")).table.is_none());
-    assert!(scene_of(&comb(101, ", code = unrolled")).table.is_none());
-    assert!(
-        scene_of(&comb(101, ", solve = factorization"))
-            .table
-            .is_none()
+    assert_eq!(scene_of(&comb(12, "")).layout, Layout::Unrolled);
+    assert_eq!(
+        scene_of(&comb(101, ", code = unrolled")).layout,
+        Layout::Unrolled
+    );
+    assert_eq!(
+        scene_of(&comb(101, ", solve = factorization")).layout,
+        Layout::Unrolled
     );
 }

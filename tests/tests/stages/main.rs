@@ -5,6 +5,7 @@ mod determinism;
 mod ladder;
 mod late;
 mod lengths;
+mod loops;
 mod pages;
 mod passes;
 mod prose;

@@ -8,7 +8,7 @@ pub(super) fn pretty(tokens: TokenStream) -> String {
 }
 
 /// The emitted function of that name, with its docs.
-fn function(tokens: &TokenStream, name: &str) -> String {
+pub(super) fn function(tokens: &TokenStream, name: &str) -> String {
     let file: syn::File = syn::parse2(tokens.clone()).expect("emitted code is Rust");
     for item in file.items {
         let syn::Item::Impl(block) = item else {
@@ -173,11 +173,10 @@ fn driven_loops() {
     functions(
         "driven_loops",
         &[
-            "facing",
-            "node",
             "leaf",
-            "turn",
-            "turn_leaf",
+            "inner",
+            "accelerate",
+            "accelerate_leaf",
             "drive",
             "root_drive",
             "drive_power",

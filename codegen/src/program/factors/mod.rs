@@ -85,7 +85,9 @@ fn factored(program: &Program, chosen: &[bool]) -> Program {
             *output = function.value(*output, &values);
         }
     }
-    let program = builder.finish(entries, program.choice);
+    let strips = program.strips.clone();
+    let mut program = builder.finish(entries, program.choice);
+    program.strips = strips;
     program.without_dead_code()
 }
 
@@ -121,7 +123,7 @@ impl Function {
             ahead,
             user: alone.map(|(id, users)| (id, users[0])).collect(),
             chosen,
-            fused: entry.purpose == Purpose::Accelerations,
+            fused: matches!(entry.purpose, Purpose::Accelerations | Purpose::Link(_)),
             own: BTreeMap::new(),
         }
     }

@@ -2,6 +2,7 @@
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
+use branched_pendulum_codegen::scene::Layout;
 
 use super::{Powered, agree, array, balance, pair, powered, scene_of, states};
 
@@ -98,7 +99,7 @@ fn slices_of_another_length_give_nan() {
 }
 
 #[test]
-fn large_trees_with_places_get_a_table() {
+fn large_trees_with_places_get_a_loop() {
     let tree = |teeth: usize| {
         format!(
             "gravity = 9.81, emit(energies), drive(y = sin(t)),
@@ -108,23 +109,26 @@ fn large_trees_with_places_get_a_table() {
              ]"
         )
     };
-    assert!(scene_of(&tree(10)).table.is_none());
-    let table = scene_of(&tree(50)).table.expect("101 links are many");
-    assert_eq!(table.hanging.map(|hanging| hanging.len()), Some(101));
+    assert_eq!(scene_of(&tree(10)).layout, Layout::Unrolled);
+    assert_eq!(scene_of(&tree(50)).layout, Layout::Links);
+    assert_eq!(scene_of(&tree(50)).links.len(), 101);
 }
 
 #[test]
-fn large_rules_in_one_pivot_get_a_table() {
+fn large_rules_in_one_pivot_get_loops() {
     let chain = |count: usize, joint: &str, code: &str| {
         scene_of(&format!(
             "gravity = 9.81, tree: generations(count = {count}, branching = 1, mass = 0.1, \
              com = 0.05, inertia = 0, joint = {joint}, spring = 0.1{code})"
         ))
     };
-    let rows = |scene: super::Scene| scene.table.map(|table| table.hanging.unwrap().len());
-    assert_eq!(rows(chain(100, "0", "")), None);
-    assert_eq!(rows(chain(101, "(0, 0)", "")), Some(101));
-    assert_eq!(rows(chain(101, "0", ", code = unrolled")), None);
-    assert_eq!(rows(chain(3, "0", ", code = loops")), Some(3));
-    assert!(chain(101, "0.1", "").generations.is_some());
+    let links = |scene: super::Scene| match scene.layout {
+        Layout::Generations { links, .. } => Some(links),
+        _ => None,
+    };
+    assert_eq!(links(chain(60, "0", "")), None);
+    assert_eq!(links(chain(101, "(0, 0)", "")), Some(101));
+    assert_eq!(links(chain(101, "0", ", code = unrolled")), None);
+    assert_eq!(links(chain(3, "0", ", code = loops")), Some(3));
+    assert_eq!(links(chain(101, "0.1", "")), Some(101));
 }

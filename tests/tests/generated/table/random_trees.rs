@@ -1,18 +1,21 @@
 //! The equations of one model in tables of random trees.
 
-use super::{expected, largest, number, oracle_of, scene_of, states};
-use branched_pendulum::generations::{Recursion, Table, rows};
+use super::{expected, largest, oracle_of, states};
 use branched_pendulum::prelude::*;
-use branched_pendulum_codegen::scene::Quantity;
+use branched_pendulum::tree::{LinkEquations, Row, Tree};
 use branched_pendulum_tests::random::Random;
+use branched_pendulum_tests::source;
 use std::fmt::Write;
 
-/// Lends its equations, those of 24 links with all forces, to random trees.
+/// Lends its equations, those of links with all forces, to random trees.
 #[branched_pendulum(
     gravity = 1,
     code = loops,
     trunk: rod(mass = 1, length = 1, friction = 1, drag = 1, spring = 1) [
-        twig: rod(mass = 1, length = 1) * 23,
+        bough: rod(mass = 2, length = 3, friction = 2, drag = 2, spring = 2) [
+            twig: rod(mass = 3, length = 2, friction = 3, drag = 3, spring = 3),
+        ],
+        leaf: rod(mass = 4, length = 5, friction = 4, drag = 4, spring = 4),
     ],
 )]
 struct Lender;
@@ -60,31 +63,35 @@ fn write_link(children: &[Vec<usize>], link: usize, random: &mut Random, text: &
 
 #[test]
 fn random_trees_agree_with_the_closed_form() {
-    const LINKS: usize = <LenderEquations as Recursion<9, 6, 6, 3>>::LINKS;
-    assert_eq!(LINKS, 24);
+    const LINKS: usize = 24;
+    // All columns, as of the random trees: none is the same in all rows.
+    const COLUMNS: usize = <<LenderEquations as LinkEquations>::Constants<f64> as Row<f64>>::LENGTH;
     let mut worst = 0.0_f64;
     for seed in 0..20 {
-        let scene = scene_of(&random_tree(LINKS, seed));
-        let table = scene.table.as_ref().expect("loops are asked for");
+        let text = random_tree(LINKS, seed);
+        let stages = source::stages_of(&format!("#[branched_pendulum({text})] struct Sample;"));
+        let (scene, program) = (&stages.scene, &stages.program);
+        let strips = program.strips.as_ref().expect("loops are asked for");
         let parents = scene.links.iter().map(|link| {
             let parent = link.parent.map_or(0, |parent| parent.0);
             u32::try_from(parent).unwrap()
         });
-        let parents: &[u32] = parents.collect::<Vec<u32>>().leak();
-        let exact = |row: &Vec<Quantity>| -> [[f64; 2]; 9] {
-            std::array::from_fn(|column| [number(&row[column]), 0.0])
-        };
-        let motion: Vec<[[f64; 2]; 9]> = table.motion.iter().map(exact).collect();
-        let model = Table::<LenderEquations, f64, 9, 6, 3>::new(
-            parents,
-            rows(&motion),
-            [0.0, number(&table.root)],
-            Vec::new(),
+        let parents: Vec<u32> = parents.collect();
+        let constants = program.setup.evaluate(&[]);
+        let rows = strips.strips.iter().map(|strip| -> [f64; COLUMNS] {
+            std::array::from_fn(|column| constants[strip.constants[column].0 as usize])
+        });
+        let root = program.evaluate(f64::sin_cos, "root_gravity", &[], |_, _| 0.0);
+        let root = root.expect("every tree has gravity");
+        let model = Tree::<LenderEquations, f64>::with_parents(
+            &parents,
+            rows.collect(),
+            [root[0], root[1]],
         );
-        let tree = oracle_of(&scene);
+        let tree = oracle_of(scene);
         for [theta, omega] in states(LINKS, 20) {
             let mut alpha = vec![f64::NAN; LINKS];
-            model.accelerations_into(&theta, &omega, &mut alpha);
+            model.accelerations_into(None, &theta, &omega, &mut alpha);
             let [right, bound] = expected(&tree, &theta, &omega);
             worst = worst.max(largest(&alpha, &right, &bound));
         }

@@ -1,0 +1,224 @@
+//! The constants of a tree in loops: tables of exact numbers, and what parameters put
+//! in their places.
+
+use super::Emission;
+use super::doc_text::doc_lines;
+use super::tokens::{number_tokens, part_tokens};
+use crate::program::{ConstantId, ConstantOp, Op, Purpose, Strips, ValueId};
+use crate::scene::Layout;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Columns of bodies, d along and e across the link.
+const BODIES: [&str; 12] = [
+    "half of the mass m (kg)",
+    "first moment m d about the pivot (kg m)",
+    "first moment m e across the link (kg m)",
+    "half of the moment of inertia I + m (d² + e²) about the pivot (kg m²)",
+    "place of the pivot along the parent (m)",
+    "place of the pivot across the parent (m)",
+    "weight m g (N)",
+    "g m d (J)",
+    "g m e (J)",
+    "half of the torsion spring's stiffness (N m)",
+    "friction c in the pivot (N m s)",
+    "drag k against the ground (N m s)",
+];
+
+impl Emission<'_> {
+    /// `Self { … }`, the constants in place.
+    pub(super) fn strip_values(&self, strips: &Strips) -> TokenStream {
+        let runtime = self.runtime();
+        let (lines, known) = self.formed_constants(strips);
+        let rows = strips.strips.iter().map(|strip| strip.constants.as_slice());
+        let columns: Vec<String> = strips
+            .columns
+            .iter()
+            .map(|column| format!("`{}`: {}", column.name(), column.meaning()))
+            .collect();
+        let name = format_ident!("strips");
+        let [table, rows] = self.table(&name, "the equations", &columns, rows.collect(), &known);
+        let gravity = self.root_gravity(&known);
+        let (shape, parents, tree) = match self.scene.layout {
+            Layout::Generations { .. } => {
+                let equations = format_ident!("{}Equations", self.item.ident);
+                let copies = quote!(<#equations as #runtime::tree::LinkEquations>::COPIES);
+                (
+                    quote!(Generations(#copies)),
+                    None,
+                    quote!(new(#rows, #gravity)),
+                )
+            }
+            _ => (
+                quote!(Parents(&PARENTS)),
+                Some(self.parents()),
+                quote!(with_parents(&PARENTS, #rows, #gravity)),
+            ),
+        };
+        let bodies = strips.strips.iter().filter_map(|strip| strip.body.as_ref());
+        let bodies: Vec<&[ConstantId]> = bodies.map(|body| body.as_slice()).collect();
+        let (body_table, body_field) = match bodies.is_empty() {
+            true => (TokenStream::new(), None),
+            false => {
+                let columns = BODIES.map(str::to_owned);
+                let name = format_ident!("body_rows");
+                let [table, rows] =
+                    self.table(&name, "the energies and powers", &columns, bodies, &known);
+                let value = quote! {
+                    bodies: #runtime::tree::Bodies::new(#runtime::tree::Shape::#shape, #rows)
+                };
+                (table, Some(value))
+            }
+        };
+        let stored = self.stored_constants();
+        let stored = stored.iter().map(|&id| {
+            let field = self.field(id);
+            let value = self.known_value(id, &known);
+            quote!(#field: #value)
+        });
+        let fields = body_field.into_iter().chain(stored);
+        quote! {
+            #parents
+            #table
+            #body_table
+            #(#lines)*
+            Self {
+                tree: #runtime::tree::Tree::#tree,
+                #(#fields),*
+            }
+        }
+    }
+
+    /// `let` lines for all constants that parameters are involved in, of the strips and
+    /// of the drive, and their names.
+    fn formed_constants(&self, strips: &Strips) -> (Vec<TokenStream>, BTreeMap<ConstantId, Ident>) {
+        let rows = strips.strips.iter();
+        let rows = rows.flat_map(|strip| strip.constants.iter().chain(strip.body.iter().flatten()));
+        let mut wanted: Vec<ConstantId> = rows.copied().collect();
+        wanted.extend(self.stored_constants());
+        wanted.extend(self.root_constants());
+        let setup = &self.program.setup;
+        let mut formed = BTreeSet::new();
+        while let Some(id) = wanted.pop() {
+            let definition = setup.get(id);
+            let simple = matches!(definition.op, ConstantOp::Parameter(_));
+            if definition.exact.is_none() && !simple && formed.insert(id) {
+                wanted.extend(definition.op.operands());
+            }
+        }
+        let mut known = BTreeMap::new();
+        let mut lines = Vec::new();
+        for id in formed {
+            let name = format_ident!("{}", setup.get(id).name);
+            let (value, _) = self.constant_value(id, &known);
+            lines.push(quote!(let #name = #value;));
+            known.insert(id, name);
+        }
+        (lines, known)
+    }
+
+    fn root_constants(&self) -> Vec<ConstantId> {
+        let outputs = self.root_outputs().iter();
+        let constants = outputs.filter_map(|&id| match *self.op(id) {
+            Op::Constant(constant) => Some(constant),
+            _ => None,
+        });
+        constants.collect()
+    }
+
+    fn root_outputs(&self) -> &[ValueId] {
+        let mut entries = self.program.entries.iter();
+        let entry = entries.find(|entry| entry.purpose == Purpose::RootGravity);
+        entry.map_or(&[], |entry| &entry.outputs)
+    }
+
+    /// Apparent gravity at the root's pivot without a drive.
+    fn root_gravity(&self, known: &BTreeMap<ConstantId, Ident>) -> TokenStream {
+        let components = self.root_outputs().iter().map(|&id| match self.op(id) {
+            Op::Constant(constant) => self.known_value(*constant, known),
+            Op::Number(number) => number_tokens(number),
+            _ => unreachable!("gravity is a constant"),
+        });
+        quote!([#(#components),*])
+    }
+
+    fn known_value(&self, id: ConstantId, known: &BTreeMap<ConstantId, Ident>) -> TokenStream {
+        match known.get(&id) {
+            Some(name) => quote!(#name),
+            None => self.constant_value(id, known).0,
+        }
+    }
+
+    /// The parents, root first.
+    fn parents(&self) -> TokenStream {
+        let count = Literal::usize_unsuffixed(self.scene.links.len());
+        let parents = self.scene.links.iter().map(|link| {
+            let parent = link.parent.map_or(0, |parent| parent.0);
+            Literal::usize_unsuffixed(parent)
+        });
+        quote! {
+            /// The parent of each link, which stands before it; the root has none.
+            static PARENTS: [u32; #count] = [#(#parents),*];
+        }
+    }
+
+    /// A table of constants, and the vector of these in the model's scalar, in
+    /// which values of parameters are put in place.
+    fn table(
+        &self,
+        name: &Ident,
+        purpose: &str,
+        columns: &[String],
+        rows: Vec<&[ConstantId]>,
+        known: &BTreeMap<ConstantId, Ident>,
+    ) -> [TokenStream; 2] {
+        let runtime = self.runtime();
+        let constants = format_ident!("{}", name.to_string().to_uppercase());
+        let row = match self.scene.layout {
+            Layout::Generations { .. } => "generation",
+            _ => "link",
+        };
+        let mut docs = vec![
+            format!(
+                "Constants of {purpose}, a row for each {row}, the root's first; of every number the nearest `f64` and what remains. Columns:"
+            ),
+            String::new(),
+        ];
+        let numbered = columns.iter().enumerate();
+        docs.extend(numbered.map(|(column, meaning)| format!("{}. {meaning}", column + 1)));
+        let docs = doc_lines(&docs);
+        let count = Literal::usize_unsuffixed(rows.len());
+        let width = Literal::usize_unsuffixed(columns.len());
+        let mut placed = Vec::new();
+        let lines = rows.iter().enumerate().map(|(link, row)| {
+            let numbers = row.iter().enumerate().map(|(column, &id)| {
+                let exact = self.program.setup.get(id).exact.as_ref();
+                let [high, low] = exact.map(part_tokens).unwrap_or_else(|| {
+                    let value = self.known_value(id, known);
+                    let link = Literal::usize_unsuffixed(link);
+                    let column = Literal::usize_unsuffixed(column);
+                    placed.push(quote!(#name[#link][#column] = #value;));
+                    [quote!(0.0), quote!(0.0)]
+                });
+                quote!([#high, #low])
+            });
+            quote!([#(#numbers),*])
+        });
+        let lines = quote!(#(#lines),*);
+        let table = quote! {
+            #docs
+            static #constants: [[[f64; 2]; #width]; #count] = [#lines];
+        };
+        let value = quote!(#runtime::tree::rows(&#constants));
+        let value = match placed.is_empty() {
+            true => value,
+            false => quote! {{
+                let mut #name = #value;
+                #(#placed)*
+                #name
+            }},
+        };
+        [table, value]
+    }
+}

@@ -1,0 +1,507 @@
+//! Trees in loops: the equations of one link as an implementation of the runtime's
+//! trait, and the model that holds a tree of them.
+
+use super::Emission;
+use super::doc_text::doc_lines;
+use super::tokens::count;
+use crate::program::{Argument, Entry, LinkFunction, Op, Purpose, Strips};
+use crate::scene::Layout;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+/// The fields of a model in loops that are no constants of its drive.
+const FIELDS: [&str; 2] = ["tree", "bodies"];
+
+impl Emission<'_> {
+    /// The equations and the functions of a model in loops.
+    pub(super) fn in_strips(&self, strips: &Strips) -> TokenStream {
+        let equations = self.link_equations(strips);
+        let functions = self.strip_functions();
+        let pendulum = self.strip_pendulum();
+        let energies = self.scene.requests.energies;
+        let energy = energies.then(|| self.strip_energy());
+        quote! {
+            #equations
+            #functions
+            #pendulum
+            #energy
+        }
+    }
+
+    /// Whether a field of the model in loops has this name.
+    pub(super) fn is_loop_field(&self, name: &str) -> bool {
+        self.scene.in_loops() && FIELDS.contains(&name)
+    }
+
+    fn equations_name(&self) -> Ident {
+        format_ident!("{}Equations", self.item.ident)
+    }
+
+    /// `Tree<…>`, the model's first field.
+    fn tree_type(&self) -> TokenStream {
+        let (runtime, equations) = (self.runtime(), self.equations_name());
+        quote!(#runtime::tree::Tree<#equations, T>)
+    }
+
+    /// The fields of the model.
+    pub(super) fn strip_fields(&self) -> Vec<TokenStream> {
+        let (runtime, tree) = (self.runtime(), self.tree_type());
+        let bodies = self.scene.requests.energies;
+        let bodies = bodies.then(|| quote!(bodies: #runtime::tree::Bodies<T>));
+        let stored = self.stored_constants().into_iter().map(|id| {
+            let field = self.field(id);
+            quote!(#field: T)
+        });
+        let tree = quote!(tree: #tree);
+        let first = std::iter::once(tree).chain(bodies);
+        first.chain(stored).collect()
+    }
+
+    pub(super) fn strip_docs(&self) -> Vec<String> {
+        let energies = match self.scene.requests.energies {
+            true => "",
+            false => " Energies can be asked for with `emit(energies)`.",
+        };
+        let rows = self.scene.links.len();
+        let mut lines = match self.scene.layout {
+            Layout::Generations { branching, links } => vec![
+                format!(
+                    "A planar tree of {links} rigid links in {rows} generations, {branching} under each link but the last ones. Angles are absolute, in radians from the downward vertical; SI units throughout."
+                ),
+                String::new(),
+                "Links stand generation by generation, and in a generation copy by copy: copy c (from 0) under link i of a generation of n links is number c n + i of the next one. `link` finds one by its path.".into(),
+                String::new(),
+                format!(
+                    "The code is loops over generations, O(links), in vectors of siblings, and on all cores where there are many.{energies}"
+                ),
+            ],
+            _ => vec![
+                format!(
+                    "A planar tree of {rows} rigid links. Angles are absolute, in radians from the downward vertical, in the order of `LINK_NAMES`; SI units throughout."
+                ),
+                String::new(),
+                format!(
+                    "The code is a loop over the links, O(links), of the equations that are shown where they stand.{energies}"
+                ),
+            ],
+        };
+        if self.mechanics.drive.is_some() {
+            lines.extend(self.drive_docs());
+            self.show(&self.drive_formulas(), &mut lines);
+        }
+        lines
+    }
+
+    /// The equations of one link: a type without values, and its trait.
+    fn link_equations(&self, strips: &Strips) -> TokenStream {
+        let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
+        let docs = doc_lines(&self.equations_docs());
+        let length = |argument| Literal::usize_unsuffixed(strips.length(argument));
+        let [constants, response, sums, elimination, carried] = [
+            Argument::Constants,
+            Argument::Response,
+            Argument::Sums,
+            Argument::Elimination,
+            Argument::Carried,
+        ]
+        .map(length);
+        let (mut copies, mut names) = (Vec::new(), Vec::new());
+        if let Layout::Generations { branching, .. } = self.scene.layout {
+            for (generation, link) in self.scene.links.iter().enumerate() {
+                let number = if generation == 0 { 1 } else { branching };
+                copies.push(Literal::usize_unsuffixed(number));
+                names.push(&link.name);
+            }
+        }
+        let (joints, torque) = (strips.has_joint_torques, strips.has_drive_torque);
+        let functions = LinkFunction::ALL.map(|function| self.link_function(function));
+        quote! {
+            #docs
+            #[derive(
+                ::core::clone::Clone,
+                ::core::marker::Copy,
+                ::core::fmt::Debug,
+                ::core::cmp::PartialEq,
+            )]
+            #vis struct #name;
+
+            // Of commas: all tokens stand where the attribute does, see `emit`.
+            #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
+            impl #runtime::tree::LinkEquations for #name {
+                type Constants<T: #runtime::Scalar> = [T; #constants];
+                type Response<T: #runtime::Scalar> = [T; #response];
+                type Sums<T: #runtime::Scalar> = [T; #sums];
+                type Elimination<T: #runtime::Scalar> = [T; #elimination];
+                type Carried<T: #runtime::Scalar> = [T; #carried];
+
+                const COPIES: &'static [usize] = &[#(#copies),*];
+                const NAMES: &'static [&'static str] = &[#(#names),*];
+                const JOINTS: bool = #joints;
+                const TORQUE: bool = #torque;
+
+                #(#functions)*
+            }
+        }
+    }
+
+    fn equations_docs(&self) -> Vec<String> {
+        let mut lines = vec![
+            "The equations of one link, by articulated-body recursion in the plane (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7).".to_owned(),
+            String::new(),
+            "Subtrees that hang at (ℓ, w) answer the acceleration **a** of their pivot with the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is the mass of those that are single links, and zero for others. J is the moment of inertia that the joint feels, b the first moment, κ the bias torque, f the force with the joint held; primed are N and γ of the subtree that the link carries, and the acceleration of its children's pivot. The code carries −**a**, the apparent gravity, has all masses over m and all lengths over l of the commonest leaf, and angles of a link by its own length.".to_owned(),
+        ];
+        if let Some(link) = &self.mechanics.link {
+            let formulas = link.formulas(&self.mechanics.symbols);
+            let formulas = formulas.into_iter().map(|line| super::formulas::Formula {
+                left: line.left,
+                left_latex: line.left_latex,
+                right: line.right,
+            });
+            let formulas: Vec<_> = formulas.collect();
+            self.show_rows(&formulas, formulas.len(), &mut lines);
+        }
+        lines
+    }
+
+    fn entry(&self, purpose: Purpose) -> Option<&Entry> {
+        let mut entries = self.program.entries.iter();
+        entries.find(|entry| entry.purpose == purpose)
+    }
+
+    /// A function of the trait, from its entry point.
+    fn link_function(&self, function: LinkFunction) -> TokenStream {
+        let Some(entry) = self.entry(Purpose::Link(function)) else {
+            return TokenStream::new();
+        };
+        let (runtime, docs) = (self.runtime(), self.entry_docs(entry));
+        let body = match self.handed_on(entry) {
+            Some(body) => body,
+            None => self.plain_body(entry),
+        };
+        let name = format_ident!("{}", function.name());
+        let arguments = entry.arguments.iter().enumerate().map(|(place, argument)| {
+            let name = format_ident!("{}", argument.name());
+            let kind = match argument {
+                Argument::Constants => quote!(&Self::Constants<T>),
+                Argument::Motion => quote!(#runtime::tree::LinkMotion<T>),
+                Argument::Response => quote!(Self::Response<T>),
+                Argument::Sums => quote!(Self::Sums<T>),
+                Argument::Elimination => quote!(Self::Elimination<T>),
+                Argument::Carried => quote!(Self::Carried<T>),
+                _ => quote!([T; 2]),
+            };
+            debug_assert!(place > 0 || *argument == Argument::Constants);
+            quote!(#name: #kind)
+        });
+        let result = match function {
+            LinkFunction::Leaf => quote!(Self::Response<T>),
+            LinkFunction::Attach => quote!(Self::Sums<T>),
+            LinkFunction::Inner => quote!((Self::Response<T>, Self::Elimination<T>)),
+            LinkFunction::Pivot => quote!([T; 2]),
+            LinkFunction::Accelerate => quote!((T, Self::Carried<T>)),
+            LinkFunction::AccelerateLeaf => quote!(T),
+        };
+        quote! {
+            #docs
+            #[inline(always)]
+            fn #name<T: #runtime::Scalar>(#(#arguments),*) -> #result {
+                #body
+            }
+        }
+    }
+
+    /// The body of a function that returns its last argument as it is.
+    fn handed_on(&self, entry: &Entry) -> Option<TokenStream> {
+        let (&last, others) = entry.arguments.split_last()?;
+        let mut outputs = (0..).zip(&entry.outputs);
+        let same = outputs.all(|(index, &id)| *self.op(id) == Op::Input(last, index));
+        let names = others
+            .iter()
+            .map(|argument| format_ident!("{}", argument.name()));
+        let last = format_ident!("{}", last.name());
+        same.then(|| quote!(#(let _ = #names;)* #last))
+    }
+
+    /// The energies, which bodies compute.
+    fn strip_energies(&self) -> TokenStream {
+        if !self.scene.requests.energies {
+            return TokenStream::new();
+        }
+        let frame = match self.frame_note() {
+            "" => None,
+            note => Some(quote!(#[doc = #note])),
+        };
+        quote! {
+            /// Kinetic energy K (in J) at angles `theta` (in rad) and angular velocities
+            /// `omega` (in rad/s): Σ ½ m **V**² + ½ I ω² over the links, **V** being the
+            /// velocities of their centres of mass. NaN for slices of another length than
+            /// there are links. O(links).
+            #frame
+            #[must_use]
+            pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
+                self.bodies.kinetic_energy(theta, omega)
+            }
+
+            /// Potential energy U (in J) at angles `theta` (in rad), zero where all are
+            /// zero: Σ m g h + ½ κ (θ − θ_parent)² over the links, h being the height of
+            /// their centres of mass, κ the stiffness of torsion springs. NaN for a slice
+            /// of another length than there are links. O(links).
+            #[must_use]
+            pub fn potential_energy(&self, theta: &[T]) -> T {
+                self.bodies.potential_energy(theta)
+            }
+        }
+    }
+
+    fn strip_functions(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let own = match self.scene.layout {
+            Layout::Generations { .. } => self.generation_functions(),
+            _ => self.array_function(),
+        };
+        let (energies, drive) = (self.strip_energies(), self.strip_drive());
+        // Of commas: all tokens stand where the attribute does, see `emit`.
+        let allow = self.mechanics.drive.is_some();
+        let allow = allow.then(|| quote!(#[allow(clippy::possible_missing_comma)]));
+        quote! {
+            #allow
+            impl<T: #runtime::Scalar> #name<T> {
+                #own
+
+                #energies
+                #drive
+            }
+        }
+    }
+
+    fn generation_functions(&self) -> TokenStream {
+        let tree = self.tree_type();
+        quote! {
+            /// Index of the link at the end of a path from the root: of each
+            /// generation the copy, counted from 0. The root's path is empty. `None`
+            /// where there is no such link.
+            #[must_use]
+            pub fn link(path: &[usize]) -> ::core::option::Option<usize> {
+                <#tree>::link(path)
+            }
+
+            /// Sets how many threads compute where the tree is large enough for
+            /// several. Results do not depend on it.
+            pub fn set_threads(&mut self, threads: ::core::num::NonZeroUsize) {
+                self.tree.set_threads(threads);
+            }
+        }
+    }
+
+    /// `accelerations` on arrays.
+    fn array_function(&self) -> TokenStream {
+        let links = self.links();
+        let driven = self.mechanics.drive.is_some();
+        let time = driven.then(|| quote!(time: T,));
+        let drive = self.drive_at_time();
+        let docs = doc_lines(&[format!(
+            "Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s), in fused arithmetic where the machine has it. O(links).",
+            self.at_time()
+        )]);
+        quote! {
+            #docs
+            #[must_use]
+            pub fn accelerations(
+                &self,
+                #time
+                theta: &[T; #links],
+                omega: &[T; #links],
+            ) -> [T; #links] {
+                let mut alpha = [T::from_f64(0.0); #links];
+                self.tree.accelerations_into(#drive, theta, omega, &mut alpha);
+                alpha
+            }
+        }
+    }
+
+    /// The drive as the tree takes it.
+    fn drive_at_time(&self) -> TokenStream {
+        match self.mechanics.drive {
+            Some(_) => quote!(::core::option::Option::Some(self.root_drive(time))),
+            None => quote!(::core::option::Option::None),
+        }
+    }
+
+    /// The drive as functions of time, and where energies are asked for its power and
+    /// that of friction.
+    fn strip_drive(&self) -> TokenStream {
+        let entries = [Purpose::Drive, Purpose::RootDrive].map(|purpose| self.entry(purpose));
+        let [Some(entry), Some(root)] = entries else {
+            return TokenStream::new();
+        };
+        let (runtime, drive, root_body) =
+            (self.runtime(), self.function(entry), self.plain_body(root));
+        let root_docs = self.entry_docs(root);
+        let drive = quote! {
+            #drive
+
+            #root_docs
+            #[inline(always)]
+            fn root_drive(&self, time: T) -> #runtime::tree::RootDrive<T> {
+                let [gravity_x, gravity_y, torque] = { #root_body };
+                #runtime::tree::RootDrive {
+                    pivot: [gravity_x, gravity_y],
+                    torque,
+                }
+            }
+        };
+        if !self.scene.requests.energies {
+            return drive;
+        }
+        let power = doc_lines(&[
+            "Power (in W) of the drive on the whole tree at `time` (in s), angles `theta` (in rad) and angular velocities `omega` (in rad/s): dE/dt of E = K + U without friction. NaN for slices of another length than there are links. O(links).".to_owned(),
+            String::new(),
+            "```text".to_owned(),
+            "P = τ ω_root − a_x Σ m V_x − a_y Σ m V_y".to_owned(),
+            "```".to_owned(),
+            String::new(),
+            "with the velocities **V** of the centres of mass in the frame that moves with the pivot.".to_owned(),
+        ]);
+        let mut links = self.scene.links.iter();
+        let braked = links.any(|link| link.friction.is_some() || link.drag.is_some());
+        let friction = braked.then(|| {
+            let docs = doc_lines(&[
+                "Power −Σ c (ω − ω_parent)² + k ω² (in W) of friction c and drag k on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`. NaN for a slice of another length than there are links. O(links).".to_owned(),
+            ]);
+            quote! {
+                #docs
+                #[must_use]
+                pub fn friction_power(&self, omega: &[T]) -> T {
+                    self.bodies.friction_power(omega)
+                }
+            }
+        });
+        quote! {
+            #drive
+
+            #power
+            #[must_use]
+            pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
+                self.bodies.drive_power(self.drive(time), theta, omega)
+            }
+
+            #friction
+        }
+    }
+
+    fn strip_pendulum(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let (time, drive) = (self.time_name(), self.drive_at_time());
+        let (links, names, by_path) = match self.scene.layout {
+            Layout::Generations { links, .. } => {
+                let tree = self.tree_type();
+                let by_path = quote! {
+                    fn link_name(
+                        index: usize,
+                    ) -> ::core::option::Option<#runtime::tree::LinkName> {
+                        <#tree>::link_name(index)
+                    }
+                };
+                (links, Vec::new(), Some(by_path))
+            }
+            _ => {
+                let names = self.scene.links.iter().map(|link| &link.name);
+                (self.scene.links.len(), names.collect(), None)
+            }
+        };
+        let links = count(links);
+        let fields = self.cast_fields();
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
+                const LINKS: usize = #links;
+                const LINK_NAMES: &'static [&'static str] = &[#(#names),*];
+
+                #by_path
+
+                fn accelerations_into(
+                    &self,
+                    #time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    alpha: &mut [T],
+                ) {
+                    self.tree.accelerations_into(#drive, theta, omega, alpha);
+                }
+
+                fn accelerations_with(
+                    &self,
+                    workspace: &mut #runtime::system::Workspace<T>,
+                    #time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    alpha: &mut [T],
+                ) {
+                    self.tree.accelerations_with(workspace, #drive, theta, omega, alpha);
+                }
+            }
+
+            impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
+                type Of<S: #runtime::Scalar> = #name<S>;
+
+                fn cast<S: #runtime::Scalar>(
+                    &self,
+                    convert: impl ::core::ops::Fn(T) -> S,
+                ) -> #name<S> {
+                    #name { #(#fields),* }
+                }
+
+                #[inline(always)]
+                fn evaluate(
+                    &self,
+                    #time: T,
+                    theta: impl ::core::ops::Fn(usize) -> T,
+                    omega: impl ::core::ops::Fn(usize) -> T,
+                    alpha: impl ::core::ops::FnMut(usize, T),
+                ) {
+                    self.tree.evaluate(#drive, theta, omega, alpha);
+                }
+
+                fn room(&self) -> usize {
+                    self.tree.room()
+                }
+
+                #[inline(always)]
+                fn in_registers<R: #runtime::scalar::Register<Lane = T>>(
+                    &self,
+                    #time: T,
+                    room: &mut [T],
+                ) -> impl #runtime::system::InRegisters<R> {
+                    self.tree.in_registers(#drive, room)
+                }
+            }
+        }
+    }
+
+    /// The fields on another scalar.
+    fn cast_fields(&self) -> Vec<TokenStream> {
+        let stored = self.stored_constants().into_iter();
+        let stored = stored.map(|id| {
+            let field = self.field(id);
+            quote!(#field: convert(self.#field))
+        });
+        let bodies = self.scene.requests.energies;
+        let bodies = bodies.then(|| quote!(bodies: self.bodies.cast(&convert)));
+        let tree = quote!(tree: self.tree.cast(&convert));
+        std::iter::once(tree).chain(bodies).chain(stored).collect()
+    }
+
+    fn strip_energy(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
+                fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
+                    self.bodies.kinetic_energy(theta, omega)
+                }
+
+                fn potential_energy_of(&self, theta: &[T]) -> T {
+                    self.bodies.potential_energy(theta)
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,436 @@
+//! The equations of one link as entry points of their own, for trees in loops.
+
+use super::deficit::{Deficit, Rest};
+use super::equations::{Attached, Elimination, Link, Response};
+use super::strips::{Column, Strips, Table};
+use crate::mechanics::{Drive, Mechanics};
+use crate::program::entries::EntryList;
+use crate::program::lower::Door;
+use crate::program::pair::Pair;
+use crate::program::{Argument, LinkFunction, Op, Purpose, Shape, ValueId};
+use crate::scene::Scene;
+
+/// The links whose constants an entry point reads.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Leaf,
+    Inner,
+    /// A child, while the motion is its parent's.
+    Child,
+}
+
+impl EntryList<'_, '_> {
+    /// The entry points of a tree in loops, and its constants.
+    pub(in crate::program) fn link_functions(
+        &mut self,
+        scene: &Scene,
+        mechanics: &Mechanics,
+    ) -> Strips {
+        let Some(balance) = &mechanics.link else {
+            unreachable!("trees in loops come with the balance of a link");
+        };
+        let table = self.lowering.strip_table(scene, balance);
+        let joints = scene
+            .links
+            .iter()
+            .any(|link| link.friction.is_some() || link.spring.is_some());
+        let functions = Functions {
+            table: &table,
+            joints,
+            drive_torque: mechanics
+                .drive
+                .as_ref()
+                .is_some_and(|drive| drive.torque.is_some()),
+        };
+        let torques = usize::from(joints);
+        let (response, sums) = match table.has_several_places {
+            true => (5 + torques, 9 + torques),
+            false => (5 + torques, 5 + torques),
+        };
+        let constants = [Argument::Constants, Argument::Motion];
+        let with = |argument: Argument| [constants[0], constants[1], argument];
+
+        let leaf = functions.leaf(self);
+        self.push_link(LinkFunction::Leaf, &constants, leaf, Shape::Vector);
+        let attach = functions.attach(self);
+        debug_assert_eq!(attach.len(), sums);
+        self.push_link(
+            LinkFunction::Attach,
+            &with(Argument::Response),
+            attach,
+            Shape::Vector,
+        );
+        let inner = functions.inner(self);
+        self.push_link(
+            LinkFunction::Inner,
+            &with(Argument::Sums),
+            inner,
+            Shape::Split(response),
+        );
+        let pivot = functions.pivot(self);
+        self.push_link(
+            LinkFunction::Pivot,
+            &with(Argument::Carried),
+            pivot,
+            Shape::Vector,
+        );
+        let accelerate = functions.accelerate(self);
+        let arguments = [
+            Argument::Constants,
+            Argument::Motion,
+            Argument::Elimination,
+            Argument::Pivot,
+        ];
+        self.push_link(
+            LinkFunction::Accelerate,
+            &arguments,
+            accelerate,
+            Shape::Split(1),
+        );
+        let accelerate = functions.accelerate_leaf(self);
+        let arguments = with(Argument::Pivot);
+        self.push_link(
+            LinkFunction::AccelerateLeaf,
+            &arguments,
+            vec![accelerate],
+            Shape::Scalar,
+        );
+        self.root(mechanics, &table);
+        if let Some(drive) = &mechanics.drive {
+            self.drive(mechanics, drive);
+        }
+        let columns = self.columns_read(functions.drive_torque);
+        self.lowering.strips(scene, &table, columns)
+    }
+
+    fn push_link(
+        &mut self,
+        function: LinkFunction,
+        arguments: &[Argument],
+        outputs: Vec<ValueId>,
+        shape: Shape,
+    ) {
+        self.push(
+            function.name(),
+            Purpose::Link(function),
+            arguments,
+            outputs,
+            shape,
+        );
+    }
+
+    /// Apparent gravity at the root's pivot and, where there is a drive, the torque on
+    /// the root, in reduced units.
+    fn root(&mut self, mechanics: &Mechanics, table: &Table) {
+        let units = &table.units;
+        let mut door = Door::new(&mechanics.absolute, Argument::Theta, None, None);
+        let drive: Option<&Drive> = mechanics.drive.as_ref();
+        let builder = &mut self.lowering.builder;
+        let zero = builder.integer(0);
+        let mut outputs = vec![zero, table.root_gravity];
+        self.push(
+            "root_gravity",
+            Purpose::RootGravity,
+            &[],
+            outputs.clone(),
+            Shape::Vector,
+        );
+        let Some(drive) = drive else { return };
+        outputs = vec![zero; 3];
+        for motion in &drive.pivot {
+            if let Some(symbol) = motion.acceleration {
+                let acceleration = self.lowering.temporal(&mut door, symbol);
+                let builder = &mut self.lowering.builder;
+                let reduced = builder.mul(units.per_length, acceleration);
+                outputs[usize::from(motion.name == "y")] = builder.neg(reduced);
+            }
+        }
+        if let Some(torque) = drive.torque {
+            let torque = self.lowering.temporal(&mut door, torque);
+            outputs[2] = self.lowering.builder.mul(table.per_torque, torque);
+        }
+        self.push(
+            "root_drive",
+            Purpose::RootDrive,
+            &[Argument::Time],
+            outputs,
+            Shape::Vector,
+        );
+    }
+
+    /// The columns that the functions read; these are numbered anew.
+    fn columns_read(&mut self, drive_torque: bool) -> Vec<Column> {
+        let outputs = self.entries.iter().flat_map(|entry| &entry.outputs);
+        let outputs: Vec<ValueId> = outputs.copied().collect();
+        let builder = &mut self.lowering.builder;
+        let needed = builder.needed(&outputs);
+        let is_read = |column: &Column| {
+            let wanted = Op::Input(Argument::Constants, *column as usize);
+            let last = drive_torque && *column == Column::DriveTorque;
+            last || needed.iter().any(|&id| *builder.op(id) == wanted)
+        };
+        let columns: Vec<Column> = Column::ALL.into_iter().filter(is_read).collect();
+        for definition in &mut builder.definitions {
+            if let Op::Input(Argument::Constants, index) = &mut definition.op {
+                let place = columns.iter().position(|&column| column as usize == *index);
+                *index = place.unwrap_or(usize::MAX);
+            }
+        }
+        columns
+    }
+}
+
+/// The functions of one link.
+struct Functions<'t> {
+    table: &'t Table,
+    joints: bool,
+    drive_torque: bool,
+}
+
+impl Functions<'_> {
+    /// A column: the number that all rows have, or an element of the row.
+    fn column(&self, list: &mut EntryList<'_, '_>, kind: Kind, column: Column) -> ValueId {
+        let builder = &mut list.lowering.builder;
+        let common = match (kind, column) {
+            (Kind::Inner, Column::DriveTorque) if self.drive_torque => None,
+            (Kind::Child, _) => self.table.common_of_children(builder, column),
+            _ => self.table.common(builder, kind == Kind::Leaf, column),
+        };
+        match common {
+            Some(number) => builder.number(number),
+            None => builder.input(Argument::Constants, column as usize),
+        }
+    }
+
+    fn motion(&self, list: &mut EntryList<'_, '_>, element: Motion) -> ValueId {
+        list.lowering
+            .builder
+            .input(Argument::Motion, element as usize)
+    }
+
+    /// The link; `torque` acts on it from its children's joints.
+    fn link(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        kind: Kind,
+        torque: Option<ValueId>,
+    ) -> (Link, ValueId) {
+        let direction = [Motion::Cosine, Motion::Sine].map(|part| self.motion(list, part));
+        let omega = self.motion(list, Motion::Omega);
+        let own = match kind {
+            Kind::Child => Kind::Inner,
+            kind => kind,
+        };
+        let mut at = |column| self.column(list, own, column);
+        let moment = [at(Column::Moment), at(Column::LateralMoment)];
+        let (inertia, mass) = (at(Column::Inertia), at(Column::Mass));
+        let (length, inverse_length) = (at(Column::Length), at(Column::InverseLength));
+        let drag = at(Column::Drag);
+        let driven = at(Column::DriveTorque);
+        let joint = self.joint_torque(list, own);
+        let builder = &mut list.lowering.builder;
+        // −c (ω − ω_π) − κ (θ − θ_π) − k ω + τ and the torques of the children's joints.
+        let dragged = builder.mul(drag, omega);
+        let resisting = builder.add(joint, dragged);
+        let below = torque.unwrap_or_else(|| builder.integer(0));
+        let pushed = builder.add(below, driven);
+        let torque = builder.sub(pushed, resisting);
+        let torque = builder.mul(inverse_length, torque);
+        let link = Link {
+            moment,
+            inertia,
+            mass,
+            length,
+            inverse_length,
+            direction,
+            omega,
+            torque,
+            suffix: String::new(),
+        };
+        (link, joint)
+    }
+
+    /// The torque of the joint on the parent, c (ω − ω_π) + κ (θ − θ_π).
+    fn joint_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
+        let friction = self.column(list, kind, Column::Friction);
+        let spring = self.column(list, kind, Column::Spring);
+        let rate = self.motion(list, Motion::JointRate);
+        let angle = self.motion(list, Motion::JointAngle);
+        let builder = &mut list.lowering.builder;
+        let (slowed, bent) = (builder.mul(friction, rate), builder.mul(spring, angle));
+        let torque = builder.add(slowed, bent);
+        builder.name(torque, "joint_torque")
+    }
+
+    /// A response in an argument, and the torque of joints behind it.
+    fn given(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        argument: Argument,
+    ) -> (Response, Option<ValueId>) {
+        let builder = &mut list.lowering.builder;
+        let mut at = |index| builder.input(argument, index);
+        let response = Response {
+            deficit: Deficit {
+                xx: at(0),
+                xy: at(1),
+                rest: Rest::Yy(at(2)),
+            },
+            bias_force: [at(3), at(4)],
+        };
+        (response, self.joints.then(|| at(5)))
+    }
+
+    fn outputs(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        response: &Response,
+        torque: Option<ValueId>,
+    ) -> Vec<ValueId> {
+        let Response {
+            deficit,
+            bias_force: [x, y],
+        } = *response;
+        let yy = deficit.yy(&mut list.lowering.builder);
+        let all = [deficit.xx, deficit.xy, yy, x, y];
+        all.into_iter().chain(torque).collect()
+    }
+
+    /// Where the children hang; with several places, where this child does.
+    fn place(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> Pair {
+        [Column::Along, Column::Across].map(|column| self.column(list, kind, column))
+    }
+
+    /// ĥ/M and 1/M of a leaf.
+    fn leaf_constants(&self, list: &mut EntryList<'_, '_>) -> (Pair, ValueId) {
+        let gain = [Column::GainAlong, Column::GainAcross];
+        let gain = gain.map(|column| self.column(list, Kind::Leaf, column));
+        (gain, self.column(list, Kind::Leaf, Column::InverseInertia))
+    }
+
+    fn leaf(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+        let (link, joint) = self.link(list, Kind::Leaf, None);
+        let (gain, inverse) = self.leaf_constants(list);
+        let (response, _) = link.leaf(&mut list.lowering.builder, gain, inverse);
+        self.outputs(list, &response, self.joints.then_some(joint))
+    }
+
+    fn attach(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+        let (response, torque) = self.given(list, Argument::Response);
+        if !self.table.has_several_places {
+            return self.outputs(list, &response, torque);
+        }
+        let (link, _) = self.link(list, Kind::Child, None);
+        let place = self.place(list, Kind::Child);
+        let builder = &mut list.lowering.builder;
+        let attached = link.attach(builder, place, &response, None, true);
+        let Attached {
+            deficit,
+            first_moment,
+            inertia,
+            force: [x, y],
+            torque: turning,
+        } = attached;
+        // What a link's own moment and inertia lose.
+        let [moment_x, moment_y] = first_moment.map(|component| builder.neg(component));
+        let inertia = builder.neg(inertia);
+        let yy = deficit.yy(builder);
+        let all = [
+            deficit.xx, deficit.xy, yy, moment_x, moment_y, inertia, x, y, turning,
+        ];
+        all.into_iter().chain(torque).collect()
+    }
+
+    fn inner(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+        let (whole, link, joint) = if self.table.has_several_places {
+            let builder = &mut list.lowering.builder;
+            let mut at = |index| builder.input(Argument::Sums, index);
+            let deficit = Deficit {
+                xx: at(0),
+                xy: at(1),
+                rest: Rest::Yy(at(2)),
+            };
+            let (moment, inertia, force, torque) = ([at(3), at(4)], at(5), [at(6), at(7)], at(8));
+            let below = self.joints.then(|| at(9));
+            let (link, joint) = self.link(list, Kind::Inner, below);
+            let builder = &mut list.lowering.builder;
+            let alone = link.alone(builder);
+            let attached = Attached {
+                deficit,
+                first_moment: moment.map(|component| builder.neg(component)),
+                inertia: builder.neg(inertia),
+                force,
+                torque,
+            };
+            (alone.add(builder, &attached), link, joint)
+        } else {
+            let (response, below) = self.given(list, Argument::Sums);
+            let (link, joint) = self.link(list, Kind::Inner, below);
+            let place = self.place(list, Kind::Inner);
+            let builder = &mut list.lowering.builder;
+            let whole = link.attach(builder, place, &response, Some(link.body()), true);
+            (whole, link, joint)
+        };
+        let (response, elimination) = link.eliminate(&mut list.lowering.builder, &whole);
+        let mut outputs = self.outputs(list, &response, self.joints.then_some(joint));
+        let Elimination {
+            gain: [x, y],
+            offset,
+        } = elimination;
+        outputs.extend([x, y, offset]);
+        outputs
+    }
+
+    fn pivot(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+        let place = self.place(list, Kind::Child);
+        let builder = &mut list.lowering.builder;
+        let mut at = |index| builder.input(Argument::Carried, index);
+        let gravity = [at(0), at(1)];
+        if !self.table.has_several_places {
+            return gravity.to_vec();
+        }
+        let end = [at(2), at(3)];
+        let moved = builder.turn(place, end);
+        builder.sub_pairs(gravity, moved).to_vec()
+    }
+
+    fn accelerate(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+        let (link, _) = self.link(list, Kind::Inner, None);
+        let builder = &mut list.lowering.builder;
+        let mut at = |argument, index| builder.input(argument, index);
+        let elimination = Elimination {
+            gain: [at(Argument::Elimination, 0), at(Argument::Elimination, 1)],
+            offset: at(Argument::Elimination, 2),
+        };
+        let gravity = [at(Argument::Pivot, 0), at(Argument::Pivot, 1)];
+        let [tangential, alpha] = link.accelerate(builder, &elimination, gravity);
+        if self.table.has_several_places {
+            let end = link.end_acceleration(builder, tangential);
+            return [alpha].into_iter().chain(gravity).chain(end).collect();
+        }
+        let place = self.place(list, Kind::Inner);
+        let builder = &mut list.lowering.builder;
+        let below = link.gravity_at(builder, place, gravity, tangential);
+        [alpha].into_iter().chain(below).collect()
+    }
+
+    fn accelerate_leaf(&self, list: &mut EntryList<'_, '_>) -> ValueId {
+        let (link, _) = self.link(list, Kind::Leaf, None);
+        let (gain, inverse) = self.leaf_constants(list);
+        let builder = &mut list.lowering.builder;
+        let (_, elimination) = link.leaf(builder, gain, inverse);
+        let gravity = [0, 1].map(|index| builder.input(Argument::Pivot, index));
+        let [_, alpha] = link.accelerate(builder, &elimination, gravity);
+        alpha
+    }
+}
+
+/// Elements of [`Argument::Motion`].
+#[derive(Clone, Copy)]
+enum Motion {
+    Sine,
+    Cosine,
+    Omega,
+    JointAngle,
+    JointRate,
+}

@@ -1,0 +1,174 @@
+//! Units in which the recursion has fewest constants to multiply with: each
+//! link measures its turning by the acceleration of the pivot that it carries,
+//! and mass and length are those of the commonest leaf.
+
+use crate::program::ValueId;
+use crate::program::builder::Builder;
+use crate::program::lower::{Door, Lowering};
+use crate::program::pair::Pair;
+use crate::scene::{LinkId, Scene};
+
+/// Constants of the links of one orbit, with L the link's own unit of length
+/// and m, l the tree's units of mass and length.
+pub(super) struct Unit {
+    /// (h + i e)/(L m).
+    pub(super) moment: Pair,
+    /// M/(L² m).
+    pub(super) inertia: ValueId,
+    /// L/l.
+    pub(super) length: ValueId,
+    /// l/L.
+    pub(super) inverse_length: ValueId,
+    /// 1/(L m l).
+    pub(super) per_torque: ValueId,
+    /// (ℓ + i w)/L of the parent.
+    pub(super) place: Pair,
+    /// Friction, drag and stiffness of the spring as they are.
+    pub(super) forces: [ValueId; 3],
+}
+
+/// All constants of the recursion.
+pub(super) struct Units {
+    /// By orbit.
+    pub(super) links: Vec<Unit>,
+    /// m, l.
+    pub(super) tree: [ValueId; 2],
+    /// 1/l.
+    pub(super) per_length: ValueId,
+    /// g/l.
+    pub(super) gravity: ValueId,
+}
+
+/// Constants of one orbit in SI units.
+pub(super) struct Given {
+    pub(super) inertia: ValueId,
+    pub(super) moment: Pair,
+    pub(super) pivot: Pair,
+    /// Friction, drag and stiffness of the spring.
+    pub(super) forces: [ValueId; 3],
+}
+
+impl Lowering<'_> {
+    /// Those of a tree that is written out.
+    pub(super) fn units(&mut self, scene: &Scene, door: &mut Door<'_>) -> Units {
+        let mechanics = self.mechanics;
+        let mut given = Vec::new();
+        for joint in &mechanics.articulation.joints {
+            let mut at = |expr| self.expr(door, expr);
+            given.push(Given {
+                inertia: at(&joint.inertia),
+                moment: [at(&joint.moment[0]), at(&joint.moment[1])],
+                pivot: [at(&joint.pivot[0]), at(&joint.pivot[1])],
+                forces: [at(&joint.friction), at(&joint.drag), at(&joint.spring)],
+            });
+        }
+        let gravity = self.expr(door, &mechanics.articulation.gravity);
+        Units::of(&mut self.builder, scene, &given, gravity, true)
+    }
+}
+
+impl Units {
+    /// Of constants by orbit. `own` says whether a link with children has a unit of
+    /// length of its own, or that of the tree.
+    pub(super) fn of(
+        builder: &mut Builder,
+        scene: &Scene,
+        given: &[Given],
+        gravity: ValueId,
+        own: bool,
+    ) -> Self {
+        let children = super::children(scene);
+        let one = builder.integer(1);
+        let leaf = commonest_leaf(builder, scene, &children, given);
+        let (mass, tree_length) = leaf.unwrap_or((one, one));
+        let lengths: Vec<ValueId> = (0..given.len())
+            .map(|orbit| {
+                let below = &children[scene.orbits[orbit].links[0].0];
+                let length = match below.is_empty() {
+                    true => oscillation(builder, scene, &given[orbit]),
+                    false if own => commonest_pivot(builder, scene, given, below),
+                    false => None,
+                };
+                length.unwrap_or(tree_length)
+            })
+            .collect();
+        let orbits = scene.orbits.iter().zip(given).enumerate();
+        let links = orbits.map(|(number, (orbit, given))| {
+            let own = lengths[number];
+            let parent = scene.links[orbit.links[0].0].parent;
+            let carrier = parent.map_or(one, |LinkId(link)| lengths[scene.links[link].orbit.0]);
+            let first = builder.mul(own, mass);
+            let second = builder.mul(own, first);
+            let torque = builder.mul(first, tree_length);
+            let mut called = |value: ValueId, by: ValueId, what: &str| {
+                let value = builder.div(value, by);
+                builder.called(value, &format!("{what}_{}", orbit.name))
+            };
+            Unit {
+                moment: [
+                    called(given.moment[0], first, "reduced_moment"),
+                    called(given.moment[1], first, "reduced_lateral_moment"),
+                ],
+                inertia: called(given.inertia, second, "reduced_inertia"),
+                length: called(own, tree_length, "reduced_length"),
+                inverse_length: called(tree_length, own, "inverse_reduced_length"),
+                per_torque: builder.div(one, torque),
+                place: given.pivot.map(|component| builder.div(component, carrier)),
+                forces: given.forces,
+            }
+        });
+        let links = links.collect();
+        let gravity = builder.div(gravity, tree_length);
+        Self {
+            links,
+            tree: [mass, tree_length],
+            per_length: builder.div(one, tree_length),
+            gravity: builder.called(gravity, "reduced_gravity"),
+        }
+    }
+}
+
+/// The pivot that most of a link's children hang from, if it lies on the link.
+fn commonest_pivot(
+    builder: &mut Builder,
+    scene: &Scene,
+    given: &[Given],
+    children: &[usize],
+) -> Option<ValueId> {
+    let mut pivots: Vec<(Pair, usize)> = Vec::new();
+    for &child in children {
+        let pivot = given[scene.links[child].orbit.0].pivot;
+        match pivots.iter_mut().find(|(known, _)| *known == pivot) {
+            Some((_, count)) => *count += 1,
+            None => pivots.push((pivot, 1)),
+        }
+    }
+    let usable = pivots
+        .into_iter()
+        .filter(|(pivot, _)| builder.is(pivot[1], 0) && builder.is_never_zero(pivot[0], scene));
+    let commonest = usable.max_by_key(|(_, count)| *count);
+    commonest.map(|(pivot, _)| pivot[0])
+}
+
+/// The centre of oscillation, M/h.
+fn oscillation(builder: &mut Builder, scene: &Scene, given: &Given) -> Option<ValueId> {
+    let divides = builder.is_never_zero(given.moment[0], scene);
+    divides.then(|| builder.div(given.inertia, given.moment[0]))
+}
+
+/// h²/M and M/h of the leaves that are most.
+fn commonest_leaf(
+    builder: &mut Builder,
+    scene: &Scene,
+    children: &[Vec<usize>],
+    given: &[Given],
+) -> Option<(ValueId, ValueId)> {
+    let leaves = scene.orbits.iter().enumerate().filter(|(number, orbit)| {
+        children[orbit.links[0].0].is_empty()
+            && builder.is_never_zero(given[*number].moment[0], scene)
+    });
+    let (number, _) = leaves.max_by_key(|(_, orbit)| orbit.links.len())?;
+    let [moment, _] = given[number].moment;
+    let length = oscillation(builder, scene, &given[number])?;
+    Some((builder.div(moment, length), length))
+}

@@ -1,0 +1,571 @@
+//! Constants of trees in loops, by strip: a generation, or a link of a tree that is no
+//! rule.
+
+use super::reduced_units::{Given, Unit, Units};
+use crate::exact::Rational;
+use crate::mechanics::expression::{Expr, SymbolId};
+use crate::mechanics::{LinkBalance, Mechanics};
+use crate::program::builder::Builder;
+use crate::program::lower::Lowering;
+use crate::program::{Argument, ConstantId, Setup, ValueId};
+use crate::scene::{Layout, LinkId, Offset, Quantity, Scene};
+
+/// A constant in the equations of one link, in reduced units: m and l are those of the
+/// commonest leaf for the whole tree, L is the link's own unit of length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Column {
+    /// M/(L² m).
+    Inertia,
+    /// h/(L m).
+    Moment,
+    /// The lateral part of the first moment over L m.
+    LateralMoment,
+    /// The mass over m that parents do not count.
+    Mass,
+    /// L/l.
+    Length,
+    /// l/L.
+    InverseLength,
+    /// h L/M of a leaf.
+    GainAlong,
+    /// The same of the lateral part of the moment.
+    GainAcross,
+    /// L² m/M of a leaf.
+    InverseInertia,
+    /// Place of the children's pivot along the link over L; where children hang at
+    /// several places, of the link on its parent.
+    Along,
+    /// The same across the link.
+    Across,
+    /// Friction in the pivot over m l².
+    Friction,
+    /// Drag against the ground over m l².
+    Drag,
+    /// Stiffness of the torsion spring over m l².
+    Spring,
+    /// Torque on the root over m l², stated by each evaluation; zero in the rows.
+    DriveTorque,
+}
+
+impl Column {
+    /// All columns, in their order.
+    pub const ALL: [Self; 15] = [
+        Self::Inertia,
+        Self::Moment,
+        Self::LateralMoment,
+        Self::Mass,
+        Self::Length,
+        Self::InverseLength,
+        Self::GainAlong,
+        Self::GainAcross,
+        Self::InverseInertia,
+        Self::Along,
+        Self::Across,
+        Self::Friction,
+        Self::Drag,
+        Self::Spring,
+        Self::DriveTorque,
+    ];
+
+    /// Its name in code.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Inertia => "inertia",
+            Self::Moment => "moment",
+            Self::LateralMoment => "lateral_moment",
+            Self::Mass => "mass",
+            Self::Length => "length",
+            Self::InverseLength => "inverse_length",
+            Self::GainAlong => "gain_along",
+            Self::GainAcross => "gain_across",
+            Self::InverseInertia => "inverse_inertia",
+            Self::Along => "along",
+            Self::Across => "across",
+            Self::Friction => "friction",
+            Self::Drag => "drag",
+            Self::Spring => "spring",
+            Self::DriveTorque => "drive_torque",
+        }
+    }
+
+    /// Its meaning, with m and l as the tree's units, L as the link's own of length.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Inertia => "M/(L² m), moment of inertia about the pivot",
+            Self::Moment => "h/(L m), first moment of mass about the pivot",
+            Self::LateralMoment => "first moment across the link over L m",
+            Self::Mass => "mass over m that is not in the constants of the parent",
+            Self::Length => "L/l",
+            Self::InverseLength => "l/L",
+            Self::GainAlong => "h L/M of a leaf",
+            Self::GainAcross => "first moment of a leaf across the link, times L/M",
+            Self::InverseInertia => "L² m/M of a leaf",
+            Self::Along => "place of the attachment along the link, over L",
+            Self::Across => "place of the attachment across the link, over L",
+            Self::Friction => "friction in the pivot over m l²",
+            Self::Drag => "drag against the ground over m l²",
+            Self::Spring => "stiffness of the torsion spring over m l²",
+            Self::DriveTorque => "torque on the root over m l², stated anew by every evaluation",
+        }
+    }
+}
+
+/// Neighbours that share their constants.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Strip {
+    /// Name of the generation or link.
+    pub name: String,
+    /// Whether nothing hangs from its links.
+    pub is_leaf: bool,
+    /// A constant for each of the columns that the equations read.
+    pub constants: Vec<ConstantId>,
+    /// Its links as bodies, in SI units, where energies are asked for: half of the
+    /// mass; first moments along and across; half of the moment of inertia about the
+    /// pivot; place on the parent, along and across; weight, and weight times the two
+    /// components of the centre of mass; half of the spring's stiffness, friction, drag.
+    pub body: Option<[ConstantId; 12]>,
+}
+
+/// A tree in loops.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Strips {
+    /// The constants that the equations read, by strip.
+    pub columns: Vec<Column>,
+    /// From the root outwards.
+    pub strips: Vec<Strip>,
+    /// Whether children of one link hang at several places.
+    pub has_several_places: bool,
+    /// Whether joints have torques.
+    pub has_joint_torques: bool,
+    /// Whether a torque acts on the root.
+    pub has_drive_torque: bool,
+}
+
+/// All columns of all orbits, before equations are formed of them.
+pub(super) struct Table {
+    pub(super) units: Units,
+    /// By orbit, then by column.
+    pub(super) rows: Vec<[ValueId; Column::ALL.len()]>,
+    /// −g/l.
+    pub(super) root_gravity: ValueId,
+    /// 1/(m l²).
+    pub(super) per_torque: ValueId,
+    /// By orbit.
+    pub(super) is_leaf: Vec<bool>,
+    pub(super) has_several_places: bool,
+}
+
+impl Table {
+    /// The number in a column that leaves, or others, have in common.
+    pub(super) fn common(
+        &self,
+        builder: &Builder,
+        leaves: bool,
+        column: Column,
+    ) -> Option<Rational> {
+        let rows = self.rows.iter().zip(&self.is_leaf);
+        let rows = rows.filter(|(_, is_leaf)| **is_leaf == leaves);
+        shared(builder, rows.map(|(row, _)| row[column as usize]))
+    }
+
+    /// The same of all that hang from a parent.
+    pub(super) fn common_of_children(&self, builder: &Builder, column: Column) -> Option<Rational> {
+        shared(
+            builder,
+            self.rows.iter().skip(1).map(|row| row[column as usize]),
+        )
+    }
+}
+
+/// The number that all values are.
+fn shared(builder: &Builder, mut values: impl Iterator<Item = ValueId>) -> Option<Rational> {
+    let number = builder.exact(values.next()?)?;
+    values
+        .all(|value| builder.exact(value).as_ref() == Some(&number))
+        .then_some(number)
+}
+
+impl Lowering<'_> {
+    /// A quantity of the description as a constant.
+    fn quantity(&mut self, quantity: &Quantity) -> ConstantId {
+        let mechanics: &Mechanics = self.mechanics;
+        match quantity {
+            Quantity::Exact(number) => self.builder.setup.number(number.clone()),
+            Quantity::Parameter(id) => self.constant(mechanics.parameters[id.0]),
+            Quantity::Sum(parts) => self.folded(parts, Setup::add, 0),
+            Quantity::Product(parts) => self.folded(parts, Setup::mul, 1),
+            Quantity::Quotient(above, below) => {
+                let (above, below) = (self.quantity(above), self.quantity(below));
+                self.builder.setup.div(above, below)
+            }
+            Quantity::Power(base, exponent) => {
+                let base = self.quantity(base);
+                self.builder.setup.power(base, *exponent)
+            }
+            Quantity::Negative(value) => {
+                let value = self.quantity(value);
+                self.builder.setup.neg(value)
+            }
+        }
+    }
+
+    fn folded(
+        &mut self,
+        parts: &[Quantity],
+        operation: fn(&mut Setup, ConstantId, ConstantId) -> ConstantId,
+        start: i64,
+    ) -> ConstantId {
+        let start = self.builder.setup.number(start.into());
+        parts.iter().fold(start, |total, part| {
+            let part = self.quantity(part);
+            operation(&mut self.builder.setup, total, part)
+        })
+    }
+
+    fn value_of(&mut self, quantity: &Quantity) -> ValueId {
+        let constant = self.quantity(quantity);
+        self.builder.constant(constant)
+    }
+
+    fn values_of(&mut self, point: &Offset) -> [ValueId; 2] {
+        [self.value_of(&point.along), self.value_of(&point.lateral)]
+    }
+
+    /// The constants of all orbits of a tree in loops. They are constants of the model,
+    /// whatever pass is left out.
+    pub(super) fn strip_table(&mut self, scene: &Scene, balance: &LinkBalance) -> Table {
+        let off = self.builder.off.take();
+        let table = self.orbit_constants(scene, balance);
+        self.builder.off = off;
+        table
+    }
+
+    fn orbit_constants(&mut self, scene: &Scene, balance: &LinkBalance) -> Table {
+        let children = super::children(scene);
+        let copies = match scene.layout {
+            Layout::Generations { branching, .. } => branching as i64,
+            _ => 1,
+        };
+        let zero = self.builder.integer(0);
+        let copies = self.builder.integer(copies);
+        let (mut given, mut masses) = (Vec::new(), Vec::new());
+        let mut has_several_places = false;
+        // Parents come before their children, and orbits with their first link.
+        for orbit in &scene.orbits {
+            let LinkId(index) = orbit.links[0];
+            let link = &scene.links[index];
+            // Leaves alone count in the constants of what they hang from: the masses of
+            // whole subtrees would hide articulated inertias that are much smaller.
+            let mut places: Vec<([ValueId; 2], ValueId)> = Vec::new();
+            for &child in &children[index] {
+                let child_link = &scene.links[child];
+                let place = self.values_of(&child_link.pivot);
+                let counted = match children[child].is_empty() {
+                    true => self.value_of(&child_link.mass),
+                    false => zero,
+                };
+                let counted = self.builder.mul(copies, counted);
+                match places.iter_mut().find(|(known, _)| *known == place) {
+                    Some((_, sum)) => *sum = self.builder.add(*sum, counted),
+                    None => places.push((place, counted)),
+                }
+            }
+            has_several_places |= places.len() > 1;
+            let composite = self.composite(scene, index, balance, &places);
+            let forces = [&link.friction, &link.drag, &link.spring];
+            let forces = forces.map(|force| match force {
+                Some(force) => self.value_of(force),
+                None => zero,
+            });
+            given.push(Given {
+                inertia: composite[0],
+                moment: [composite[1], composite[2]],
+                pivot: self.values_of(&link.pivot),
+                forces,
+            });
+            masses.push(match children[index].is_empty() {
+                true => zero,
+                false => composite[3],
+            });
+        }
+        let gravity = self.value_of(&scene.gravity);
+        let builder = &mut self.builder;
+        let units = Units::of(builder, scene, &given, gravity, !has_several_places);
+        let is_leaf = scene.orbits.iter();
+        let is_leaf: Vec<bool> = is_leaf
+            .map(|orbit| children[orbit.links[0].0].is_empty())
+            .collect();
+        let rows = scene.orbits.iter().enumerate().map(|(number, orbit)| {
+            let first_child = children[orbit.links[0].0].first();
+            let place = match (has_several_places, first_child) {
+                (true, _) => units.links[number].place,
+                (false, Some(&child)) => units.links[scene.links[child].orbit.0].place,
+                (false, None) => [zero; 2],
+            };
+            let unit = &units.links[number];
+            row(
+                builder,
+                &units,
+                unit,
+                masses[number],
+                is_leaf[number],
+                place,
+            )
+        });
+        let rows = rows.collect();
+        let root_gravity = builder.neg(units.gravity);
+        let [mass, length] = units.tree;
+        let area = builder.mul(length, length);
+        let unit = builder.mul(mass, area);
+        let one = builder.integer(1);
+        Table {
+            rows,
+            root_gravity,
+            per_torque: builder.div(one, unit),
+            units,
+            is_leaf,
+            has_several_places,
+        }
+    }
+
+    /// M, h, the lateral moment and S of a link with these masses on its pivots: the
+    /// derived expressions are sums over these.
+    fn composite(
+        &mut self,
+        scene: &Scene,
+        index: usize,
+        balance: &LinkBalance,
+        places: &[([ValueId; 2], ValueId)],
+    ) -> [ValueId; 4] {
+        let link = &scene.links[index];
+        let symbols = &balance.symbols;
+        let zero = self.builder.integer(0);
+        let com = self.values_of(&link.com);
+        let body = [self.value_of(&link.mass), self.value_of(&link.inertia)];
+        let own = (body, com, [zero; 2], zero);
+        let attached = places.iter();
+        let attached = attached.map(|&(place, counted)| ([zero; 2], [zero; 2], place, counted));
+        let composite = &balance.composite;
+        let exprs = [
+            &composite.inertia,
+            &composite.moment[0],
+            &composite.moment[1],
+            &composite.mass,
+        ];
+        let mut sums = [zero; 4];
+        for (body, com, place, counted) in std::iter::once(own).chain(attached) {
+            let known = [
+                (symbols.body[0], body[0]),
+                (symbols.body[1], body[1]),
+                (symbols.com[0], com[0]),
+                (symbols.com[1], com[1]),
+                (symbols.place[0], place[0]),
+                (symbols.place[1], place[1]),
+                (symbols.counted, counted),
+            ];
+            for (sum, expr) in sums.iter_mut().zip(exprs) {
+                let value = self.at_values(expr, &known);
+                *sum = self.builder.add(*sum, value);
+            }
+        }
+        sums
+    }
+
+    /// An expression at given values of its symbols.
+    fn at_values(&mut self, expr: &Expr, known: &[(SymbolId, ValueId)]) -> ValueId {
+        match expr {
+            Expr::Number(number) => self.builder.number(number.clone()),
+            Expr::Symbol(symbol) => match known.iter().find(|(id, _)| id == symbol) {
+                Some(&(_, value)) => value,
+                None => unreachable!("constants of a link are those of its body and places"),
+            },
+            Expr::Sum(terms) => {
+                let start = self.builder.integer(0);
+                terms.iter().fold(start, |sum, term| {
+                    let term = self.at_values(term, known);
+                    self.builder.add(sum, term)
+                })
+            }
+            Expr::Product(factors) => {
+                let start = self.builder.integer(1);
+                factors.iter().fold(start, |product, factor| {
+                    let factor = self.at_values(factor, known);
+                    self.builder.mul(product, factor)
+                })
+            }
+            Expr::Power(base, exponent) => {
+                let base = self.at_values(base, known);
+                let one = self.builder.integer(1);
+                (0..*exponent).fold(one, |power, _| self.builder.mul(power, base))
+            }
+        }
+    }
+
+    /// The strips of a scene, with the columns that are read.
+    pub(super) fn strips(&mut self, scene: &Scene, table: &Table, columns: Vec<Column>) -> Strips {
+        let any = |force: fn(&crate::scene::Link) -> bool| scene.links.iter().any(force);
+        let mut strips = Vec::with_capacity(scene.links.len());
+        let mut bodies: Vec<Option<[ConstantId; 12]>> = vec![None; scene.orbits.len()];
+        for link in &scene.links {
+            let orbit = link.orbit.0;
+            let constants = columns.iter().map(|&column| {
+                let value = table.rows[orbit][column as usize];
+                match self.builder.as_constant(value) {
+                    Some(constant) => constant,
+                    None => unreachable!("rows hold constants"),
+                }
+            });
+            let constants = constants.collect();
+            if scene.requests.energies && bodies[orbit].is_none() {
+                bodies[orbit] = Some(self.body(scene, link));
+            }
+            strips.push(Strip {
+                name: link.name.clone(),
+                is_leaf: table.is_leaf[orbit],
+                constants,
+                body: bodies[orbit],
+            });
+        }
+        let drive = scene.drive.as_ref();
+        Strips {
+            columns,
+            strips,
+            has_several_places: table.has_several_places,
+            has_joint_torques: any(|link| link.friction.is_some() || link.spring.is_some()),
+            has_drive_torque: drive.is_some_and(|drive| drive.torque.is_some()),
+        }
+    }
+
+    fn body(&mut self, scene: &Scene, link: &crate::scene::Link) -> [ConstantId; 12] {
+        let gravity = self.quantity(&scene.gravity);
+        let mut at = |quantity: &Quantity| self.quantity(quantity);
+        let (mass, inertia) = (at(&link.mass), at(&link.inertia));
+        let [d, e] = [&link.com.along, &link.com.lateral].map(&mut at);
+        let [along, across] = [&link.pivot.along, &link.pivot.lateral].map(&mut at);
+        let forces = [&link.spring, &link.friction, &link.drag];
+        let [spring, friction, drag] = forces.map(|force| match force {
+            Some(force) => at(force),
+            None => at(&Quantity::zero()),
+        });
+        let setup = &mut self.builder.setup;
+        let two = setup.number(2.into());
+        let [h, k] = [d, e].map(|place| setup.mul(mass, place));
+        let squares = [setup.mul(h, d), setup.mul(k, e)];
+        let about = squares
+            .into_iter()
+            .fold(inertia, |sum, square| setup.add(sum, square));
+        [
+            setup.div(mass, two),
+            h,
+            k,
+            setup.div(about, two),
+            along,
+            across,
+            setup.mul(gravity, mass),
+            setup.mul(gravity, h),
+            setup.mul(gravity, k),
+            setup.div(spring, two),
+            friction,
+            drag,
+        ]
+    }
+}
+
+/// The columns of one orbit.
+fn row(
+    builder: &mut Builder,
+    units: &Units,
+    unit: &Unit,
+    mass: ValueId,
+    is_leaf: bool,
+    [along, across]: [ValueId; 2],
+) -> [ValueId; Column::ALL.len()] {
+    let [tree_mass, tree_length] = units.tree;
+    let (zero, one) = (builder.integer(0), builder.integer(1));
+    let mut of_leaf = |above: ValueId| match is_leaf {
+        true => builder.div(above, unit.inertia),
+        false => zero,
+    };
+    let gain = unit.moment.map(&mut of_leaf);
+    let inverse = of_leaf(one);
+    let area = builder.mul(tree_length, tree_length);
+    let torque = builder.mul(tree_mass, area);
+    let [friction, drag, spring] = unit.forces.map(|force| builder.div(force, torque));
+    Column::ALL.map(|column| match column {
+        Column::Inertia => unit.inertia,
+        Column::Moment => unit.moment[0],
+        Column::LateralMoment => unit.moment[1],
+        Column::Mass => builder.div(mass, tree_mass),
+        Column::Length => unit.length,
+        Column::InverseLength => unit.inverse_length,
+        Column::GainAlong => gain[0],
+        Column::GainAcross => gain[1],
+        Column::InverseInertia => inverse,
+        Column::Along => along,
+        Column::Across => across,
+        Column::Friction => friction,
+        Column::Drag => drag,
+        Column::Spring => spring,
+        Column::DriveTorque => zero,
+    })
+}
+
+impl Strips {
+    /// Number of elements of an argument of the link functions.
+    pub fn length(&self, argument: Argument) -> usize {
+        let torque = usize::from(self.has_joint_torques);
+        match argument {
+            Argument::Constants => self.columns.len(),
+            Argument::Motion => 5,
+            Argument::Response => 5 + torque,
+            Argument::Sums if self.has_several_places => 9 + torque,
+            Argument::Sums => 5 + torque,
+            Argument::Elimination => 3,
+            Argument::Carried if self.has_several_places => 4,
+            _ => 2,
+        }
+    }
+
+    /// Name of an element.
+    pub fn element(&self, argument: Argument, index: usize) -> &'static str {
+        const MOTION: [&str; 5] = ["sine", "cosine", "omega", "joint_angle", "joint_rate"];
+        const RESPONSE: [&str; 6] = [
+            "deficit_xx_child",
+            "deficit_xy_child",
+            "deficit_yy_child",
+            "bias_force_x_child",
+            "bias_force_y_child",
+            "joint_torque_child",
+        ];
+        const SUMS: [&str; 6] = [
+            "deficit_xx_below",
+            "deficit_xy_below",
+            "deficit_yy_below",
+            "bias_force_x_below",
+            "bias_force_y_below",
+            "joint_torque_below",
+        ];
+        const ATTACHED: [&str; 10] = [
+            "deficit_xx_below",
+            "deficit_xy_below",
+            "deficit_yy_below",
+            "moment_x_below",
+            "moment_y_below",
+            "inertia_below",
+            "force_x_below",
+            "force_y_below",
+            "torque_below",
+            "joint_torque_below",
+        ];
+        let names: &[&str] = match argument {
+            Argument::Constants => return self.columns[index].name(),
+            Argument::Motion => &MOTION,
+            Argument::Response => &RESPONSE,
+            Argument::Sums if self.has_several_places => &ATTACHED,
+            Argument::Sums => &SUMS,
+            Argument::Elimination => &["gain_x", "gain_y", "offset"],
+            _ => &["gravity_x", "gravity_y", "end_x", "end_y"],
+        };
+        names[index]
+    }
+}

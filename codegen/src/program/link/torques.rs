@@ -1,0 +1,73 @@
+//! Torques in the joints, against the ground and on the root.
+
+use super::reduced_units::Units;
+use crate::program::ValueId;
+use crate::program::lower::{Door, Lowering};
+use crate::scene::Scene;
+
+impl Lowering<'_> {
+    /// Q of each link, in its unit of torque: −c (ω − ω_π) and −κ (θ − θ_π) of its
+    /// own joint less those of the joints on it, −k ω, and τ on the root.
+    pub(super) fn joint_torques(
+        &mut self,
+        scene: &Scene,
+        units: &Units,
+        door: &mut Door<'_>,
+        omega: &[ValueId],
+    ) -> Vec<ValueId> {
+        let mechanics = self.mechanics;
+        let zero = self.builder.integer(0);
+        let mut torques = vec![zero; scene.links.len()];
+        let theta = door.frame.coordinates.iter();
+        let theta: Vec<ValueId> = theta.map(|&symbol| self.symbol(door, symbol)).collect();
+        if let Some(torque) = mechanics.drive.as_ref().and_then(|drive| drive.torque) {
+            let torque = self.symbol(door, torque);
+            torques[0] = self.builder.mul(units.links[0].per_torque, torque);
+        }
+        let builder = &mut self.builder;
+        let children = super::children(scene);
+        let below = |parent: Option<usize>| parent.map_or(&[0][..], |parent| &children[parent]);
+        for parent in std::iter::once(None).chain((0..scene.links.len()).map(Some)) {
+            // What equal joints on one parent turn by, together.
+            let mut sums: Vec<(&str, ValueId, ValueId)> = Vec::new();
+            for &link in below(parent) {
+                let unit = &units.links[scene.links[link].orbit.0];
+                let joint = [
+                    ("joint_rate", unit.forces[0], omega),
+                    ("joint_angle", unit.forces[2], &theta),
+                ];
+                for (what, coefficient, state) in joint {
+                    if builder.is(coefficient, 0) {
+                        continue;
+                    }
+                    let relative = match parent {
+                        Some(parent) => builder.sub(state[link], state[parent]),
+                        None => state[link],
+                    };
+                    builder.name(relative, &format!("{what}_{}", scene.links[link].name));
+                    let reduced = builder.mul(coefficient, unit.per_torque);
+                    let torque = builder.mul(reduced, relative);
+                    torques[link] = builder.sub(torques[link], torque);
+                    let known = sums
+                        .iter_mut()
+                        .find(|(kind, known, _)| *kind == what && *known == coefficient);
+                    match known {
+                        Some((.., sum)) => *sum = builder.add(*sum, relative),
+                        None => sums.push((what, coefficient, relative)),
+                    }
+                }
+                let reduced = builder.mul(unit.forces[1], unit.per_torque);
+                let torque = builder.mul(reduced, omega[link]);
+                torques[link] = builder.sub(torques[link], torque);
+            }
+            let Some(parent) = parent else { continue };
+            let unit = &units.links[scene.links[parent].orbit.0];
+            for (_, coefficient, sum) in sums {
+                let reduced = builder.mul(coefficient, unit.per_torque);
+                let torque = builder.mul(reduced, sum);
+                torques[parent] = builder.add(torques[parent], torque);
+            }
+        }
+        torques
+    }
+}

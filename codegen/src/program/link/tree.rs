@@ -1,0 +1,202 @@
+//! The recursion through a tree that is written out, link by link.
+
+use super::equations::{Attached, Elimination, Link, Response};
+use super::numbered;
+use super::reduced_units::Units;
+use crate::mechanics::Trigonometric;
+use crate::program::ValueId;
+use crate::program::builder::Builder;
+use crate::program::lower::{Door, Lowering};
+use crate::program::pair::Pair;
+use crate::scene::Scene;
+
+/// The recursion in progress.
+struct Sweep<'s> {
+    scene: &'s Scene,
+    units: Units,
+    children: Vec<Vec<usize>>,
+    links: Vec<Link>,
+    /// Of the subtrees that are eliminated and not yet attached.
+    responses: Vec<Option<Response>>,
+}
+
+/// What the way down needs of a link.
+struct Solved {
+    elimination: Elimination,
+    /// The pivots on the link and what hangs from each.
+    groups: Vec<(Pair, Vec<usize>)>,
+}
+
+impl Lowering<'_> {
+    /// θ̈ in the absolute angles.
+    pub(in crate::program) fn recursion(
+        &mut self,
+        scene: &Scene,
+        door: &mut Door<'_>,
+    ) -> Vec<ValueId> {
+        let frame = door.frame;
+        let units = self.units(scene, door);
+        let mut directions = Vec::new();
+        for &angle in &frame.coordinates {
+            let symbols = [Trigonometric::Cos(angle), Trigonometric::Sin(angle)]
+                .map(|wanted| self.trigonometric_symbol(wanted));
+            directions.push(symbols.map(|symbol| self.symbol(door, symbol)));
+        }
+        let omega = frame.velocities.iter();
+        let omega: Vec<ValueId> = omega.map(|&symbol| self.symbol(door, symbol)).collect();
+        let torques = self.joint_torques(scene, &units, door, &omega);
+        let root = self.root_gravity(&units, door);
+        let names = self.coordinate_names(frame);
+        let zero = self.builder.integer(0);
+        let links = scene.links.iter().enumerate().map(|(index, link)| {
+            let unit = &units.links[link.orbit.0];
+            Link {
+                moment: unit.moment,
+                inertia: unit.inertia,
+                // All mass is in the constants of the parents.
+                mass: zero,
+                length: unit.length,
+                inverse_length: unit.inverse_length,
+                direction: directions[index],
+                omega: omega[index],
+                torque: torques[index],
+                suffix: format!("_{}", names[index]),
+            }
+        });
+        let links = links.collect();
+        let mut sweep = Sweep {
+            scene,
+            units,
+            children: super::children(scene),
+            links,
+            responses: vec![None; scene.links.len()],
+        };
+        let builder = &mut self.builder;
+        let mut solved: Vec<Solved> = Vec::with_capacity(scene.links.len());
+        for link in (0..scene.links.len()).rev() {
+            solved.push(sweep.eliminate(builder, link, root));
+        }
+        solved.reverse();
+        sweep.descend(builder, &solved, root)
+    }
+
+    /// The apparent gravity at the root's pivot, −a, in units of length.
+    fn root_gravity(&mut self, units: &Units, door: &mut Door<'_>) -> Pair {
+        let mechanics = self.mechanics;
+        let mut pivot = self.builder.zero_pair();
+        for motion in mechanics.drive.iter().flat_map(|drive| &drive.pivot) {
+            if let Some(acceleration) = motion.acceleration {
+                let acceleration = self.symbol(door, acceleration);
+                pivot[usize::from(motion.name == "y")] =
+                    self.builder.mul(units.per_length, acceleration);
+            }
+        }
+        pivot[1] = self.builder.add(pivot[1], units.gravity);
+        pivot.map(|component| self.builder.neg(component))
+    }
+}
+
+impl Sweep<'_> {
+    /// Subtrees below a link, by pivot: place, members, their responses added up.
+    fn groups(&mut self, builder: &mut Builder, link: usize) -> Vec<(Pair, Vec<usize>, Response)> {
+        let mut groups: Vec<(Pair, Vec<usize>, Response)> = Vec::new();
+        for &child in &self.children[link] {
+            let place = self.units.links[self.scene.links[child].orbit.0].place;
+            let Some(response) = self.responses[child].take() else {
+                unreachable!("children are eliminated before their parents");
+            };
+            match groups.iter_mut().find(|(known, ..)| *known == place) {
+                Some((_, members, sum)) => {
+                    members.push(child);
+                    *sum = sum.add(builder, &response);
+                }
+                None => groups.push((place, vec![child], response)),
+            }
+        }
+        for (number, (_, members, response)) in groups.iter().enumerate() {
+            if members.len() > 1 {
+                let suffix = numbered(&self.links[link].suffix, number);
+                response.name(builder, &format!("_below{suffix}"));
+            }
+        }
+        groups
+    }
+
+    /// The way up, at one link.
+    fn eliminate(&mut self, builder: &mut Builder, index: usize, root: Pair) -> Solved {
+        let groups = self.groups(builder, index);
+        let link = &self.links[index];
+        let is_root = self.scene.links[index].parent.is_none();
+        let mut whole: Option<Attached> = None;
+        for (number, (place, _, response)) in groups.iter().enumerate() {
+            let mut at = link.clone();
+            at.suffix = numbered(&link.suffix, number);
+            let body = whole.is_none().then(|| link.body());
+            let attached = at.attach(builder, *place, response, body, !is_root);
+            whole = Some(match whole {
+                Some(whole) => whole.add(builder, &attached),
+                None => attached,
+            });
+        }
+        let (response, elimination) = match &whole {
+            None => self.leaf(builder, index),
+            Some(whole) if is_root => (None, solve_root(builder, link, whole, root)),
+            Some(whole) => {
+                let (response, elimination) = link.eliminate(builder, whole);
+                (Some(response), elimination)
+            }
+        };
+        self.responses[index] = response;
+        let groups = groups.into_iter();
+        Solved {
+            elimination,
+            groups: groups.map(|(place, members, _)| (place, members)).collect(),
+        }
+    }
+
+    fn leaf(&self, builder: &mut Builder, index: usize) -> (Option<Response>, Elimination) {
+        let link = &self.links[index];
+        let gain = link
+            .moment
+            .map(|component| builder.div(component, link.inertia));
+        let one = builder.integer(1);
+        let inverse = builder.div(one, link.inertia);
+        let (mut response, elimination) = link.leaf(builder, gain, inverse);
+        let trace = builder.dot(link.moment, gain);
+        response.deficit.rest = super::deficit::Rest::Trace(trace);
+        (Some(response), elimination)
+    }
+
+    /// From the root to the leaves, (10.8): ω̇ of each link and the apparent gravity at
+    /// the pivots on it.
+    fn descend(&self, builder: &mut Builder, solved: &[Solved], root: Pair) -> Vec<ValueId> {
+        let mut gravity = vec![root; solved.len()];
+        let mut accelerations = Vec::with_capacity(solved.len());
+        for (index, solved) in solved.iter().enumerate() {
+            let link = &self.links[index];
+            let [tangential, alpha] = link.accelerate(builder, &solved.elimination, gravity[index]);
+            accelerations.push(alpha);
+            for (number, (place, members)) in solved.groups.iter().enumerate() {
+                let at = link.gravity_at(builder, *place, gravity[index], tangential);
+                let suffix = numbered(&link.suffix, number);
+                builder.name_pair(at, &format!("apparent_gravity@{suffix}"));
+                for &member in members {
+                    gravity[member] = at;
+                }
+            }
+        }
+        accelerations
+    }
+}
+
+/// The root's pivot is accelerated as given: nothing of the root is eliminated.
+fn solve_root(builder: &mut Builder, link: &Link, whole: &Attached, gravity: Pair) -> Elimination {
+    let torque = link.net_torque(builder, whole);
+    let driving = builder.dot(whole.first_moment, gravity);
+    let rest = builder.add(driving, torque);
+    let tangential = builder.div(rest, whole.inertia);
+    Elimination {
+        gain: builder.zero_pair(),
+        offset: builder.neg(tangential),
+    }
+}

@@ -1,0 +1,182 @@
+//! Which trees are written out link by link, and which are taken through loops.
+
+use proc_macro2::Span;
+
+use super::Requests;
+use super::Solve;
+use super::bodies::Body;
+use super::requests::Resolved;
+use super::rule::Code;
+use super::template::{MAX_LINKS, Template, WholeRule};
+use crate::report::{Message, Report};
+
+/// Trees by rule of at least so many links get loops: straight code for one state is slower,
+/// and takes several times as long to compile (`docs/performance.md`).
+const FEWEST: usize = 63;
+
+/// Other trees of more links than this get a loop: straight code for more is no faster,
+/// and takes long to derive and compile (`docs/performance.md`).
+const MOST_UNROLLED: usize = 100;
+
+/// Most links of a tree by rule: what an index of 32 bits counts.
+const MOST: usize = 1 << 32;
+
+/// Most generations of such a tree whose bodies have parameters.
+const MOST_WITH_PARAMETERS: usize = 64;
+
+/// How the code takes the equations of motion through the tree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Layout {
+    /// Written out, link by link.
+    Unrolled,
+    /// In loops over generations: [`Scene::links`](super::Scene::links) holds one link of each.
+    Generations {
+        /// Children of each link but those of the last generation.
+        branching: usize,
+        /// Links of all generations.
+        links: usize,
+    },
+    /// In a loop over all links.
+    Links,
+}
+
+/// What is asked for about a tree.
+pub(super) struct Asked<'a> {
+    pub(super) resolved: &'a Resolved,
+    pub(super) observables: bool,
+}
+
+/// Decides how the code of a rule is laid out. Where it is loops, leaves one
+/// template for a link of each generation.
+///
+/// # Errors
+/// Where the tree can neither be written out nor have loops, or has loops that
+/// it cannot have; `report` says why.
+pub(super) fn of_rule(
+    rule: WholeRule,
+    templates: &mut [Template],
+    asked: &Asked<'_>,
+    report: &mut Report,
+) -> Result<Layout, ()> {
+    let mut links: usize = 0;
+    let mut count: usize = 1;
+    for _ in &*templates {
+        links = links.saturating_add(count);
+        count = count.saturating_mul(rule.branching);
+    }
+    let wanted = match rule.code {
+        Some(Code::Unrolled) => return Ok(Layout::Unrolled),
+        Some(Code::Loops) => true,
+        None => links >= FEWEST,
+    };
+    if !wanted {
+        return Ok(Layout::Unrolled);
+    }
+    match obstacle(templates, asked) {
+        Some(what) if rule.code.is_some() => {
+            report.error(rule.span, Message::NoLoops { what });
+            Err(())
+        }
+        Some(what) if links > MAX_LINKS => {
+            let limit = MAX_LINKS;
+            report.error(rule.span, Message::TooManyForUnrolled { what, limit });
+            Err(())
+        }
+        Some(_) => Ok(Layout::Unrolled),
+        None if links > MOST => {
+            report.error(rule.span, Message::TooManyLinks { limit: MOST });
+            Err(())
+        }
+        None => {
+            for template in templates {
+                template.copies = 1;
+            }
+            Ok(Layout::Generations {
+                branching: rule.branching,
+                links,
+            })
+        }
+    }
+}
+
+/// Decides how the code of a tree that is no rule is laid out. Where it cannot be loops
+/// and must, `report` says why.
+pub(super) fn of_links(
+    code: Option<(Code, Span)>,
+    links: usize,
+    templates: &[Template],
+    asked: &Asked<'_>,
+    report: &mut Report,
+) -> Layout {
+    let span = match code {
+        Some((Code::Unrolled, _)) => return Layout::Unrolled,
+        Some((Code::Loops, span)) => Some(span),
+        None if links > MOST_UNROLLED => None,
+        None => return Layout::Unrolled,
+    };
+    let obstacle = unlooped(templates, asked);
+    // What is unreadable may look like an obstacle.
+    if let (Some(what), Some(span), true) = (obstacle, span, report.is_empty()) {
+        let what = what.to_owned();
+        report.error(span, Message::NoLoops { what });
+    }
+    match obstacle {
+        Some(_) => Layout::Unrolled,
+        None => Layout::Links,
+    }
+}
+
+/// What loops over generations do not do, in words.
+fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
+    if let Some(what) = unlooped(templates, asked) {
+        return Some(what.to_owned());
+    }
+    // Their constants are formed of those of all generations below, in code.
+    let parameters = templates.len() > MOST_WITH_PARAMETERS
+        && templates.iter().any(|template| {
+            let Body {
+                mass, inertia, com, ..
+            } = &template.body;
+            let pivot = &template.pivot;
+            let parts = [
+                mass,
+                inertia,
+                &com.along,
+                &com.lateral,
+                &pivot.along,
+                &pivot.lateral,
+            ];
+            parts.into_iter().any(|value| value.exact().is_none())
+        });
+    parameters.then(|| format!("parameters in more than {MOST_WITH_PARAMETERS} generations"))
+}
+
+/// What no loops do, in words.
+fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
+    let Requests {
+        energies: _,
+        momenta,
+        modes,
+        symmetric,
+        transfer,
+        budget,
+        taylor,
+        solve,
+    } = &asked.resolved.requests;
+    // Loops are the recursion.
+    let factorization = *solve == Some(Solve::Factorization);
+    let requests = [
+        (*momenta, "`emit(momenta)`"),
+        (*modes, "`emit(modes)`"),
+        (*symmetric, "`emit(symmetric)`"),
+        (transfer.is_some(), "`emit(transfer)`"),
+        (budget.is_some(), "`emit(budget)`"),
+        (*taylor, "`emit(taylor)`"),
+        (asked.observables, "`observe(…)`"),
+        (factorization, "`solve = factorization`"),
+        (templates.len() < 2, "a single generation"),
+    ];
+    // What brings others along comes last.
+    let request = requests.into_iter().rev().find(|(wanted, _)| *wanted);
+    request.map(|(_, what)| what)
+}
