@@ -6,7 +6,6 @@ use core::slice::from_raw_parts_mut;
 
 use super::permutation::{rotated, tiled};
 use super::{Register, Simd};
-use crate::generations::With;
 use crate::scalar::{Lane, Lanes, Real, Scalar};
 
 /// Every number is a wide one of one lane.
@@ -112,7 +111,6 @@ impl<T: Scalar> Simd<T> for T {
 
 impl<T: Lane, const N: usize> Register for Lanes<T, N> {
     type Lane = T;
-    type Vectors = With<Self>;
 }
 
 /// The registers of instruction sets that this crate has no type for.
