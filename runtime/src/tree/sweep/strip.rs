@@ -99,24 +99,7 @@ impl<'a, T: Scalar> StripView<'a, T> {
     /// lanes mean nothing.
     #[inline(always)]
     pub(super) fn places<V: Simd<T>>(&self) -> Places {
-        Places {
-            next: 0,
-            step: V::LANES,
-            last: self.length.saturating_sub(V::LANES),
-            length: self.length,
-        }
-    }
-
-    /// The same of any strip.
-    #[inline(always)]
-    pub(super) fn places_of<V: Simd<T>>(strip: &Strip) -> Places {
-        let length = strip.length;
-        Places {
-            next: 0,
-            step: V::LANES,
-            last: length.saturating_sub(V::LANES),
-            length,
-        }
+        Places::of::<T, V>(self.length)
     }
 
     #[inline(always)]
@@ -258,6 +241,17 @@ pub(super) struct Places {
 }
 
 impl Places {
+    /// Of so many neighbours.
+    #[inline(always)]
+    pub(super) fn of<T, V: Simd<T>>(length: usize) -> Self {
+        Self {
+            next: 0,
+            step: V::LANES,
+            last: length.saturating_sub(V::LANES),
+            length,
+        }
+    }
+
     #[inline(always)]
     pub(super) fn next(&mut self) -> Option<usize> {
         if self.next >= self.length {
