@@ -51,8 +51,8 @@ use alloc::vec::Vec;
 
 use crate::scalar::dispatch;
 use crate::scalar::{InstructionSet, Lane};
-use crate::system::Cast;
 use crate::system::cast;
+use crate::system::{Cast, Workspace};
 use blocks::Blocks;
 
 pub use error::BatchError;
@@ -71,7 +71,8 @@ pub struct Batch<'m, P, T> {
     instructions: InstructionSet,
     /// One state: angles, velocities, accelerations.
     alone: [Vec<T>; 3],
-    /// Workspace for a register of states, where the model does not compute in
+    workspace: Workspace<T>,
+    /// Memory for a register of states, where the model does not compute in
     /// registers.
     room: Vec<T>,
 }
@@ -88,6 +89,7 @@ impl<'m, P: Cast<T>, T: Lane> Batch<'m, P, T> {
             pendulum,
             instructions: InstructionSet::widest(),
             alone: core::array::from_fn(|_| alloc::vec![T::from_f64(0.0); P::LINKS]),
+            workspace: Workspace::new(),
             room: alloc::vec![T::from_f64(0.0); room::<T>(pendulum.room())],
         }
     }
@@ -169,7 +171,8 @@ impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
             cast::straight(self.pendulum, time, own_theta, own_omega, own_alpha);
         } else {
             let pendulum = self.pendulum;
-            pendulum.accelerations_into(time, own_theta, own_omega, own_alpha);
+            let workspace = &mut self.workspace;
+            pendulum.accelerations_with(workspace, time, own_theta, own_omega, own_alpha);
         }
         for (own, slice) in own_alpha.iter().zip(alpha) {
             cast::put(slice.as_mut(), state, *own);

@@ -10,7 +10,7 @@
 //! - [`integrate`]: trajectories, with error control, dense output and events,
 //! - [`ensemble`]: many trajectories on all cores,
 //! - [`batch`]: accelerations of many states, in vector registers,
-//! - [`generations`]: large trees, in loops,
+//! - [`tree`]: large trees, in loops,
 //! - [`sectors`]: what identical subtrees do in phase and against each other,
 //! - [`taylor`]: the recurrences of Taylor coefficients that emitted code uses,
 //! - [`transfer_forms`]: several forms of one energy transfer,
@@ -71,7 +71,7 @@
 //! # Features
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
-//!   `alloc` and offers [`scalar`], [`system`], [`model`], [`batch`], [`generations`],
+//!   `alloc` and offers [`scalar`], [`system`], [`model`], [`batch`], [`tree`],
 //!   [`taylor`], [`sectors`], [`transfer_forms`] and [`integrate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
@@ -90,7 +90,6 @@ pub mod data;
 pub mod emitted;
 #[cfg(feature = "std")]
 pub mod ensemble;
-pub mod generations;
 pub mod integrate;
 pub mod model;
 pub mod prelude;

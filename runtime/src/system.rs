@@ -16,8 +16,8 @@ mod workspace;
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::generations::LinkName;
 use crate::scalar::Scalar;
+use crate::tree::LinkName;
 
 pub use canonical::{Canonical, CanonicalVariables};
 pub use cast::Cast;

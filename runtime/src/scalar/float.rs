@@ -4,7 +4,6 @@
 use super::Lanes;
 use super::lanes::{Lane, Sealed};
 use super::{InstructionSet, Real, Scalar, sincos};
-use crate::generations::{Loops, SliceKernel, vectors};
 #[cfg(target_arch = "x86_64")]
 use crate::simd as register;
 use crate::simd::{Kernel, dispatch};
@@ -43,19 +42,8 @@ macro_rules! implement_scalar {
             }
 
             #[inline]
-            fn over_slices<K: SliceKernel<Self>>(kernel: K) {
-                vectors::run(kernel);
-            }
-
-            #[inline]
             fn dispatch<K: Kernel<Self>>(kernel: K) -> K::Output {
                 dispatch::run_wide(InstructionSet::widest(), kernel)
-            }
-
-            // Compiled here, not where it is called.
-            #[inline(never)]
-            fn loops() -> Loops<Self> {
-                Loops::new()
             }
 
             #[inline(always)]

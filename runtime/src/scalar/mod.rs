@@ -61,7 +61,6 @@ pub(crate) use lanes::Sealed;
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-use crate::generations::{Loops, Single, SliceKernel};
 use crate::model::Part;
 use crate::simd::Kernel;
 use crate::system::cast::{self, Cast};
@@ -168,27 +167,12 @@ pub trait Scalar:
     /// Square root.
     fn sqrt(self) -> Self;
 
-    /// Computes over slices of such numbers, several at a time where the type
-    /// can.
-    #[doc(hidden)]
-    #[inline]
-    fn over_slices<K: SliceKernel<Self>>(kernel: K) {
-        kernel.run::<Single>();
-    }
-
     /// Runs a computation with the widest registers of the machine that hold such
     /// numbers; with plain numbers where there are none.
     #[doc(hidden)]
     #[inline]
     fn dispatch<K: Kernel<Self>>(kernel: K) -> K::Output {
         kernel.run::<Self>()
-    }
-
-    /// What large trees do whatever their equations are.
-    #[doc(hidden)]
-    #[inline]
-    fn loops() -> Loops<Self> {
-        Loops::new()
     }
 
     /// `self * factor + addend`, fused where the type says so: rounded once then,

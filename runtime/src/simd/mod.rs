@@ -27,7 +27,6 @@ pub use one::Fused;
 #[cfg(target_arch = "x86_64")]
 pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 
-use crate::generations::Vectors;
 use crate::scalar::{Lane, Real, Scalar};
 
 /// A computation that is compiled for the wide numbers of every instruction set.
@@ -141,6 +140,9 @@ pub trait Simd<T>: Scalar {
     /// So many numbers may be written there.
     unsafe fn write_some(self, start: *mut T, count: usize);
 
+    /// Returns the number in the first lane.
+    fn first(self) -> T;
+
     /// Returns the numbers moved forward: lane `i` gets lane `first + i`; what has
     /// none there is left open.
     fn rotate_lanes(self, first: usize) -> Self;
@@ -182,7 +184,4 @@ pub(crate) fn wide_slice<R: Register>(numbers: &mut [R::Lane]) -> Option<&mut [R
 pub trait Register: Simd<<Self as Register>::Lane> {
     /// A number in it.
     type Lane: Lane;
-
-    /// This register, and narrower ones for fewer numbers.
-    type Vectors: Vectors<Self::Lane>;
 }

@@ -5,7 +5,6 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Register, Simd, dispatch};
-use crate::generations::Single;
 use crate::model::{Part, PartOf};
 use crate::scalar::Scalar;
 use crate::scalar::sincos::fused;
@@ -75,7 +74,6 @@ macro_rules! fused {
 
         impl Register for Fused<$float> {
             type Lane = $float;
-            type Vectors = Single;
         }
 
         impl Simd<$float> for Fused<$float> {
@@ -158,6 +156,11 @@ macro_rules! fused {
                     // SAFETY: as for `read`.
                     unsafe { self.write(start) }
                 }
+            }
+
+            #[inline(always)]
+            fn first(self) -> $float {
+                self.0
             }
 
             #[inline(always)]

@@ -6,7 +6,6 @@ use core::slice::from_raw_parts_mut;
 
 use super::permutation::{rotated, tiled};
 use super::{Register, Simd};
-use crate::generations::With;
 use crate::scalar::{Lane, Lanes, Real, Scalar};
 
 /// Every number is a wide one of one lane.
@@ -95,6 +94,11 @@ impl<T: Scalar> Simd<T> for T {
     }
 
     #[inline(always)]
+    fn first(self) -> T {
+        self
+    }
+
+    #[inline(always)]
     fn rotate_lanes(self, _first: usize) -> Self {
         self
     }
@@ -107,7 +111,6 @@ impl<T: Scalar> Simd<T> for T {
 
 impl<T: Lane, const N: usize> Register for Lanes<T, N> {
     type Lane = T;
-    type Vectors = With<Self>;
 }
 
 /// The registers of instruction sets that this crate has no type for.
@@ -201,6 +204,11 @@ impl<T: Lane, const N: usize> Simd<T> for Lanes<T, N> {
         for (place, number) in places.iter_mut().zip(self.0) {
             *place = number;
         }
+    }
+
+    #[inline(always)]
+    fn first(self) -> T {
+        self.0.first().copied().unwrap_or(T::NAN)
     }
 
     #[inline(always)]

@@ -12,7 +12,6 @@
 use super::block::Block;
 use super::equations::LinkEquations;
 use super::memory::{Room, take};
-use super::motion::Links;
 use super::root::RootDrive;
 use super::skeleton::Skeleton;
 use super::sweep::{Output, Passes, Sweep};
@@ -31,9 +30,7 @@ struct Told<'a, F> {
 impl<V: Scalar, F: FnMut(usize, V)> Output<V> for Told<'_, F> {
     #[inline(always)]
     unsafe fn write<W: Simd<V>>(&mut self, at: usize, alpha: W, _count: usize) {
-        let mut numbers = [V::from_f64(0.0)];
-        alpha.store(&mut numbers);
-        (self.alpha)(link(self.order, self.start + at), numbers[0]);
+        (self.alpha)(link(self.order, self.start + at), alpha.first());
     }
 }
 
@@ -173,31 +170,39 @@ fn form<T: Scalar, V: Simd<T>>(
     theta: &impl Fn(usize) -> V,
     omega: &impl Fn(usize) -> V,
 ) {
-    let (storage, mut links) = (&sweep.storage, Links::of(sweep.block));
-    while let Some(first) = links.next() {
-        // The last one may come alone, and is formed twice then.
-        let both = [first, links.next().unwrap_or(first)];
-        let mut angles = [V::from_f64(0.0); STEP];
-        for i in 0..STEP {
-            angles[i] = theta(link(order, both[i].place));
-        }
-        let (sines, cosines) = V::sin_cos_each(&angles);
-        for i in 0..STEP {
-            let own = storage.lead + both[i].own;
-            let rate = omega(link(order, both[i].place));
-            let _ = storage.sincos.store::<V, 2>(own, &[sines[i], cosines[i]]);
-            if let Some(velocities) = storage.velocities {
-                let _ = velocities.store::<V, 1>(own, &[rate]);
-            }
-            if storage.sizes.joints {
+    let (block, storage) = (sweep.block, &sweep.storage);
+    for generation in block.own_generations() {
+        let first = generation.whole + block.start;
+        let (above, count) = generation.above.unwrap_or_default();
+        let mut index = 0;
+        while index < generation.length {
+            // The last one may come alone, and is formed twice then.
+            let both = [index, (index + 1).min(generation.length - 1)];
+            let places = [0, 1].map(|i: usize| first + both[i] * generation.step);
+            let angles = [theta(link(order, places[0])), theta(link(order, places[1]))];
+            let (sines, cosines) = V::sin_cos_each(&angles);
+            for i in 0..STEP {
+                let own = storage.lead + generation.own + both[i];
+                let rate = omega(link(order, places[i]));
+                let _ = storage.sincos.store::<V, 2>(own, &[sines[i], cosines[i]]);
+                if let Some(velocities) = storage.velocities {
+                    let _ = velocities.store::<V, 1>(own, &[rate]);
+                }
+                if !storage.sizes.joints {
+                    continue;
+                }
                 let (mut angle, mut rate) = (angles[i], rate);
-                if let Some(parent) = both[i].parent(parents) {
-                    let parent = link(order, parent);
+                if places[i] > 0 {
+                    let parent = match parents.get(places[i]) {
+                        Some(&parent) => link(order, parent as usize),
+                        None => above + (block.start + both[i] * generation.step) % count.max(1),
+                    };
                     angle = angle - theta(parent);
                     rate = rate - omega(parent);
                 }
                 let _ = storage.joint_motions.store::<V, 2>(own, &[angle, rate]);
             }
+            index += STEP;
         }
     }
 }

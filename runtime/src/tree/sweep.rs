@@ -1,5 +1,6 @@
 //! Leaves to root, and back: the recursion over a block of the tree.
 
+mod by_link;
 mod passes;
 mod strip;
 mod view;

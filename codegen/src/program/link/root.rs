@@ -1,7 +1,7 @@
 //! What the root of a tree in loops takes from above.
 
 use super::strips::Table;
-use crate::mechanics::{Drive, Mechanics};
+use crate::mechanics::{DriveTerms, Mechanics};
 use crate::program::entries::EntryList;
 use crate::program::lower::Door;
 use crate::program::{Argument, Purpose, Shape};
@@ -12,7 +12,7 @@ impl EntryList<'_, '_> {
     pub(super) fn root(&mut self, mechanics: &Mechanics, table: &Table) {
         let units = &table.units;
         let mut door = Door::new(&mechanics.absolute, Argument::Theta, None, None);
-        let drive: Option<&Drive> = mechanics.drive.as_ref();
+        let drive: Option<&DriveTerms> = mechanics.drive.as_ref();
         let builder = &mut self.lowering.builder;
         let zero = builder.integer(0);
         let mut outputs = vec![zero, table.root_gravity];

@@ -15,7 +15,6 @@ use core::slice::from_raw_parts_mut;
 
 use super::permutation::{rotated, tiled};
 use super::{Fused, Register, Simd};
-use crate::generations::With;
 use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, words_of_sse2};
 
 // SAFETY, for all calls of instructions here and in the two files: those of SSE2 belong to every
@@ -117,7 +116,6 @@ macro_rules! register {
 
         impl Register for $name {
             type Lane = $lane;
-            type Vectors = With<Self>;
         }
 
         impl Simd<$lane> for $name {
@@ -205,6 +203,11 @@ macro_rules! register {
             unsafe fn write_some(self, start: *mut $lane, count: usize) {
                 // SAFETY: the caller's.
                 self.store_some(unsafe { from_raw_parts_mut(start, count.min($lanes)) });
+            }
+
+            #[inline(always)]
+            fn first(self) -> $lane {
+                self.to_array()[0]
             }
 
             #[inline(always)]

@@ -8,7 +8,6 @@ use super::strip::{Output, StripView};
 use super::view::View;
 use crate::scalar::Scalar;
 use crate::simd::{Kernel, Simd};
-use crate::tree::columns::{read, write};
 use crate::tree::equations::{LinkEquations, LinkMotion, Row};
 use crate::tree::memory::Sizes;
 use crate::tree::shared::Shared;
@@ -60,10 +59,10 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for Down<'_, E, T> {
 
 /// What a block has, in vectors `V` of numbers `T`, for one set of equations.
 pub(in crate::tree) struct Passes<'a, E, N, T, V> {
-    view: &'a View<'a, N, T>,
+    pub(super) view: &'a View<'a, N, T>,
     /// None if the block is not one of these equations.
-    strips: &'a [Strip],
-    attachments: &'a [Attachment],
+    pub(super) strips: &'a [Strip],
+    pub(super) attachments: &'a [Attachment],
     types: PhantomData<(E, V)>,
 }
 
@@ -115,7 +114,7 @@ where
     }
 
     #[inline(always)]
-    fn take_torque(&self, row: &mut E::Constants<V>) {
+    pub(super) fn take_torque(&self, row: &mut E::Constants<V>) {
         if E::TORQUE
             && let (Some(torque), Some(last)) = (self.view.torque, row.as_mut().last_mut())
         {
@@ -129,37 +128,12 @@ where
         self.row(E::COPIES.len().wrapping_sub(1))
     }
 
-    /// The constants of the links from `at` on, each its own.
-    #[inline(always)]
-    unsafe fn constants(&self, at: usize) -> E::Constants<V> {
-        let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
-        let mut column = 0;
-        while column < <E::Constants<V> as Row<V>>::LENGTH {
-            // SAFETY: see the top.
-            row.as_mut()[column] = unsafe { self.view.constant(column, at) };
-            column += 1;
-        }
-        if at == 0 {
-            self.take_torque(&mut row);
-        }
-        row
-    }
-
     /// From the leaves to the first strip.
     #[inline(always)]
     pub(in crate::tree) fn up(&self) {
-        if !Self::BY_LINK {
-            return self.generations_up();
-        }
-        let mut strips = self.strips;
-        while let Some((strip, before)) = strips.split_last() {
-            if strip.length < V::LANES {
-                Passes::<E, N, T, V::One>::of(self.view).links_up(strip);
-            } else {
-                self.links_up(strip);
-            }
-            self.attach(strip);
-            strips = before;
+        match Self::BY_LINK {
+            true => self.heights_up(),
+            false => self.generations_up(),
         }
     }
 
@@ -167,163 +141,9 @@ where
     /// memory, to the leaves.
     #[inline(always)]
     pub(in crate::tree) fn down(&self, out: &mut impl Output<T>) {
-        if !Self::BY_LINK {
-            return self.generations_down(out);
-        }
-        let mut strips = self.strips;
-        while let Some((strip, behind)) = strips.split_first() {
-            self.hand_down(strip);
-            if strip.length < V::LANES {
-                Passes::<E, N, T, V::One>::of(self.view).links_down(strip, out);
-            } else {
-                self.links_down(strip, out);
-            }
-            strips = behind;
-        }
-    }
-
-    /// A strip of links with constants of their own, up.
-    #[inline(always)]
-    fn links_up(&self, strip: &Strip) {
-        let near = StripView::of(self.view, strip, 0);
-        let mut places = near.places::<V>();
-        while let Some(at) = places.next() {
-            // SAFETY: see the top.
-            let constants = unsafe { self.constants(strip.first.own + at) };
-            // SAFETY: see the top.
-            let link = unsafe { near.motion(at, E::JOINTS) };
-            if strip.copies == 0 {
-                let response = E::leaf(&constants, link);
-                // SAFETY: see the top.
-                unsafe { near.respond(at, &response) };
-                continue;
-            }
-            // SAFETY: see the top.
-            let (response, elimination) = E::inner(&constants, link, unsafe { near.sums(at) });
-            // SAFETY: see the top.
-            unsafe { near.respond(at, &response) };
-            // SAFETY: see the top.
-            unsafe { near.keep(at, &elimination) };
-        }
-    }
-
-    /// The same down; the accelerations of pivots are in memory but for the root's.
-    #[inline(always)]
-    fn links_down(&self, strip: &Strip, out: &mut impl Output<T>) {
-        let near = StripView::of(self.view, strip, 0);
-        let mut places = near.places::<V>();
-        while let Some(at) = places.next() {
-            let pivot = match &self.view.root {
-                Some([x, y]) if strip.first.own == 0 => [V::splat(*x), V::splat(*y)],
-                // SAFETY: see the top.
-                _ => unsafe { near.responses(at) },
-            };
-            // SAFETY: see the top.
-            let constants = unsafe { self.constants(strip.first.own + at) };
-            // SAFETY: see the top.
-            let link = unsafe { near.motion(at, E::JOINTS) };
-            if strip.copies == 0 {
-                let acceleration = E::accelerate_leaf(&constants, link, pivot);
-                // SAFETY: see the top.
-                unsafe { near.accelerate(out, at, acceleration) };
-                continue;
-            }
-            // SAFETY: see the top.
-            let elimination = unsafe { near.elimination(at) };
-            let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
-            // SAFETY: see the top.
-            unsafe { near.accelerate(out, at, acceleration) };
-            // SAFETY: see the top.
-            unsafe { near.carry(at, &carried) };
-        }
-    }
-
-    /// Adds the responses of a strip to the sums of the parents.
-    #[inline(always)]
-    fn attach(&self, strip: &Strip) {
-        let (from, to) = strip.attachments;
-        for attachment in self.attachments.get(from..to).unwrap_or_default() {
-            let mut at = 0;
-            while at + V::LANES <= attachment.length {
-                // SAFETY: see the top.
-                unsafe { self.attach_at(attachment, at) };
-                at += V::LANES;
-            }
-            // The last ones one by one: what is written narrow is read narrow soon.
-            let one = Passes::<E, N, T, V::One>::of(self.view);
-            while at < attachment.length {
-                // SAFETY: see the top.
-                unsafe { one.attach_at(attachment, at) };
-                at += 1;
-            }
-        }
-    }
-
-    #[inline(always)]
-    unsafe fn attach_at(&self, attachment: &Attachment, at: usize) {
-        let (child, parent) = (attachment.child + at, attachment.parent + at);
-        let (view, slots) = (self.view, self.view.slots);
-        // SAFETY: see the top.
-        let (constants, link) = unsafe { (self.constants(child), self.parent(parent)) };
-        // SAFETY: see the top.
-        let response = unsafe { read(view.responses.add(child), slots) };
-        let own = E::attach(&constants, link, response);
-        let mut sums = own;
-        if !attachment.first {
-            // SAFETY: see the top.
-            sums = unsafe { read(view.sums.add(parent), slots) };
-            add(&mut sums, &own);
-        }
-        // SAFETY: see the top.
-        unsafe { write(&sums, view.sums.add(parent), slots) };
-    }
-
-    /// Writes the accelerations of the pivots of a strip.
-    #[inline(always)]
-    fn hand_down(&self, strip: &Strip) {
-        let (from, to) = strip.attachments;
-        for attachment in self.attachments.get(from..to).unwrap_or_default() {
-            let mut at = 0;
-            while at + V::LANES <= attachment.length {
-                // SAFETY: see the top.
-                unsafe { self.hand_down_at(attachment, at) };
-                at += V::LANES;
-            }
-            let one = Passes::<E, N, T, V::One>::of(self.view);
-            while at < attachment.length {
-                // SAFETY: see the top.
-                unsafe { one.hand_down_at(attachment, at) };
-                at += 1;
-            }
-        }
-    }
-
-    #[inline(always)]
-    unsafe fn hand_down_at(&self, attachment: &Attachment, at: usize) {
-        let (child, parent) = (attachment.child + at, attachment.parent + at);
-        let (view, slots) = (self.view, self.view.slots);
-        // SAFETY: see the top.
-        let (constants, link) = unsafe { (self.constants(child), self.parent(parent)) };
-        // SAFETY: see the top.
-        let carried = unsafe { read(view.sums.add(parent), slots) };
-        let pivot = E::pivot(&constants, link, carried);
-        // SAFETY: see the top.
-        unsafe { write(&pivot, view.responses.add(child), slots) };
-    }
-
-    /// Motions of the links from `at` on, without those of joints.
-    #[inline(always)]
-    unsafe fn parent(&self, at: usize) -> LinkMotion<V> {
-        // SAFETY: see the top.
-        let [sine, cosine]: [V; 2] = unsafe { read(self.view.sincos.add(at), self.view.links) };
-        // SAFETY: see the top.
-        let omega = unsafe { V::read(self.view.omega.add(at)) };
-        LinkMotion {
-            sine,
-            cosine,
-            omega,
-            joint_angle: omega,
-            joint_rate: omega,
+        match Self::BY_LINK {
+            true => self.heights_down(out),
+            false => self.generations_down(out),
         }
     }
 
@@ -505,7 +325,7 @@ const fn branching(copies: &[usize]) -> usize {
 // `map`, `from_fn` and iterators are not always inlined, must be, and are many lines
 // to compile.
 #[inline(always)]
-fn add<V: Scalar, A: Row<V>>(sums: &mut A, terms: &A) {
+pub(super) fn add<V: Scalar, A: Row<V>>(sums: &mut A, terms: &A) {
     let mut i = 0;
     while i < A::LENGTH {
         sums.as_mut()[i] = sums.as_ref()[i] + terms.as_ref()[i];

@@ -26,7 +26,6 @@ pub(super) struct StripView<'a, T> {
     links: usize,
     omega: *const T,
     responses: *mut T,
-    sums: *mut T,
     eliminations: *mut T,
     slots: usize,
     whole: usize,
@@ -76,7 +75,6 @@ impl<'a, T: Scalar> StripView<'a, T> {
             links: view.links,
             omega: view.omega.wrapping_add(first.own),
             responses: view.responses.wrapping_add(first.slot),
-            sums: view.sums.wrapping_add(first.slot),
             eliminations: view.eliminations.wrapping_add(first.slot),
             slots: view.slots,
             whole: first.whole,
@@ -101,12 +99,7 @@ impl<'a, T: Scalar> StripView<'a, T> {
     /// lanes mean nothing.
     #[inline(always)]
     pub(super) fn places<V: Simd<T>>(&self) -> Places {
-        Places {
-            next: 0,
-            step: V::LANES,
-            last: self.length.saturating_sub(V::LANES),
-            length: self.length,
-        }
+        Places::of::<T, V>(self.length)
     }
 
     #[inline(always)]
@@ -201,19 +194,6 @@ impl<'a, T: Scalar> StripView<'a, T> {
         unsafe { write(row, self.eliminations.add(at), self.slots) }
     }
 
-    /// Sums of responses; on the way down, what children are handed.
-    #[inline(always)]
-    pub(super) unsafe fn sums<V: Simd<T>, A: Row<V>>(&self, at: usize) -> A {
-        // SAFETY: see the top.
-        unsafe { read(self.sums.add(at), self.slots) }
-    }
-
-    #[inline(always)]
-    pub(super) unsafe fn carry<V: Simd<T>, A: Row<V>>(&self, at: usize, row: &A) {
-        // SAFETY: see the top.
-        unsafe { write(row, self.sums.add(at), self.slots) }
-    }
-
     /// From one link to the next in the tree: neighbours in lanes stand side by side.
     #[inline(always)]
     fn step<V: Simd<T>>(&self) -> usize {
@@ -261,6 +241,17 @@ pub(super) struct Places {
 }
 
 impl Places {
+    /// Of so many neighbours.
+    #[inline(always)]
+    pub(super) fn of<T, V: Simd<T>>(length: usize) -> Self {
+        Self {
+            next: 0,
+            step: V::LANES,
+            last: length.saturating_sub(V::LANES),
+            length,
+        }
+    }
+
     #[inline(always)]
     pub(super) fn next(&mut self) -> Option<usize> {
         if self.next >= self.length {
