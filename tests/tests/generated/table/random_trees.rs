@@ -3,6 +3,7 @@
 use super::{expected, largest, oracle_of, states};
 use branched_pendulum::prelude::*;
 use branched_pendulum::tree::{LinkEquations, Row, Tree};
+use branched_pendulum_codegen::program::Column;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::source;
 use std::fmt::Write;
@@ -11,11 +12,11 @@ use std::fmt::Write;
 #[branched_pendulum(
     gravity = 1,
     code = loops,
-    trunk: rod(mass = 1, length = 1, friction = 1, drag = 1, spring = 1) [
-        bough: rod(mass = 2, length = 3, friction = 2, drag = 2, spring = 2) [
-            twig: rod(mass = 3, length = 2, friction = 3, drag = 3, spring = 3),
+    trunk(mass = 1, com = 0.7, inertia = 0.3, joint = 1, friction = 1, drag = 1, spring = 1) [
+        bough(mass = 2, com = 1.1, inertia = 1.7, joint = 3, friction = 2, drag = 2, spring = 2) [
+            twig(mass = 3, com = 0.9, inertia = 2.3, friction = 3, drag = 3, spring = 3),
         ],
-        leaf: rod(mass = 4, length = 5, friction = 4, drag = 4, spring = 4),
+        leaf(mass = 4, com = 2.1, inertia = 7, friction = 4, drag = 4, spring = 4),
     ],
 )]
 struct Lender;
@@ -61,6 +62,18 @@ fn write_link(children: &[Vec<usize>], link: usize, random: &mut Random, text: &
     }
 }
 
+/// Columns of constants that the lent equations read.
+fn columns() -> Vec<Column> {
+    let lender = include_str!("random_trees.rs");
+    let (_, rest) = lender
+        .split_once("#[branched_pendulum(")
+        .expect("it is above");
+    let (attribute, _) = rest.split_once(")]\n").expect("it ends");
+    let text = format!("#[branched_pendulum({attribute})] struct Sample;");
+    let strips = source::stages_of(&text).program.strips;
+    strips.expect("loops are asked for").columns
+}
+
 #[test]
 fn random_trees_agree_with_the_closed_form() {
     const LINKS: usize = 24;
@@ -72,6 +85,7 @@ fn random_trees_agree_with_the_closed_form() {
         let stages = source::stages_of(&format!("#[branched_pendulum({text})] struct Sample;"));
         let (scene, program) = (&stages.scene, &stages.program);
         let strips = program.strips.as_ref().expect("loops are asked for");
+        assert_eq!(strips.columns, columns(), "the equations read these");
         let parents = scene.links.iter().map(|link| {
             let parent = link.parent.map_or(0, |parent| parent.0);
             u32::try_from(parent).unwrap()
