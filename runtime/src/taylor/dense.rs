@@ -13,8 +13,8 @@
 use super::elimination::Column;
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::linear::LinearSystem;
-use super::quad::{Pack, Quad};
 use crate::scalar::Scalar;
+use crate::simd::{Pack, Quad};
 
 /// The matrices of a start, by columns.
 pub(super) struct Matrices<T, const N: usize, const Q: usize> {
@@ -159,7 +159,7 @@ fn invert<T: Scalar, P: Pack<T>, const N: usize, const Q: usize>(columns: &mut [
 #[cfg(test)]
 mod tests {
     use super::{invert, product};
-    use crate::taylor::quad::Quad;
+    use crate::simd::Quad;
 
     /// 1/(i + j + 1) + δ_ij, of which the inverse is checked by a product.
     #[test]
