@@ -13,7 +13,7 @@
 //! #     const LINKS: usize = 1;
 //! #     const LINK_NAMES: &'static [&'static str] = &["rod"];
 //! #     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-//! #         T::accelerate(self, time, theta, omega, alpha);
+//! #         self.accelerate(time, theta, omega, alpha);
 //! #     }
 //! # }
 //! # impl<T: Scalar> Cast<T> for Rod<T> {
@@ -50,7 +50,7 @@ mod error;
 use alloc::vec::Vec;
 
 use crate::scalar::dispatch;
-use crate::scalar::{InstructionSet, Lane};
+use crate::scalar::{InstructionSet, Lane, at};
 use crate::system::cast;
 use crate::system::{Cast, Workspace};
 use blocks::Blocks;
@@ -162,13 +162,13 @@ impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
     ) {
         let [own_theta, own_omega, own_alpha] = &mut self.alone;
         for (own, slice) in own_theta.iter_mut().zip(theta) {
-            *own = cast::at(slice.as_ref(), state);
+            *own = at(slice.as_ref(), state);
         }
         for (own, slice) in own_omega.iter_mut().zip(omega) {
-            *own = cast::at(slice.as_ref(), state);
+            *own = at(slice.as_ref(), state);
         }
         if self.instructions == InstructionSet::Build {
-            cast::straight(self.pendulum, time, own_theta, own_omega, own_alpha);
+            cast::unfused(self.pendulum, time, own_theta, own_omega, own_alpha);
         } else {
             let pendulum = self.pendulum;
             let workspace = &mut self.workspace;

@@ -1,11 +1,11 @@
 //! Names that emitted code uses and nobody else. They change without notice
 //! from version to version: expand a scene with the version that runs it.
 
-pub use crate::model::Part;
 pub use crate::requirements::{
     LinkBody, require_finite, require_non_negative, require_positive, require_regular,
 };
 pub use crate::scalar::Turns;
+pub use crate::simd::Part;
 
 /// The recurrences of Taylor coefficients.
 pub mod taylor {

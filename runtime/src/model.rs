@@ -3,8 +3,6 @@
 use core::fmt;
 use core::ops::Add;
 
-use crate::scalar::dispatch::Kernel;
-
 /// Energy transfer W into one mode, in watts, by the part of the rest of the
 /// tree that it comes from: {H_d, K − T} and {H_d, U − V}.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -19,31 +17,6 @@ impl<T: Add<Output = T>> Transfer<T> {
     /// W = W_K + W_P.
     pub fn total(self) -> T {
         self.kinetic + self.potential
-    }
-}
-
-/// A part of an emitted function that is too long to be one.
-#[doc(hidden)]
-pub trait Part<const NUMBER: usize, A> {
-    /// The values that the part hands on.
-    type Output;
-
-    /// Computes it.
-    fn part(&self, arguments: A) -> Self::Output;
-}
-
-/// A [`Part`] with what it gets.
-pub(crate) struct PartOf<'a, const NUMBER: usize, M, A> {
-    pub(crate) model: &'a M,
-    pub(crate) arguments: A,
-}
-
-impl<const NUMBER: usize, A, M: Part<NUMBER, A>> Kernel for PartOf<'_, NUMBER, M, A> {
-    type Output = M::Output;
-
-    #[inline(always)]
-    fn run(self) -> M::Output {
-        self.model.part(self.arguments)
     }
 }
 

@@ -10,6 +10,7 @@
 mod canonical;
 pub(crate) mod cast;
 mod first_integral;
+mod link_name;
 mod taylor;
 mod workspace;
 
@@ -17,13 +18,13 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use crate::scalar::Scalar;
-use crate::tree::LinkName;
 
 pub use canonical::{Canonical, CanonicalVariables};
 pub use cast::Cast;
 #[doc(hidden)]
 pub use cast::InRegisters;
 pub use first_integral::{CanonicalEnergy, FirstIntegral};
+pub use link_name::LinkName;
 pub use taylor::{TaylorOde, TaylorPendulum};
 pub use workspace::Workspace;
 

@@ -161,7 +161,7 @@ impl<T: Scalar> Pendulum<T> for Oscillator<T> {
     const LINK_NAMES: &'static [&'static str] = &["oscillator"];
 
     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        T::accelerate(self, time, theta, omega, alpha);
+        Cast::accelerate(self, time, theta, omega, alpha);
     }
 }
 

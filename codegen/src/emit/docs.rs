@@ -5,9 +5,9 @@ use super::doc_text::{broken, doc_lines};
 use super::formulas::DocFormula;
 use crate::mechanics;
 use crate::mechanics::Counting;
-use crate::mechanics::coordinates::CoordinateKind;
 use crate::mechanics::expression::Expr;
 use crate::program::{Argument, Entry, LinkFunction, Purpose};
+use crate::scene::CoordinateKind;
 use crate::scene::Solve;
 use proc_macro2::TokenStream;
 

@@ -127,7 +127,7 @@ impl Emission<'_> {
                 // In fused arithmetic where the machine has it.
                 #[inline]
                 fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-                    T::accelerate(self, time, theta, omega, alpha);
+                    #runtime::Cast::accelerate(self, time, theta, omega, alpha);
                 }
             }
 

@@ -3,8 +3,8 @@
 
 use super::Emission;
 use crate::mechanics::Counting;
-use crate::mechanics::sectors::{SectorVariables, sectors};
 use crate::program::{Argument, Entry, Purpose};
+use crate::scene::{SectorVariables, sectors};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;

@@ -1,7 +1,6 @@
 //! Runs a derivation as far as the scene asks, and hands out plain data.
 
 use super::algebra::{AlgebraError, Formula};
-use super::coordinates::{self, Coordinate};
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, Symbols};
 use super::frame::{DerivedFrame, MassMatrix};
@@ -12,6 +11,7 @@ use super::{
     Articulation, Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics,
     Observables, TransferFormulas, TransferParts, Truncated, WrittenOut,
 };
+use crate::scene::coordinates::{self, Coordinate};
 use crate::scene::{OrbitId, TransferRequest};
 use std::collections::BTreeMap;
 

@@ -3,11 +3,11 @@
 //! the kinetic energy order by order, without an inverse written out.
 
 use super::algebra::Formula;
-use super::coordinates::{Coordinate, CoordinateKind};
 use super::derivation::{Derivation, Trigonometric};
 use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::print::latex_name;
+use crate::scene::{Coordinate, CoordinateKind};
 
 /// The largest in-phase block whose inverse is also written out, for formulas
 /// that people read.

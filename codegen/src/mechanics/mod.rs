@@ -7,7 +7,6 @@
 pub mod algebra;
 mod articulation;
 mod bracket;
-pub mod coordinates;
 mod derivation;
 mod drive;
 pub mod expression;
@@ -30,9 +29,9 @@ mod symmetric;
 mod transfer;
 mod work_limit;
 
+use crate::scene::Coordinate;
 pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
-pub use coordinates::Coordinate;
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
 pub use inverse_mass::Counting;
@@ -43,7 +42,7 @@ pub use observables::{
     Observables, System,
 };
 pub use print::{latex, text};
-pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics, SectorVariables};
+pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
 pub use work_limit::MOST_TERMS;
 
 use crate::scene::Scene;

@@ -1,11 +1,11 @@
 //! Observables as formulas: a user's expression in the symbols of one frame.
 
 use super::algebra::{AlgebraError, Formula};
-use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::print;
+use crate::scene::Coordinate;
 use crate::scene::{CoordinateIndex, Function, LinkId, Observed, Variable, VariableKind};
 
 /// Meaning of a symbol that stands for a function of an expression.

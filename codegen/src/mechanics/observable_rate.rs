@@ -24,7 +24,6 @@
 //! program forms their values on means and differences.
 
 use super::algebra::{AlgebraError, Formula};
-use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
@@ -35,6 +34,7 @@ use super::observables::{
 };
 use super::print::latex_name;
 use super::rate_symbols::RateSymbols;
+use crate::scene::Coordinate;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The gradients of an observable, in the order of the coordinates.

@@ -1,12 +1,12 @@
 //! Symbols that the rates of observables are written in.
 
 use super::algebra::Formula;
-use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::observables::EnergySymbols;
 use super::print::latex_name;
+use crate::scene::Coordinate;
 use crate::scene::LinkId;
 
 /// Symbols that the rates of one frame are written in.

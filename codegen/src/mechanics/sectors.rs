@@ -1,17 +1,15 @@
 //! Ingredients of the sectors' energies and transfers (physics §3, §5): the
-//! constants of each orbit, once for all its copies, and which coordinates form
-//! a sector.
+//! constants of each orbit, once for all its copies.
 //!
 //! On a nested tree the formulas in symmetric coordinates would fill pages; the
 //! program is formed from these constants by arithmetic on means and
 //! differences instead.
 
 use super::algebra::Formula;
-use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::DerivedFrame;
-use crate::scene::{LinkId, Offset};
+use crate::scene::{Coordinate, LinkId, Offset, SectorVariables, sectors};
 
 /// Constants of the links of one orbit; each is an expression in named
 /// constants, parameters and numbers, zero where the scene has no such thing.
@@ -56,18 +54,6 @@ pub struct OrbitCoupling {
     pub sine: Expr,
 }
 
-/// A sector: the variables that block of the mass matrix couples which belongs
-/// to one branching and one difference, or to all means.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SectorVariables {
-    /// `in_phase`, or the name of its uppermost coordinate.
-    pub name: String,
-    /// Group and number of the difference; `None` for the means.
-    pub difference: Option<(usize, usize)>,
-    /// Indices of its symmetric coordinates, from the root outwards.
-    pub coordinates: Vec<usize>,
-}
-
 /// The mechanics of a scene by orbits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrbitMechanics {
@@ -78,29 +64,6 @@ pub struct OrbitMechanics {
     /// The sectors: the in-phase one, then the differences, outer branchings
     /// first.
     pub sectors: Vec<SectorVariables>,
-}
-
-/// The sectors of a set of symmetric coordinates.
-pub fn sectors(coordinates: &[Coordinate]) -> Vec<SectorVariables> {
-    let mut sectors: Vec<SectorVariables> = Vec::new();
-    for (index, coordinate) in coordinates.iter().enumerate() {
-        let (_, difference) = coordinate.kind.orbit_and_difference();
-        match sectors
-            .iter_mut()
-            .find(|sector| sector.difference == difference)
-        {
-            Some(sector) => sector.coordinates.push(index),
-            None => sectors.push(SectorVariables {
-                name: match difference {
-                    None => "in_phase".to_owned(),
-                    Some(_) => coordinate.name.clone(),
-                },
-                difference,
-                coordinates: vec![index],
-            }),
-        }
-    }
-    sectors
 }
 
 impl Derivation<'_> {

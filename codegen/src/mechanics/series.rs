@@ -7,13 +7,13 @@
 //! bracket with the expanded Hamiltonian gives to low orders must come out.
 
 use super::algebra::Formula;
-use super::coordinates::Coordinate;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::inverse_mass::{Counting, DerivedExpansion};
 use super::print::latex_name;
 use super::transfer::{DerivedParts, SubHamiltonian};
+use crate::scene::Coordinate;
 
 /// Velocities of one order as symbols, and what defines them.
 pub(super) struct DerivedCorrection {

@@ -1,11 +1,11 @@
 //! A scene's mechanics as text, for `expand --stage mechanics`.
 
-use super::coordinates::CoordinateKind;
 use super::expression::{Expr, SymbolId};
 use super::{
     Counting, DriveTerms, Frame, LinkBalance, MatrixEntry, Mechanics, OrbitMechanics, Temporal,
     TransferParts, text,
 };
+use crate::scene::CoordinateKind;
 use std::fmt;
 
 impl fmt::Display for Mechanics {

@@ -2,10 +2,10 @@
 //! the absolute one.
 
 use super::algebra::Formula;
-use super::coordinates::{Coordinate, CoordinateKind};
 use super::derivation::Derivation;
 use super::expression::SymbolId;
 use super::frame::{DerivedFrame, MassMatrix};
+use crate::scene::{Coordinate, CoordinateKind};
 use crate::scene::{Group, LinkId};
 use std::collections::BTreeMap;
 

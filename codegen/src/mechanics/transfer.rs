@@ -2,12 +2,12 @@
 //! (physics §5).
 
 use super::algebra::Formula;
-use super::coordinates::{Coordinate, CoordinateKind};
 use super::derivation::Derivation;
 use super::expression::SymbolId;
 use super::frame::DerivedFrame;
 use super::inverse_mass::{Counting, DerivedExpansion};
 use crate::scene::LinkId;
+use crate::scene::{Coordinate, CoordinateKind};
 
 /// W split into what the kinetic and what the potential energy of the rest of
 /// the tree do.

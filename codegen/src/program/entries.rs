@@ -2,9 +2,9 @@
 
 use super::lower::{Door, Lowering};
 use super::{Argument, Choice, Entry, Operations, Purpose, Shape, Strips, ValueId};
-use crate::mechanics::coordinates::CoordinateKind;
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{Counting, Frame, MatrixEntry, Mechanics, TransferFormulas, TransferParts};
+use crate::scene::CoordinateKind;
 use crate::scene::{LinkId, Scene, Solve};
 
 /// Entry points, the solve that they take, and the constants by strip.

@@ -13,6 +13,7 @@
 //! - what `requests` asks for can be derived for this tree.
 
 mod bodies;
+pub mod coordinates;
 mod drive;
 mod expand;
 mod layout;
@@ -25,12 +26,14 @@ mod quantity;
 mod requests;
 mod resolve;
 mod rule;
+mod sectors;
 mod singular;
 mod symbols;
 mod template;
 mod text;
 mod values;
 
+pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, TimeFunction};
 pub use layout::Layout;
 pub use names::is_keyword;
@@ -40,6 +43,7 @@ pub use observables::{
 };
 pub use quantity::Quantity;
 pub use resolve::resolve;
+pub use sectors::{SectorVariables, sectors};
 
 /// Index of a link in [`Scene::links`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

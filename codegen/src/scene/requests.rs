@@ -5,11 +5,11 @@ use std::ops::RangeInclusive;
 
 use proc_macro2::{Ident, Span};
 
+use super::coordinates::symmetric_coordinates;
 use super::expand::ExpandedTree;
+use super::sectors::sectors;
 use super::{BudgetRequest, LinkId, Requests, Scene, Solve, TransferRequest};
 use crate::description::{Request, RequestForm};
-use crate::mechanics::coordinates::symmetric_coordinates;
-use crate::mechanics::sectors::sectors;
 use crate::report::{Message, Report, nearest};
 
 /// All outputs.

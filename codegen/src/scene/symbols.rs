@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use super::coordinates::symmetric_coordinates;
 use super::observables::{CoordinateIndex, Observed, Variable, VariableKind};
 use super::{LinkId, ParameterId, Quantity, Scene};
-use crate::mechanics::coordinates::symmetric_coordinates;
 
 /// The meaning of a name.
 pub(super) enum Meaning {
@@ -37,7 +37,7 @@ impl ObservableSymbols {
         }
         // The mean of a single link is its own angle.
         let shared = |(_, coordinate): &(usize, _)| {
-            let coordinate: &crate::mechanics::Coordinate = coordinate;
+            let coordinate: &super::Coordinate = coordinate;
             coordinate.weights.len() > 1
         };
         if !scene.groups.is_empty() {

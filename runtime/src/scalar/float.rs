@@ -7,8 +7,7 @@ use super::{InstructionSet, Real, Scalar, sincos};
 #[cfg(target_arch = "x86_64")]
 use crate::simd as register;
 use crate::simd::{Kernel, dispatch};
-use crate::system::cast::{self, Cast};
-use crate::taylor::{Kernel as TaylorKernel, run_f64};
+use crate::simd::{PackKernel, StateKernel, run_f64};
 
 macro_rules! implement_scalar {
     ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
@@ -47,19 +46,19 @@ macro_rules! implement_scalar {
             }
 
             #[inline(always)]
-            fn accelerate<P: Cast<Self>>(
-                pendulum: &P,
+            fn run_state<K: StateKernel<Self>>(
+                model: &K::Model,
                 time: Self,
                 theta: &[Self],
                 omega: &[Self],
-                alpha: &mut [Self],
-            ) {
-                cast::fused(pendulum, time, theta, omega, alpha);
+                out: &mut [Self],
+            ) -> bool {
+                dispatch::run_state::<Self, K>(model, time, theta, omega, out)
             }
 
             $(
                 #[inline(always)]
-                fn run_packs<K: TaylorKernel<Self>>(kernel: K) {
+                fn run_packs<K: PackKernel<Self>>(kernel: K) {
                     $packs(kernel);
                 }
             )?

@@ -49,6 +49,7 @@ mod wide;
 pub use dual::Dual;
 pub use lanes::{Lane, Lanes};
 #[doc(hidden)]
+pub(crate) use turns::at;
 pub use turns::{Turned, Turns};
 pub use wide::Double;
 
@@ -61,10 +62,9 @@ pub(crate) use lanes::Sealed;
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-use crate::model::Part;
 use crate::simd::Kernel;
-use crate::system::cast::{self, Cast};
-use crate::taylor::{Kernel as TaylorKernel, Quad};
+use crate::simd::Part;
+use crate::simd::{PackKernel, Quad, StateKernel};
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
@@ -195,26 +195,26 @@ pub trait Scalar:
         model.part(arguments)
     }
 
-    /// What [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into)
-    /// of emitted models does: their arithmetic in these numbers, or in those of
-    /// the machine that are sooner done.
+    /// Runs a computation on one state in fused arithmetic. Returns false, and does
+    /// nothing, where the type or the machine has none.
     #[doc(hidden)]
     #[inline(always)]
-    fn accelerate<P: Cast<Self>>(
-        pendulum: &P,
+    fn run_state<K: StateKernel<Self>>(
+        model: &K::Model,
         time: Self,
         theta: &[Self],
         omega: &[Self],
-        alpha: &mut [Self],
-    ) {
-        cast::straight(pendulum, time, theta, omega, alpha);
+        out: &mut [Self],
+    ) -> bool {
+        let _ = (model, time, theta, omega, out);
+        false
     }
 
     /// Runs a computation of Taylor coefficients in the vector instructions
     /// that the machine has for this type.
     #[doc(hidden)]
     #[inline(always)]
-    fn run_packs<K: TaylorKernel<Self>>(kernel: K) {
+    fn run_packs<K: PackKernel<Self>>(kernel: K) {
         kernel.run::<Quad<Self>>();
     }
 }

@@ -7,7 +7,6 @@
 //! a slower function.
 
 use super::Scalar;
-use crate::system::cast::at;
 
 /// Sines and cosines, in the order of their angles.
 pub type Turned<T, const N: usize> = ([T; N], [T; N]);
@@ -37,5 +36,15 @@ impl<T: Scalar, const N: usize> Turns<T, N> {
             turned.1[place] = at(cosines, index);
         }
         turned
+    }
+}
+
+/// The element at an index, or NaN beyond the end: in place of a panic in what
+/// emitted code never does.
+#[inline(always)]
+pub(crate) fn at<T: Scalar>(numbers: &[T], index: usize) -> T {
+    match numbers.get(index) {
+        Some(number) => *number,
+        None => T::from_f64(f64::NAN),
     }
 }

@@ -3,7 +3,7 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Register;
-use crate::model::Part;
+use super::part::Part;
 use crate::scalar::Scalar;
 
 /// `N` registers that go through one computation in step: while an operation on

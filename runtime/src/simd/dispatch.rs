@@ -22,6 +22,7 @@ use portable as machine;
 use x86 as machine;
 
 use super::Register;
+use super::{Fused, Simd};
 use crate::scalar::{Lane, Sealed};
 
 /// Vector instructions that a build can choose among at run time.
@@ -99,7 +100,7 @@ pub(crate) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
 /// that goes in the processor's registers, where a structure would go through memory.
 // Where there is nothing to choose from, nothing calls it.
 #[cfg_attr(not(all(feature = "std", target_arch = "x86_64")), allow(dead_code))]
-pub(crate) trait StateKernel<T> {
+pub trait StateKernel<T> {
     /// Whose state it is.
     type Model;
 
@@ -110,8 +111,9 @@ pub(crate) trait StateKernel<T> {
     /// own, which are compiled for AVX2: then so is the rest.
     const IN_PARTS: bool = Self::LINKS > 63;
 
-    /// Computes `out`. What it calls profits only as far as it is inlined.
-    fn run(model: &Self::Model, time: T, theta: &[T], omega: &[T], out: &mut [T]);
+    /// Computes `out` in one kind of numbers. What it calls profits only as far as it is
+    /// inlined.
+    fn run<V: Simd<T>>(model: &Self::Model, time: T, theta: &[T], omega: &[T], out: &mut [T]);
 }
 
 /// Runs `K` with the widest instructions that fuse: 512 bits have twice as many
@@ -124,7 +126,10 @@ pub(crate) fn run_state<T, K: StateKernel<T>>(
     theta: &[T],
     omega: &[T],
     out: &mut [T],
-) -> bool {
+) -> bool
+where
+    Fused<T>: Simd<T>,
+{
     machine::run_state::<T, K>(model, time, theta, omega, out)
 }
 

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::model::Part;
+use super::part::Part;
 use crate::scalar::Scalar;
 
 /// A number, which may bring its sine and cosine along: code written for any number

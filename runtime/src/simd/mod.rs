@@ -15,15 +15,20 @@ mod block;
 pub(crate) mod dispatch;
 mod known;
 mod one;
+mod part;
 mod permutation;
 mod plain;
+mod quad;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub(crate) use block::Block;
-pub use dispatch::InstructionSet;
+pub use dispatch::{InstructionSet, StateKernel};
 pub(crate) use known::Known;
 pub use one::Fused;
+pub use part::Part;
+pub(crate) use quad::{OneLink, run_f64, two_sum};
+pub use quad::{Pack, PackKernel, Quad};
 #[cfg(target_arch = "x86_64")]
 pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 

@@ -4,8 +4,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::part::{Part, PartOf};
 use super::{Register, Simd, dispatch};
-use crate::model::{Part, PartOf};
 use crate::scalar::Scalar;
 use crate::scalar::sincos::fused;
 

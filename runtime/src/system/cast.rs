@@ -2,9 +2,8 @@
 
 use core::marker::PhantomData;
 
-use crate::scalar::Scalar;
-use crate::scalar::dispatch::{self, StateKernel};
-use crate::scalar::register::{Fused, Register};
+use crate::scalar::{Scalar, at};
+use crate::simd::{Register, Simd, StateKernel};
 
 use super::Pendulum;
 
@@ -29,7 +28,7 @@ use super::Pendulum;
 ///     const LINK_NAMES: &'static [&'static str] = &["rod"];
 ///
 ///     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-///         T::accelerate(self, time, theta, omega, alpha);
+///         self.accelerate(time, theta, omega, alpha);
 ///     }
 /// }
 ///
@@ -97,6 +96,21 @@ pub trait Cast<T: Scalar>: Pendulum<T> {
         0
     }
 
+    /// Writes the angular accelerations as
+    /// [`Pendulum::accelerations_into`] of emitted models does: in fused
+    /// arithmetic where the type and the machine have it, otherwise in that of `T`.
+    #[inline(always)]
+    fn accelerate(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T])
+    where
+        Self: Sized,
+    {
+        if fit::<T, Self>(theta, omega, alpha)
+            && !T::run_state::<OneState<Self>>(self, time, theta, omega, alpha)
+        {
+            unfused(self, time, theta, omega, alpha);
+        }
+    }
+
     /// The form in which a [`Batch`](crate::batch::Batch) computes at `time`:
     /// this pendulum in registers, or where that would be large, something that
     /// takes its numbers as they are needed.
@@ -141,16 +155,6 @@ impl<R: Scalar, P: Cast<R>> InRegisters<R> for CastPendulum<P, R> {
     }
 }
 
-/// The element at an index, or NaN beyond the end: in place of a panic in what
-/// emitted code never does.
-#[inline(always)]
-pub(crate) fn at<T: Scalar>(numbers: &[T], index: usize) -> T {
-    match numbers.get(index) {
-        Some(number) => *number,
-        None => T::from_f64(f64::NAN),
-    }
-}
-
 /// Writes the element at an index; nothing beyond the end, as [`at`] reads NaN
 /// there.
 #[inline(always)]
@@ -171,10 +175,10 @@ fn fit<T: Scalar, P: Pendulum<T>>(theta: &[T], omega: &[T], alpha: &mut [T]) -> 
     fit
 }
 
-/// Accelerations in the arithmetic of `T`. Long ones are compiled once, not in
+/// Writes accelerations in the arithmetic of `T`. Long ones are compiled once, not in
 /// every place that falls back to them.
 #[inline]
-pub(crate) fn straight<T: Scalar, P: Cast<T>>(
+pub(crate) fn unfused<T: Scalar, P: Cast<T>>(
     pendulum: &P,
     time: T,
     theta: &[T],
@@ -191,47 +195,29 @@ pub(crate) fn straight<T: Scalar, P: Cast<T>>(
     }
 }
 
-/// Accelerations in fused arithmetic, where the machine has it.
-#[inline(always)]
-pub(crate) fn fused<T: Scalar, P: Cast<T>>(
-    pendulum: &P,
-    time: T,
-    theta: &[T],
-    omega: &[T],
-    alpha: &mut [T],
-) where
-    Fused<T>: Scalar,
-{
-    if !fit::<T, P>(theta, omega, alpha) {
-        return;
-    }
-    if !dispatch::run_state::<T, OneState<P>>(pendulum, time, theta, omega, alpha) {
-        straight(pendulum, time, theta, omega, alpha);
-    }
-}
-
 /// The accelerations of one state, its slices as long as there are links.
 struct OneState<P>(PhantomData<P>);
 
-impl<T: Scalar, P: Cast<T>> StateKernel<T> for OneState<P>
-where
-    Fused<T>: Scalar,
-{
+impl<T: Scalar, P: Cast<T>> StateKernel<T> for OneState<P> {
     type Model = P;
 
     const LINKS: usize = P::LINKS;
 
     #[inline(always)]
-    fn run(pendulum: &P, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+    fn run<V: Simd<T>>(pendulum: &P, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
         // Known already, and known again to the compiler of this function.
         if !fit::<T, P>(theta, omega, alpha) {
             return;
         }
-        pendulum.cast(Fused).evaluate(
-            Fused(time),
-            |i| Fused(at(theta, i)),
-            |i| Fused(at(omega, i)),
-            |i, value| put(alpha, i, value.0),
+        pendulum.cast(V::splat).evaluate(
+            V::splat(time),
+            |i| V::splat(at(theta, i)),
+            |i| V::splat(at(omega, i)),
+            |i, value| {
+                if let Some(rest) = alpha.get_mut(i..) {
+                    value.store(rest);
+                }
+            },
         );
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{AbsoluteAngles, Cast, Ode};
 use crate::scalar::Scalar;
-use crate::taylor::Quad;
+use crate::simd::Quad;
 
 /// A pendulum whose motion is expanded in powers of the time: what emitted code
 /// implements where `emit(taylor)` asks for it.

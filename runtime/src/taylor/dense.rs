@@ -13,8 +13,8 @@
 use super::elimination::Column;
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::linear::LinearSystem;
-use super::quad::{Pack, Quad};
 use crate::scalar::Scalar;
+use crate::simd::{Pack, Quad};
 
 /// The matrices of a start, by columns.
 pub(super) struct Matrices<T, const N: usize, const Q: usize> {
@@ -29,30 +29,52 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<
         start: &Start<'_, T, N>,
         constants: &LinkConstants<T, N>,
     ) -> Self {
-        let empty = [[Quad::splat(T::from_f64(0.0)); Q]; N];
-        let (mut mass, mut turning) = (empty, empty);
-        let (sines, cosines) = (&start.sines, &start.cosines);
+        let zero = Quad::splat(T::from_f64(0.0));
+        let (mut along, mut across) = ([[zero; Q]; N], [[zero; Q]; N]);
         for j in 0..N {
-            mass[j][j / 4].0[j % 4] = constants.inertias[j];
             let [h, e] = constants.moments[j];
             let mut branch = j;
             while branch > 0 {
                 let i = C::PARENTS[branch];
                 let [l, w] = constants.attachments[branch];
-                let cos_between = cosines[i] * cosines[j] + sines[i] * sines[j];
-                let sin_between = sines[i] * cosines[j] - cosines[i] * sines[j];
-                let mut entry = l * h * cos_between;
-                let mut slope = l * h * sin_between;
+                let mut coupling = l * h;
                 if C::LATERAL {
-                    let (along, across) = (w * e, l * e - w * h);
-                    entry = entry + along * cos_between + across * sin_between;
-                    slope = slope + along * sin_between - across * cos_between;
+                    coupling = coupling + w * e;
+                    let sideways = l * e - w * h;
+                    across[j][i / 4].0[i % 4] = sideways;
+                    across[i][j / 4].0[j % 4] = -sideways;
                 }
-                mass[j][i / 4].0[i % 4] = entry;
-                mass[i][j / 4].0[j % 4] = entry;
-                turning[j][i / 4].0[i % 4] = slope;
-                turning[i][j / 4].0[j % 4] = -slope;
+                along[j][i / 4].0[i % 4] = coupling;
+                along[i][j / 4].0[j % 4] = coupling;
                 branch = i;
+            }
+        }
+        let (mut sines, mut cosines) = ([zero; Q], [zero; Q]);
+        for i in 0..N {
+            sines[i / 4].0[i % 4] = start.sines[i];
+            cosines[i / 4].0[i % 4] = start.cosines[i];
+        }
+        let (mut mass, mut turning) = ([[zero; Q]; N], [[zero; Q]; N]);
+        for j in 0..N {
+            let (cosine, sine) = (P::splat(start.cosines[j]), P::splat(start.sines[j]));
+            // Not written into the column afterwards: that would have to reach the
+            // memory before the column can be read.
+            let mut diagonal = [zero; Q];
+            diagonal[j / 4].0[j % 4] = constants.inertias[j];
+            for m in 0..Q {
+                let (sines, cosines) = (P::load(&sines, m), P::load(&cosines, m));
+                let cos_between = cosines.times(cosine).plus_product(sines, sine);
+                let sin_between = sines.times(cosine).minus_product(cosines, sine);
+                let coupling = P::load(&along[j], m);
+                let mut entry = P::load(&diagonal, m).plus_product(coupling, cos_between);
+                let mut slope = coupling.times(sin_between);
+                if C::LATERAL {
+                    let sideways = P::load(&across[j], m);
+                    entry = entry.plus_product(sideways, sin_between);
+                    slope = slope.minus_product(sideways, cos_between);
+                }
+                entry.store(&mut mass[j], m);
+                slope.store(&mut turning[j], m);
             }
         }
         let mut inverse = mass;
@@ -159,7 +181,7 @@ fn invert<T: Scalar, P: Pack<T>, const N: usize, const Q: usize>(columns: &mut [
 #[cfg(test)]
 mod tests {
     use super::{invert, product};
-    use crate::taylor::quad::Quad;
+    use crate::simd::Quad;
 
     /// 1/(i + j + 1) + δ_ij, of which the inverse is checked by a product.
     #[test]

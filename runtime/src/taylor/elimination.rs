@@ -27,8 +27,8 @@
 
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::linear::LinearSystem;
-use super::quad::{Pack, Quad};
 use crate::scalar::Scalar;
+use crate::simd::{Pack, Quad};
 
 /// A number of each link.
 pub(super) type Column<T, const Q: usize> = [Quad<T>; Q];

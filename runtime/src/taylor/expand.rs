@@ -20,9 +20,9 @@ use super::bias::{Bias, Constant, Moving};
 use super::dense::Matrices;
 use super::elimination::Elimination;
 use super::orders::Orders;
-use super::quad::{OneLink, Quad};
 use super::series::SERIES;
 use crate::scalar::Scalar;
+use crate::simd::{OneLink, Quad};
 
 /// Says which link of a tree hangs on which.
 pub trait Connectivity<const N: usize> {

@@ -1,7 +1,7 @@
 //! What an order asks of the equations of motion.
 
 use super::expand::{Connectivity, LinkConstants, Start};
-use super::quad::Pack;
+use crate::simd::Pack;
 
 /// The equations X, Y = linear functions of S, C at a start, solved for S and Y.
 pub(super) trait LinearSystem<T, const N: usize>: Sized {

@@ -15,7 +15,6 @@ mod elimination;
 mod expand;
 mod linear;
 mod orders;
-mod quad;
 mod reciprocal;
 mod refine;
 mod series;
@@ -23,9 +22,6 @@ mod sums;
 #[cfg(test)]
 mod tests;
 
+pub use crate::simd::Quad;
 pub use expand::{Connectivity, KnownOrder, LinkConstants, Start, expand, workspace};
-pub use quad::Quad;
-#[doc(hidden)]
-pub use quad::{Kernel, Pack};
-pub(crate) use quad::{run_f64, two_sum};
 pub use sums::{Factors, rows, sums, whole};

@@ -15,11 +15,11 @@ use super::bias::Bias;
 use super::elimination::Column;
 use super::expand::{Connectivity, KnownOrder, LinkConstants, Start};
 use super::linear::LinearSystem;
-use super::quad::{Kernel, Pack, Quad};
 use super::reciprocal::Reciprocal;
 use super::refine::residual;
 use super::series::{Row, SeriesSums};
 use crate::scalar::Scalar;
+use crate::simd::{Pack, PackKernel, Quad};
 use core::marker::PhantomData;
 
 /// From this order on the accelerations at the start are refined: the order for
@@ -37,7 +37,7 @@ pub(super) struct Orders<'a, T, C, B, L, const N: usize, const Q: usize, const M
     kind: PhantomData<(C, L)>,
 }
 
-impl<T, C, B, L, const N: usize, const Q: usize, const M: usize> Kernel<T>
+impl<T, C, B, L, const N: usize, const Q: usize, const M: usize> PackKernel<T>
     for Orders<'_, T, C, B, L, N, Q, M>
 where
     T: Scalar,

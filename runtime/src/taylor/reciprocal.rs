@@ -1,7 +1,7 @@
 //! Divisions by the order.
 
-use super::quad::Pack;
 use crate::scalar::Scalar;
+use crate::simd::Pack;
 
 /// 1/n in two parts: a rounded reciprocal would be wrong by the same amount in
 /// every step of a run.

@@ -16,8 +16,8 @@
 use super::elimination::Column;
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::orders::packs;
-use super::quad::{Pack, Quad, two_sum};
 use crate::scalar::Scalar;
+use crate::simd::{Pack, Quad, two_sum};
 
 /// Returns what accelerations leave of the equation of motion, in the units of the
 /// tree's constants.

@@ -2,8 +2,8 @@
 //!
 //! Order k of a product of series is a sum over the rows j and k − j.
 
-use super::quad::{Pack, Quad};
 use crate::scalar::Scalar;
+use crate::simd::{Pack, Quad};
 
 /// Series that are kept: ω, γ, σ, X, Y. Row r has order r of ω, r + 1 of γ and σ,
 /// r − 1 of X and Y, so that all sums of order k run over rows j and k − j.

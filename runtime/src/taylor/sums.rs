@@ -1,7 +1,7 @@
 //! Sums of products of series, for functions of the time.
 
-use super::quad::Quad;
 use crate::scalar::Scalar;
+use crate::simd::Quad;
 
 /// The factors of the products of one order: left ones, right ones.
 pub type Factors<T, const Q: usize> = [[Quad<T>; Q]; 2];

@@ -38,7 +38,6 @@ mod interface;
 mod layout;
 mod memory;
 mod motion;
-mod name;
 mod partition;
 mod plan;
 mod prefetch;
@@ -55,9 +54,9 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 use core::num::NonZeroUsize;
 
+pub use crate::system::LinkName;
 pub use bodies::{Bodies, Shape};
 pub use equations::{LinkEquations, LinkMotion, Row};
-pub use name::LinkName;
 pub use root::RootDrive;
 
 use crate::scalar::{Register, Scalar};

@@ -20,7 +20,7 @@ impl<T: Scalar> Pendulum<T> for Sines {
     const LINK_NAMES: &'static [&'static str] = &["sine", "cosine"];
 
     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        T::accelerate(self, time, theta, omega, alpha);
+        Cast::accelerate(self, time, theta, omega, alpha);
     }
 }
 

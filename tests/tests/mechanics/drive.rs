@@ -6,8 +6,8 @@ mod shaken;
 
 use std::f64::consts::PI;
 
-use branched_pendulum_codegen::mechanics::coordinates::CoordinateKind;
 use branched_pendulum_codegen::scene::Solve;
+use branched_pendulum_codegen::scene::coordinates::CoordinateKind;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::constrained;
 use branched_pendulum_tests::oracle::drive::{Jet, Push, Signal};

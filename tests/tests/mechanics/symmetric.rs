@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-use branched_pendulum_codegen::mechanics::coordinates::CoordinateKind;
+use branched_pendulum_codegen::scene::coordinates::CoordinateKind;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, Sample, sample};
 use branched_pendulum_tests::random::Random;

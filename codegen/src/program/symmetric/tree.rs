@@ -2,7 +2,7 @@
 
 use super::sector::SectorId;
 use crate::exact::Rational;
-use crate::mechanics::Coordinate;
+use crate::scene::Coordinate;
 use crate::scene::{LinkId, Scene};
 use std::collections::BTreeMap;
 

@@ -17,10 +17,11 @@ use crate::integrate::lanes::registers::{
 };
 use crate::integrate::lanes::{Flags, LaneMethod, Models, Runs, Stepper};
 use crate::integrate::options::Options;
-use crate::model::Part;
+use crate::scalar::at;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
-use crate::system::cast::{at, put};
+use crate::simd::Part;
+use crate::system::cast::put;
 use crate::system::{Cast, State};
 
 impl<M: Pair, P: Cast<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKutta<M, T> {

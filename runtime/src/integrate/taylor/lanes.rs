@@ -16,11 +16,11 @@ use crate::integrate::lanes::registers::{
 use crate::integrate::lanes::{Flags, LaneMethod, Models, Runs, Stepper};
 use crate::integrate::options::Options;
 use crate::integrate::sum::two_sum;
-use crate::model::Part;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
+use crate::simd::Part;
+use crate::simd::Quad;
 use crate::system::{Cast, State, TaylorPendulum};
-use crate::taylor::Quad;
 
 impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
     type Stepper<'a, R: Register<Lane = T>> = Lanes<'a, P, R>;

@@ -9,7 +9,7 @@ use crate::integrate::dense::{DenseError, Interpolant};
 use crate::integrate::options::Options;
 use crate::integrate::request::all_finite;
 use crate::scalar::Real;
-use crate::taylor::Quad;
+use crate::simd::Quad;
 
 /// Workspace for a state of fixed dimension and polynomials of fixed order.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 //! instructions that the machine has for the numbers.
 
 use crate::scalar::Real;
-use crate::taylor::{Kernel, Pack, Quad, two_sum};
+use crate::simd::{Pack, PackKernel, Quad, two_sum};
 
 /// Writes `start` + Σ y\[k\] τᵏ over k ≥ 1.
 pub(super) struct Ahead<'a, T> {
@@ -15,7 +15,7 @@ pub(super) struct Ahead<'a, T> {
     pub(super) residues: Option<(&'a [T], &'a mut [T])>,
 }
 
-impl<T: Real> Kernel<T> for Ahead<'_, T> {
+impl<T: Real> PackKernel<T> for Ahead<'_, T> {
     #[inline(always)]
     fn run<P: Pack<T>>(mut self) {
         let n = self.start.len();
@@ -91,7 +91,7 @@ pub(super) struct LastTerms<'a, T> {
     pub(super) ratios: &'a mut [T; 2],
 }
 
-impl<T: Real> Kernel<T> for LastTerms<'_, T> {
+impl<T: Real> PackKernel<T> for LastTerms<'_, T> {
     #[inline(always)]
     fn run<P: Pack<T>>(self) {
         let mut largest = [[T::ZERO; 4]; 2];

@@ -2,6 +2,7 @@
 
 use core::marker::PhantomData;
 
+use super::super::{Fused, Simd};
 use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel};
 
 #[inline(always)]
@@ -21,7 +22,10 @@ pub(super) fn run_state<T, K: StateKernel<T>>(
     _theta: &[T],
     _omega: &[T],
     _out: &mut [T],
-) -> bool {
+) -> bool
+where
+    Fused<T>: Simd<T>,
+{
     false
 }
 

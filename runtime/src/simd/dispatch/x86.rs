@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 use core::slice;
 use core::sync::atomic::{AtomicU8, Ordering};
 
+use super::super::{Fused, Simd};
 use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel};
 
 /// 0 before the first question, then 1 + the answer.
@@ -70,7 +71,10 @@ pub(super) fn run_state<T, K: StateKernel<T>>(
     theta: &[T],
     omega: &[T],
     out: &mut [T],
-) -> bool {
+) -> bool
+where
+    Fused<T>: Simd<T>,
+{
     if theta.len() != K::LINKS || omega.len() != K::LINKS || out.len() != K::LINKS {
         return false;
     }
@@ -103,7 +107,9 @@ unsafe fn state_avx2<T, K: StateKernel<T>>(
     theta: *const T,
     omega: *const T,
     out: *mut T,
-) {
+) where
+    Fused<T>: Simd<T>,
+{
     // SAFETY: the caller's.
     unsafe { state::<T, K>(model, time, theta, omega, out) }
 }
@@ -116,7 +122,9 @@ unsafe fn state_avx512<T, K: StateKernel<T>>(
     theta: *const T,
     omega: *const T,
     out: *mut T,
-) {
+) where
+    Fused<T>: Simd<T>,
+{
     // SAFETY: the caller's.
     unsafe { state::<T, K>(model, time, theta, omega, out) }
 }
@@ -134,7 +142,9 @@ unsafe fn state<T, K: StateKernel<T>>(
     theta: *const T,
     omega: *const T,
     out: *mut T,
-) {
+) where
+    Fused<T>: Simd<T>,
+{
     // SAFETY: the caller's.
     let (theta, omega, out) = unsafe {
         (
@@ -143,7 +153,7 @@ unsafe fn state<T, K: StateKernel<T>>(
             slice::from_raw_parts_mut(out, K::LINKS),
         )
     };
-    K::run(model, time, theta, omega, out);
+    K::run::<Fused<T>>(model, time, theta, omega, out);
 }
 
 #[inline(always)]

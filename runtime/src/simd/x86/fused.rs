@@ -3,9 +3,9 @@
 
 use core::arch::x86_64::*;
 
+use super::super::part::{Part, PartOf};
 use super::super::{Simd, dispatch};
 use super::{F32x8, F32x16, F64x4, F64x8};
-use crate::model::{Part, PartOf};
 use crate::scalar::sincos::{double, fused};
 use crate::scalar::{Scalar, Turned};
 

@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-use branched_pendulum_codegen::mechanics::coordinates::{Coordinate, symmetric_coordinates};
 use branched_pendulum_codegen::report::Report;
+use branched_pendulum_codegen::scene::coordinates::{Coordinate, symmetric_coordinates};
 use branched_pendulum_codegen::{description, scene};
 use branched_pendulum_tests::oracle::Tree;
 use branched_pendulum_tests::oracle::cartesian::Motion;

@@ -57,7 +57,7 @@ impl<T: Scalar> Pendulum<T> for Lopsided<T> {
     const LINK_NAMES: &'static [&'static str] = &["first", "second"];
 
     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        T::accelerate(self, time, theta, omega, alpha);
+        Cast::accelerate(self, time, theta, omega, alpha);
     }
 }
 

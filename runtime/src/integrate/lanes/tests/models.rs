@@ -148,7 +148,7 @@ impl<T: Scalar> Pendulum<T> for Uneven<T> {
     const LINK_NAMES: &'static [&'static str] = &["rod"];
 
     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        T::accelerate(self, time, theta, omega, alpha);
+        Cast::accelerate(self, time, theta, omega, alpha);
     }
 }
 

@@ -195,12 +195,12 @@ pub(crate) fn two_sum<T, P: Pack<T>>(a: P, b: P) -> (P, P) {
 
 /// Runs `kernel` with the vector instructions that the machine has for `f64`.
 #[inline(always)]
-pub(crate) fn run_f64<K: Kernel<f64>>(kernel: K) {
+pub(crate) fn run_f64<K: PackKernel<f64>>(kernel: K) {
     machine::run(kernel);
 }
 
 /// A computation in packs.
-pub trait Kernel<T> {
+pub trait PackKernel<T> {
     /// Computes.
     fn run<P: Pack<T>>(self);
 }
@@ -213,32 +213,30 @@ mod machine {
         _mm256_mul_pd, _mm256_permute4x64_pd, _mm256_set1_pd, _mm256_store_pd, _mm256_sub_pd,
     };
 
-    use super::{Kernel, Pack, Quad};
+    use super::{Pack, PackKernel, Quad};
+    use crate::simd::InstructionSet;
 
     #[inline(always)]
-    pub(super) fn run<K: Kernel<f64>>(kernel: K) {
-        if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512vl") {
-            // SAFETY: the machine has the two features that the function
-            // enables.
-            unsafe { in_more_registers(kernel) }
-        } else if std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma") {
-            // SAFETY: the machine has the two features that the function
-            // enables.
-            unsafe { fused(kernel) }
-        } else {
-            kernel.run::<Quad<f64>>();
+    pub(super) fn run<K: PackKernel<f64>>(kernel: K) {
+        match InstructionSet::widest() {
+            InstructionSet::Build => kernel.run::<Quad<f64>>(),
+            // SAFETY: the machine has what the functions are compiled for, since
+            // `widest` has asked for it.
+            InstructionSet::Avx2 => unsafe { fused(kernel) },
+            // SAFETY: likewise.
+            InstructionSet::Avx512 => unsafe { in_more_registers(kernel) },
         }
     }
 
     /// As [`fused`], bit for bit, with thirty-two registers instead of sixteen:
     /// what does not fit waits for the memory.
     #[target_feature(enable = "avx512f,avx512vl")]
-    fn in_more_registers<K: Kernel<f64>>(kernel: K) {
+    fn in_more_registers<K: PackKernel<f64>>(kernel: K) {
         kernel.run::<Register>();
     }
 
     #[target_feature(enable = "avx2,fma")]
-    fn fused<K: Kernel<f64>>(kernel: K) {
+    fn fused<K: PackKernel<f64>>(kernel: K) {
         kernel.run::<Register>();
     }
 
@@ -385,10 +383,10 @@ mod machine {
 
 #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
 mod machine {
-    use super::{Kernel, Quad};
+    use super::{PackKernel, Quad};
 
     #[inline(always)]
-    pub(super) fn run<K: Kernel<f64>>(kernel: K) {
+    pub(super) fn run<K: PackKernel<f64>>(kernel: K) {
         kernel.run::<Quad<f64>>();
     }
 }

@@ -1,7 +1,7 @@
 //! Symmetric coordinates (physics §3): for identical sibling subtrees, the
 //! mean of the copies and their orthogonal differences, from the leaves up.
 
-use crate::scene::{Group, LinkId, OrbitId, Scene};
+use super::{Group, LinkId, OrbitId, Scene};
 use std::collections::BTreeMap;
 
 /// Place of a symmetric coordinate in the tree.
