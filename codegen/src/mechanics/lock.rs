@@ -82,7 +82,6 @@ impl std::error::Error for LockError {
 #[derive(Debug)]
 pub(super) struct DerivationLock {
     _file: File,
-    _old: File,
 }
 
 impl DerivationLock {
@@ -110,13 +109,7 @@ impl DerivationLock {
         }
         // Waiting processes can do without it.
         let _ = std::fs::write(&note, description());
-        // TEMPORARY
-        let old = open(&std::env::temp_dir().join("branched-pendulum.lock")).map_err(failed)?;
-        old.lock().map_err(failed)?;
-        Ok(Self {
-            _file: file,
-            _old: old,
-        })
+        Ok(Self { _file: file })
     }
 }
 

@@ -1,6 +1,7 @@
 //! The text of every stage for the fixture scenes, pinned as snapshots, and
 //! equal each time.
 
+mod architecture;
 mod determinism;
 mod ladder;
 mod lengths;
