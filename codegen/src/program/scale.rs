@@ -41,6 +41,41 @@ pub(super) fn factor(constants: &[Rational], divisors: &[Rational]) -> Option<Ra
     Rational::from_ratio(best.1, FACTORS)
 }
 
+/// Returns the largest number of which all of these are whole multiples, zeros aside, if
+/// they have one whose multiples `f64` holds exactly.
+pub(super) fn common_measure(lengths: &[Rational]) -> Option<Rational> {
+    let whole = |text: String| text.parse::<i64>().ok();
+    let mut measure: Option<(i64, i64)> = None;
+    for length in lengths.iter().filter(|length| !length.is_zero()) {
+        let numerator = whole(length.numerator_text())?.checked_abs()?;
+        let denominator = whole(length.denominator_text())?;
+        measure = Some(match measure {
+            None => (numerator, denominator),
+            Some((n, d)) => {
+                let common = d.checked_mul(denominator / divisor(d, denominator))?;
+                let known = n.checked_mul(common / d)?;
+                let own = numerator.checked_mul(common / denominator)?;
+                (divisor(known, own), common)
+            }
+        });
+    }
+    let (numerator, denominator) = measure?;
+    let measure = Rational::from_ratio(numerator, denominator)?;
+    let exact = |length: &Rational| {
+        let multiple = length.checked_div(&measure);
+        multiple.is_some_and(|multiple| multiple.to_parts().1 == 0.0)
+    };
+    lengths.iter().all(exact).then_some(measure)
+}
+
+/// Greatest common divisor of two positive numbers.
+fn divisor(mut a: i64, mut b: i64) -> i64 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
 /// A constant in two parts times a whole number of few digits.
 fn scaled((high, low): (f64, f64), factor: f64) -> (f64, f64) {
     let product = high * factor;
@@ -61,7 +96,7 @@ fn reciprocal((high, low): (f64, f64)) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::factor;
+    use super::{common_measure, factor};
     use crate::exact::Rational;
 
     /// Relative rounding error of a number, by exact arithmetic.
@@ -87,6 +122,14 @@ mod tests {
             // Rounding to the nearest errs by up to 1.1e-16, 3e-17 in the mean.
             assert!(rounding(&number) < 1.2e-17, "{}", rounding(&number));
         }
+    }
+
+    #[test]
+    fn lengths_have_a_common_measure() {
+        let decimals = ["0.3", "0", "-0.21"];
+        let lengths = decimals.map(|text| Rational::parse_decimal(text).expect("a decimal"));
+        assert_eq!(common_measure(&lengths), Rational::from_ratio(3, 100));
+        assert_eq!(common_measure(&[Rational::zero()]), None);
     }
 
     #[test]

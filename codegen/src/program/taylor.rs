@@ -158,10 +158,10 @@ impl EntryList<'_, '_> {
     }
 
     /// Chooses units of length and of mass, which change nothing but rounding: one
-    /// rounded constant less is one error less in long motions. The unit of length is
-    /// the distance from which the last link hangs. Where all constants are known, the
-    /// unit of mass is the one with which they round least; else the moment of inertia
-    /// of the last link is one.
+    /// rounded constant less is one error less in long motions. Where all constants are
+    /// known, all distances are whole numbers of the unit of length, and the unit of mass
+    /// is the one with which the others round least; else the distance from which the last
+    /// link hangs is one, and its moment of inertia.
     fn choose_units(&mut self, scene: &Scene, outputs: &mut TaylorOutputs) {
         self.choose_length(scene, outputs);
         let factor = self.factor(scene, outputs);
@@ -192,12 +192,21 @@ impl EntryList<'_, '_> {
         }
     }
 
-    /// Measures lengths in that from which the last link hangs, if there is one.
+    /// Measures lengths in their greatest common measure, if they have one; else in that
+    /// from which the last link hangs, if there is one.
     fn choose_length(&mut self, scene: &Scene, outputs: &mut TaylorOutputs) {
         let builder = &mut self.lowering.builder;
-        let last = outputs.attachments.iter().filter_map(|list| list.last());
-        let mut usable = last.filter(|length| builder.is_never_zero(**length, scene));
-        let Some(&length) = usable.next() else { return };
+        let lengths = outputs.attachments.iter().flatten();
+        let known: Option<Vec<Rational>> = lengths.map(|&id| builder.exact(id)).collect();
+        let length = match known.and_then(|lengths| scale::common_measure(&lengths)) {
+            Some(measure) => builder.number(measure),
+            None => {
+                let last = outputs.attachments.iter().filter_map(|list| list.last());
+                let mut usable = last.filter(|length| builder.is_never_zero(**length, scene));
+                let Some(&length) = usable.next() else { return };
+                length
+            }
+        };
         let names = [
             ("moment", "attachment"),
             ("lateral_moment", "lateral_attachment"),

@@ -9,6 +9,7 @@ use std::num::NonZeroUsize;
 use std::time::Instant;
 
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::Workspace;
 
 use super::articulated::Articulated;
 use super::states::random;
@@ -103,9 +104,12 @@ fn row<P: Pendulum<f64>>(
 ) -> Row {
     let mut states = States::new(P::LINKS);
     let sines = states.sines();
+    let mut workspace = Workspace::new();
     let mut threads = |count: NonZeroUsize| {
         set_threads(&mut model, count);
-        states.best(&mut |theta, omega, alpha| model.accelerations_into(0.0, theta, omega, alpha))
+        states.best(&mut |theta, omega, alpha| {
+            model.accelerations_with(&mut workspace, 0.0, theta, omega, alpha);
+        })
     };
     let one = threads(NonZeroUsize::MIN);
     let two = threads(NonZeroUsize::MIN.saturating_add(1));
@@ -141,12 +145,13 @@ pub fn irregular() -> Vec<Irregular> {
 }
 
 fn bush<P: Pendulum<f64>>(model: &P, trees: &[[usize; 2]]) -> Irregular {
-    let mut states = States::new(P::LINKS);
+    let (mut states, mut workspace) = (States::new(P::LINKS), Workspace::new());
     Irregular {
         links: P::LINKS,
         sines: states.sines(),
-        looped: states
-            .best(&mut |theta, omega, alpha| model.accelerations_into(0.0, theta, omega, alpha)),
+        looped: states.best(&mut |theta, omega, alpha| {
+            model.accelerations_with(&mut workspace, 0.0, theta, omega, alpha);
+        }),
         articulated: states.articulated(&table::bush(trees)),
     }
 }

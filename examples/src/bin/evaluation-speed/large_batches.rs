@@ -72,9 +72,11 @@ fn row<P: Cast<f64>, Q: Cast<f32>>(scene: &'static str, model: &P, narrow: &Q) -
     let theta = random(1, links, states, std::f64::consts::PI);
     let omega = random(2, links, states, 9.0);
     let mut alpha = vec![0.0; links];
+    let mut workspace = Workspace::new();
     let mut single = || {
         for (theta, omega) in theta.by_state.iter().zip(&omega.by_state) {
-            model.accelerations_into(
+            model.accelerations_with(
+                &mut workspace,
                 0.0,
                 black_box(theta),
                 black_box(omega),

@@ -13,7 +13,7 @@ use std::fmt::Write;
     gravity = 1,
     code = loops,
     trunk(mass = 1, com = 0.7, inertia = 0.3, joint = 1, friction = 1, drag = 1, spring = 1) [
-        bough(mass = 2, com = 1.1, inertia = 1.7, joint = 3, friction = 2, drag = 2, spring = 2) [
+        bough(mass = 2.5, com = 1.1, inertia = 1.7, joint = 3, friction = 2, drag = 2, spring = 2) [
             twig(mass = 3, com = 0.9, inertia = 2.3, friction = 3, drag = 3, spring = 3),
         ],
         leaf(mass = 4, com = 2.1, inertia = 7, friction = 4, drag = 4, spring = 4),
