@@ -87,15 +87,21 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<
     }
 
     #[inline(always)]
-    fn solve<C: Connectivity<N>, P: Pack<T>, const M: usize>(
+    fn add_solution<C: Connectivity<N>, P: Pack<T>, const M: usize>(
         &self,
+        [base_s, base_y]: [[P; M]; 2],
         force: &[P; M],
         cosine: &[P; M],
     ) -> [[P; M]; 2] {
         let sum = add_product::<T, P, N, Q, M>(force, &self.turning, cosine);
-        let s = product::<T, P, N, Q, M>(&self.inverse, &sum);
-        let y = product::<T, P, N, Q, M>(&self.mass, cosine);
-        [s, add_product::<T, P, N, Q, M>(&y, &self.turning, &s)]
+        let own_s = product::<T, P, N, Q, M>(&self.inverse, &sum);
+        let y = add_product::<T, P, N, Q, M>(&base_y, &self.mass, cosine);
+        let y = add_product::<T, P, N, Q, M>(&y, &self.turning, &own_s);
+        let mut s = base_s;
+        for m in 0..M {
+            s[m] = s[m].plus(own_s[m]);
+        }
+        [s, y]
     }
 }
 

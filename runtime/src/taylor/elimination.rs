@@ -121,8 +121,9 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Eliminati
     }
 
     #[inline(always)]
-    fn solve<C: Connectivity<N>, P: Pack<T>, const M: usize>(
+    fn add_solution<C: Connectivity<N>, P: Pack<T>, const M: usize>(
         &self,
+        [mut s, mut y]: [[P; M]; 2],
         force: &[P; M],
         cosine: &[P; M],
     ) -> [[P; M]; 2] {
@@ -154,15 +155,16 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Eliminati
         let sums = self.to_root::<C, P::Single, N>(&own);
         let fall = self.to_leaves::<C, P::Single, N>(&share, &sums.torque, &cosines);
 
-        let (mut s, mut y) = (*force, *force);
         for m in 0..M {
             let inverse = P::load(&self.inverse_inertia, m);
             let share = P::load(&share, m).plus_product(P::load(&sums.torque, m), inverse);
             let [a_x, a_y] = load::<T, P, Q>(&fall, m);
             let [n_x, n_y] = load::<T, P, Q>(&self.response, m);
-            s[m] = share.minus_product(n_x, a_x).minus_product(n_y, a_y);
+            let own_s = share.minus_product(n_x, a_x).minus_product(n_y, a_y);
+            s[m] = s[m].plus(own_s);
             let [g_x, g_y] = load::<T, P, Q>(&self.reduced_moment_along, m);
-            y[m] = P::load(&sums.along, m)
+            y[m] = y[m]
+                .plus(P::load(&sums.along, m))
                 .plus_product(P::load(&self.inertia_along, m), cosine[m])
                 .plus_product(P::load(&self.product, m), share)
                 .minus_product(g_x, a_x)

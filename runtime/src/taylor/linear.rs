@@ -11,9 +11,11 @@ pub(super) trait LinearSystem<T, const N: usize>: Sized {
         constants: &LinkConstants<T, N>,
     ) -> Self;
 
-    /// Returns S and Y where X = `force` and C = `cosine`.
-    fn solve<C: Connectivity<N>, P: Pack<T>, const M: usize>(
+    /// Returns `base` and what is added to it: S and Y where X = `force` and
+    /// C = `cosine`.
+    fn add_solution<C: Connectivity<N>, P: Pack<T>, const M: usize>(
         &self,
+        base: [[P; M]; 2],
         force: &[P; M],
         cosine: &[P; M],
     ) -> [[P; M]; 2];

@@ -111,18 +111,12 @@ where
                 value.store(series, m);
             }
         }
-        let [mut s, mut y] = system.solve::<C, P, M>(&force, &c);
+        let mut order = system.add_solution::<C, P, M>([[zero; M], weight.along], &force, &c);
         if last >= REFINED {
-            let rest = residual::<T, C, P, N, Q, M>(start, constants, &s);
-            let [more_s, more_y] = system.solve::<C, P, M>(&rest, &[zero; M]);
-            for m in 0..M {
-                s[m] = s[m].plus(more_s[m]);
-                y[m] = y[m].plus(more_y[m]);
-            }
+            let rest = residual::<T, C, P, N, Q, M>(start, constants, &order[0]);
+            order = system.add_solution::<C, P, M>(order, &rest, &[zero; M]);
         }
-        for m in 0..M {
-            y[m] = y[m].plus(weight.along[m]);
-        }
+        let [mut s, mut y] = order;
 
         let one = T::from_f64(1.0);
         let mut number = one;
@@ -184,7 +178,7 @@ where
                     x_next[m] = x_next[m].minus(others[m]);
                 }
             }
-            [s, y] = system.solve::<C, P, M>(&x_next, &c_next);
+            [s, y] = system.add_solution::<C, P, M>([[zero; M]; 2], &x_next, &c_next);
             (x, c, s_rest) = (x_next, c_next, s_rest_next);
         }
         if last > 0 {

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use branched_pendulum::batch::Batch;
 use branched_pendulum::scalar::Lane;
+use branched_pendulum::system::Workspace;
 use branched_pendulum::{Cast, Pendulum, branched_pendulum};
 
 use super::large::{Bush127, Bush500, Loops127, Loops1023};
