@@ -25,6 +25,9 @@
 //! sums of what they hand up, and a. A single state waits for that: it is written so that
 //! few operations follow each other.
 
+// One index into all arrays at once.
+#![allow(clippy::needless_range_loop)]
+
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::linear::LinearSystem;
 use crate::scalar::Scalar;
