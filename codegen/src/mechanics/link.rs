@@ -240,10 +240,10 @@ impl Derivation<'_> {
         let com = plus(&pivot, &com);
         let place = plus(&pivot, &place);
         let [xx, xy, yy] = s.deficit.map(symbol);
-        let relief = [dot(&[xx, xy.clone()], &place), dot(&[xy, yy], &place)];
+        let deficit = [dot(&[xx, xy.clone()], &place), dot(&[xy, yy], &place)];
         let bias_force = s.bias_force.map(symbol);
         let below = plus(&times(&counted, &place), &bias_force);
-        let below = [&below[0] - &relief[0], &below[1] - &relief[1]];
+        let below = [&below[0] - &deficit[0], &below[1] - &deficit[1]];
         let own = times(&mass, &com);
         let force = plus(&own, &below);
         let angular = symbol(s.acceleration);

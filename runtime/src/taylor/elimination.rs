@@ -117,7 +117,7 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Eliminati
                     i,
                 );
                 link.relieve::<T>(response);
-                links[parent].carry::<T>(link.relief, reach);
+                links[parent].carry::<T>(link.deficit, reach);
             }
         }
         factors
@@ -279,7 +279,7 @@ struct Link<P> {
     /// g
     moment_along: [P; 2],
     /// N_xx, N_xy, N_yy
-    relief: [P; 3],
+    deficit: [P; 3],
 }
 
 impl<P: Copy> Link<P> {
@@ -305,7 +305,7 @@ impl<P: Copy> Link<P> {
             product: zero,
             moment: [m_x, m_y],
             moment_along: [zero.minus(m_y), m_x],
-            relief: [zero; 3],
+            deficit: [zero; 3],
         }
     }
 
@@ -315,8 +315,8 @@ impl<P: Copy> Link<P> {
     where
         P: Pack<T>,
     {
-        let ([b_x, b_y], [xx, xy, yy]) = (self.moment, self.relief);
-        self.relief = [
+        let ([b_x, b_y], [xx, xy, yy]) = (self.moment, self.deficit);
+        self.deficit = [
             xx.plus_product(b_x, n_x),
             xy.plus_product(b_x, n_y),
             yy.plus_product(b_y, n_y),
@@ -354,7 +354,7 @@ impl<P: Copy> Link<P> {
             self.moment[x] = self.moment[x].minus(across[x]);
             self.moment_along[x] = self.moment_along[x].minus(along[x]);
         }
-        for (sum, own) in self.relief.iter_mut().zip([xx, xy, yy]) {
+        for (sum, own) in self.deficit.iter_mut().zip([xx, xy, yy]) {
             *sum = sum.plus(own);
         }
     }

@@ -3,23 +3,24 @@
 use crate::scalar::Scalar;
 
 /// The drive of a tree at one time, in the frame of reference that moves with
-/// the root's pivot.
+/// the root's pivot, in the reduced units of the equations.
 ///
-/// There the pivot's acceleration **a** acts on every link as gravity does, so
-/// that the root takes **a** + (0, g) from above instead of (0, g), and the
-/// torque τ is a block of the root's κ (`docs/physics.md`, sections 7 and 10).
+/// There the pivot's acceleration **a** acts on every link as gravity does: the
+/// root's pivot has the apparent gravity −(0, g) − **a** instead of −(0, g). The torque
+/// τ on the root is part of its bias torque (`docs/physics.md`, sections 7 and 10).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RootDrive<T> {
-    /// What the acceleration of the pivot adds to what the root takes from above:
-    /// −**a** / ℓ with the root's unit of length ℓ, the distance of its children.
+    /// Contribution of the pivot's acceleration to the apparent gravity: −**a** / l
+    /// with the tree's unit of length l.
     pub pivot: [T; 2],
-    /// Torque τ on the root against the ground, N m. Read where the equations
-    /// have a column for it ([`Recursion::TORQUE`](super::Recursion::TORQUE)).
+    /// Torque on the root against the ground, τ / (m l²) with the tree's unit of mass
+    /// m. Read where the equations have a column for it
+    /// ([`LinkEquations::TORQUE`](super::LinkEquations::TORQUE)).
     pub torque: T,
 }
 
 impl<T: Scalar> RootDrive<T> {
-    /// The same on other scalars.
+    /// Returns the drive on other scalars.
     #[inline(always)]
     pub(super) fn map<S>(self, convert: impl Fn(T) -> S) -> RootDrive<S> {
         let [x, y] = self.pivot;
@@ -29,7 +30,7 @@ impl<T: Scalar> RootDrive<T> {
         }
     }
 
-    /// What the root takes from above.
+    /// Returns the apparent gravity at the root's pivot.
     #[inline(always)]
     pub(super) fn above([x, y]: [T; 2], drive: Option<Self>) -> [T; 2] {
         match drive {
