@@ -29,6 +29,11 @@ pub enum ArgumentError {
         /// The angle, degrees.
         angle: f64,
     },
+    /// A range of angles is not written as one, or leads nowhere.
+    NotARange {
+        /// The value given.
+        value: String,
+    },
     /// A value is not a finite number.
     NotANumber {
         /// The option.
@@ -104,6 +109,11 @@ impl fmt::Display for ArgumentError {
             Self::RepeatedAngle { angle } => {
                 write!(f, "`{ANGLES}` has {angle} degrees twice")
             }
+            Self::NotARange { value } => write!(
+                f,
+                "`{value}` is no range of angles: write `FROM:TO:STEP`, as in `40:48:0.1`, \
+                 with at most 10000 steps that lead from one end to the other"
+            ),
             Self::NotANumber { option, value } => {
                 write!(f, "`{option}` needs a number, but got `{value}`")
             }

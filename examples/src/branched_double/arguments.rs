@@ -235,19 +235,42 @@ fn within(
 fn read_angles(value: &str) -> Result<Vec<f64>, ArgumentError> {
     let mut angles = Vec::new();
     for part in value.split(',') {
-        let angle = within(
-            ANGLES,
-            read_number(ANGLES, part)?,
-            -180.0..=180.0,
-            "degrees",
-        )?;
-        if angles.contains(&angle) {
-            return Err(ArgumentError::RepeatedAngle { angle });
+        for angle in read_range(part)? {
+            let angle = within(ANGLES, angle, -180.0..=180.0, "degrees")?;
+            if angles.contains(&angle) {
+                return Err(ArgumentError::RepeatedAngle { angle });
+            }
+            angles.push(angle);
         }
-        angles.push(angle);
     }
     angles.sort_by(f64::total_cmp);
     Ok(angles)
+}
+
+/// Most angles of one range.
+const MOST_ANGLES: f64 = 10_000.0;
+
+/// An angle, or those of a range `FROM:TO:STEP`, both ends included.
+fn read_range(part: &str) -> Result<Vec<f64>, ArgumentError> {
+    let numbers = part.split(':').map(|number| read_number(ANGLES, number));
+    let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
+    let [from, to, step] = *numbers else {
+        return match *numbers {
+            [angle] => Ok(vec![angle]),
+            _ => Err(ArgumentError::NotARange { value: part.into() }),
+        };
+    };
+    // A step may miss the end by rounding.
+    let steps = ((to - from) / step + 1e-9).floor();
+    if !(0.0..MOST_ANGLES).contains(&steps) {
+        return Err(ArgumentError::NotARange { value: part.into() });
+    }
+    // Decimals as they would be written: 40.3, not 40.300000000000004.
+    let rounded = |angle: f64| (angle * 1e9).round() / 1e9;
+    let numbers = (0..=steps as u32).map(f64::from);
+    Ok(numbers
+        .map(|number| rounded(from + number * step))
+        .collect())
 }
 
 fn read_precision(value: &str) -> Result<Precision, ArgumentError> {
@@ -281,6 +304,8 @@ mod tests {
              --friction-root 1e-4 --friction-children 3e-5 --rate 50 \
              --precision f32 --tolerance 1e-5 --output elsewhere");
         assert_eq!(arguments.angles_deg, [-30.5, 50.0]);
+        let range = run("--angles 40:40.3:0.1,39.5");
+        assert_eq!(range.angles_deg, [39.5, 40.0, 40.1, 40.2, 40.3]);
         assert_eq!(arguments.disturbance, -1e-3);
         assert_eq!(arguments.duration, 5.0);
         assert_eq!(arguments.friction.root, 1e-4);
@@ -329,6 +354,16 @@ mod tests {
             ("--rate 50 --rate 50", "`--rate` is given twice"),
             ("--angles 3,4,3", "`--angles` has 3 degrees twice"),
             ("--angles 3,,4", "`--angles` needs a number, but got ``"),
+            (
+                "--angles 40:48",
+                "`40:48` is no range of angles: write `FROM:TO:STEP`, as in `40:48:0.1`, \
+                 with at most 10000 steps that lead from one end to the other",
+            ),
+            (
+                "--angles 40:48:-1",
+                "`40:48:-1` is no range of angles: write `FROM:TO:STEP`, as in `40:48:0.1`, \
+                 with at most 10000 steps that lead from one end to the other",
+            ),
             (
                 "--duration soon",
                 "`--duration` needs a number, but got `soon`",

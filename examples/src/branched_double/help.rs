@@ -8,7 +8,8 @@ mode θ_d = (θ_2 − θ_3)/2 grow, and which energy transfer W feeds it?
 
 Usage: branched-double [OPTION VALUE]...
 
-  --angles DEG[,DEG]...    initial angles θ_1(0) of the parent link, degrees
+  --angles DEG[,DEG]...    initial angles θ_1(0) of the parent link, degrees;
+                           FROM:TO:STEP for a range, as in 40:48:0.1
                            [39.5,45,46.4,47.6,47.8,48.6: the paper's range]
   --disturbance RAD        θ_d(0), rad: child 2 starts at +RAD, child 3 at −RAD
                            [0.01: about what waiting for rest by eye leaves; as
