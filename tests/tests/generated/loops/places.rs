@@ -54,7 +54,7 @@ fn tables_with_places_agree_with_code_written_out_and_with_the_oracle() {
     balance(&table, &unrolled);
 }
 
-/// A rule of which no distance is a unit of length is a table of links.
+/// A rule of which no distance is a unit of length takes that of its leaves.
 #[test]
 fn rules_in_one_pivot_agree_with_code_written_out_and_with_the_oracle() {
     let (table, unrolled) = (AxisTable::<f64>::new(), AxisUnrolled::<f64>::new());
