@@ -12,6 +12,7 @@ pub(crate) mod cast;
 mod first_integral;
 mod link_name;
 mod taylor;
+mod whole_tree;
 mod workspace;
 
 use alloc::vec::Vec;
@@ -26,6 +27,9 @@ pub use cast::InRegisters;
 pub use first_integral::{CanonicalEnergy, FirstIntegral};
 pub use link_name::LinkName;
 pub use taylor::{TaylorOde, TaylorPendulum};
+pub use whole_tree::{WholeLengthError, WholeTree};
+#[doc(hidden)]
+pub use whole_tree::{WholeMotion, WholeOrbit};
 pub use workspace::Workspace;
 
 /// Equations of motion in absolute angles.

@@ -7,7 +7,7 @@ use crate::mechanics;
 use crate::mechanics::Counting;
 use crate::mechanics::expression::Expr;
 use crate::program::{Argument, Entry, LinkFunction, Purpose};
-use crate::scene::CoordinateKind;
+use crate::scene::{CoordinateKind, Reduction};
 use crate::scene::Solve;
 use proc_macro2::TokenStream;
 
@@ -52,6 +52,10 @@ impl Emission<'_> {
         if scene.requests.transfer.is_some() {
             lines.push(String::new());
             lines.push("Transfers follow Y. Toda and T. Ooshida, *Experimental detection of energy transfer into the anti-phase mode in a branched double pendulum*.".into());
+        }
+        if let Some(Reduction { links, .. }) = &scene.reduction {
+            lines.push(String::new());
+            lines.push(format!("A motion of a tree of {links} links: `WHOLE` has which of them move alike, and their angles."));
         }
         if self.mechanics.drive.is_some() {
             lines.extend(self.drive_docs());

@@ -23,6 +23,8 @@ mod observables;
 mod probe;
 mod properties;
 mod quantity;
+mod reduced_body;
+mod reduction;
 mod requests;
 mod resolve;
 mod rule;
@@ -44,6 +46,8 @@ pub use observables::{
 pub use quantity::Quantity;
 pub use resolve::resolve;
 pub use sectors::{SectorVariables, sectors};
+
+use crate::exact::Rational;
 
 /// Index of a link in [`Scene::links`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -87,6 +91,9 @@ pub struct Scene {
     /// Quantities of the user's own. One that is written in symmetric
     /// coordinates comes with `requests.symmetric`.
     pub observables: Vec<Observable>,
+    /// How the links stand for those of the whole tree, where the description makes it
+    /// smaller.
+    pub reduction: Option<Reduction>,
     /// How the code takes the equations through the tree. Over generations, `links`
     /// holds one link of each, below each other, and there are no groups.
     pub layout: Layout,
@@ -191,6 +198,59 @@ pub struct Group {
     pub parent: Option<LinkId>,
     /// The roots of the copies, two or more.
     pub copies: Vec<LinkId>,
+}
+
+/// Whole tree of a description whose scene is smaller than it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reduction {
+    /// Order in which the links of the whole tree stand.
+    pub order: WholeOrder,
+    /// Number of links of the whole tree.
+    pub links: usize,
+    /// The nodes of the whole tree, parents before children, depth first.
+    pub orbits: Vec<WholeOrbit>,
+}
+
+/// Order of the links of a whole tree: that of a scene without reductions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WholeOrder {
+    /// Each link before what hangs from it, and that before the next copy.
+    DepthFirst,
+    /// Generation by generation.
+    Generations,
+}
+
+/// Links of a whole tree that are copies of one node of the description.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WholeOrbit {
+    /// Name of the node: `child`, or `name_2` for a generation of a rule.
+    pub name: String,
+    /// Copies under each copy of the parent.
+    pub copies: usize,
+    /// True if the copies under one parent move alike.
+    pub in_phase: bool,
+    /// Index behind the last node of the subtree.
+    pub end: usize,
+    /// Motion of the copies.
+    pub motion: WholeMotion,
+}
+
+/// Motion of a link of a whole tree in terms of the scene's links.
+#[derive(Debug, Clone, PartialEq)]
+pub enum WholeMotion {
+    /// As a link of the scene: the first copy as the one `offset` places behind the link
+    /// that it hangs from, each further one that moves by itself `stride` places later.
+    Moving {
+        /// Places between the first copy and the link that it hangs from.
+        offset: usize,
+        /// Places from one copy to the next.
+        stride: usize,
+    },
+    /// As the link that it hangs from.
+    Locked {
+        /// Angle to that link, rad.
+        angle: Rational,
+    },
 }
 
 /// A value that the description names instead of stating.

@@ -13,6 +13,7 @@ mod paper;
 mod parameters;
 mod random_trees;
 mod rebuilt;
+mod reductions;
 mod reference;
 mod scans;
 mod sectors;
