@@ -7,8 +7,8 @@ use crate::mechanics;
 use crate::mechanics::Counting;
 use crate::mechanics::expression::Expr;
 use crate::program::{Argument, Entry, LinkFunction, Purpose};
-use crate::scene::{CoordinateKind, Reduction};
 use crate::scene::Solve;
+use crate::scene::{CoordinateKind, Reduction};
 use proc_macro2::TokenStream;
 
 /// Formulas of more rows than this are shown up to here.

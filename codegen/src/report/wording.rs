@@ -447,7 +447,7 @@ impl Message {
             M::LockedGeneration { link } => problem(
                 format!("`{link}` cannot be locked in a tree that is taken through loops"),
                 "a generation of a rule",
-                "write the links out, as in `arm(...)[child(...) * 2]`",
+                "write `code = unrolled` among the properties of the rule",
             ),
             M::IdleJoint { link, property } => problem(
                 format!("{property} of `{link}` does nothing in a joint that does not move"),

@@ -53,8 +53,9 @@ pub(super) fn weld(parent: &Body, link: &Template, angle: &Rational) -> Result<B
         Quantity::sum([product(&parent.mass, first), product(&added, second)])
             .divided_by(mass.clone())
     };
-    let difference =
-        |first: &Quantity, second: &Quantity| Quantity::sum([second.clone(), first.clone().negative()]);
+    let difference = |first: &Quantity, second: &Quantity| {
+        Quantity::sum([second.clone(), first.clone().negative()])
+    };
     let along = difference(&parent.com.along, &at.along).power(2)?;
     let lateral = difference(&parent.com.lateral, &at.lateral).power(2)?;
     // Steiner for both at once: the reduced mass, about the common centre.

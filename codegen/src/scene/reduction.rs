@@ -119,7 +119,9 @@ fn locked_angle(
     let angle = values.evaluate(written, &usage, report)?;
     // A turn more or less says nothing; a large angle is one in degrees.
     let most = Rational::from(7);
-    let angle = angle.exact().filter(|angle| **angle < most && -&most < **angle);
+    let angle = angle
+        .exact()
+        .filter(|angle| **angle < most && -&most < **angle);
     if angle.is_none() {
         report.error(written.span, Message::LockedAngle);
     }
@@ -152,12 +154,10 @@ fn alike(nodes: &[Ident], templates: &[Template], report: &mut Report) -> Vec<bo
             continue;
         }
         for (alike, template) in alike.iter_mut().zip(templates) {
-            if template.node == name {
-                if std::mem::replace(alike, true) {
-                    let name = name.clone();
-                    report.error(node.span(), Message::DuplicateRequest { name });
-                    break;
-                }
+            if template.node == name && std::mem::replace(alike, true) {
+                let name = name.clone();
+                report.error(node.span(), Message::DuplicateRequest { name });
+                break;
             }
         }
     }
@@ -202,7 +202,13 @@ fn whole_orbits(
     locks: &[Option<Rational>],
     alike: &[bool],
 ) -> Vec<WholeOrbit> {
-    let apart = |index: usize| if alike[index] { 1 } else { templates[index].copies };
+    let apart = |index: usize| {
+        if alike[index] {
+            1
+        } else {
+            templates[index].copies
+        }
+    };
     // Nearest link above that is not locked, and the number of this link's copies that
     // move by themselves there.
     let holder = |index: usize| {

@@ -53,7 +53,8 @@ fn expanded(tree: WholeTree, links: usize, random: &mut Random) -> Expanded {
     let omega = random.around_zero(links, 10.0);
     let (mut whole_theta, mut whole_omega) = ([0.0; WHOLE], [0.0; WHOLE]);
     tree.angles(&theta, &mut whole_theta).expect("all links");
-    tree.velocities(&omega, &mut whole_omega).expect("all links");
+    tree.velocities(&omega, &mut whole_omega)
+        .expect("all links");
     Expanded {
         theta,
         omega,
@@ -91,7 +92,10 @@ fn same_lagrangian<M: Energy<f64> + Canonical<f64>>(
         let potential = model.potential_energy_of(theta);
         let offset = potential - whole.potential_energy(&state.whole_theta);
         let first = *zero.get_or_insert(offset);
-        assert!((offset - first).abs() <= 1e-13 * potential, "{offset} {first}");
+        assert!(
+            (offset - first).abs() <= 1e-13 * potential,
+            "{offset} {first}"
+        );
 
         // p = ∂K/∂ω, and the angles of several links move with one.
         let parts = whole.momenta(&state.whole_theta, &state.whole_omega);
@@ -139,7 +143,11 @@ fn copies_in_phase_stay_so() {
             let mut found = [0.0; WHOLE];
             tree.velocities(&alpha, &mut found).expect("all links");
             let expected = whole.accelerations(0.3, &state.whole_theta, &state.whole_omega);
-            assert!(apart(&expected, &found) < 1e-11, "{}", apart(&expected, &found));
+            assert!(
+                apart(&expected, &found) < 1e-11,
+                "{}",
+                apart(&expected, &found)
+            );
         }
     }
     check(&ArmsInPhase::new(), ArmsInPhase::WHOLE);
@@ -173,7 +181,11 @@ fn links_stand_for_as_many_as_move_alike() {
     let error = AllInPhase::WHOLE.angles(&[0.0; 5], &mut [0.0; WHOLE]);
     assert!(matches!(
         error,
-        Err(WholeLengthError { given: 5, model: 6, .. })
+        Err(WholeLengthError {
+            given: 5,
+            model: 6,
+            ..
+        })
     ));
 }
 
