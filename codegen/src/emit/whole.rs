@@ -54,6 +54,8 @@ impl Emission<'_> {
             WholeOrder::Generations => quote!(by_generations),
         };
         Some(quote! {
+            // As for the functions, see `emit`.
+            #[allow(clippy::possible_missing_comma)]
             impl #name<f64> {
                 #docs
                 pub const WHOLE: #runtime::WholeTree =
