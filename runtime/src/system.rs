@@ -25,7 +25,7 @@ pub use cast::Cast;
 pub use cast::InRegisters;
 pub use first_integral::{CanonicalEnergy, FirstIntegral};
 pub use link_name::LinkName;
-pub use taylor::{TaylorOde, TaylorPendulum};
+pub use taylor::{RatesOnly, TaylorOde, TaylorPendulum};
 pub use workspace::Workspace;
 
 /// Equations of motion in absolute angles.
