@@ -20,9 +20,9 @@ mod workspace;
 use crate::scalar::Scalar;
 
 pub use canonical::{Canonical, CanonicalVariables};
-pub use cast::Cast;
 #[doc(hidden)]
 pub use cast::InRegisters;
+pub use cast::{Cast, CastOde};
 pub use coordinates::{AbsoluteAngles, SymmetricCoordinates};
 pub use first_integral::{CanonicalEnergy, FirstIntegral};
 pub use link_name::LinkName;
@@ -35,6 +35,10 @@ pub use workspace::Workspace;
 ///
 /// Angles are measured from the downward vertical, in radians; links stand in
 /// parent-before-child order.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no equations of motion in `{T}`",
+    note = "a model has them in its own numbers: `model.cast(…)` takes it to others, `linearised(AbsoluteAngles(&model))` to those of variational equations"
+)]
 pub trait Pendulum<T: Scalar> {
     /// Number of links, each with one angle.
     const LINKS: usize;
@@ -80,11 +84,41 @@ pub trait Pendulum<T: Scalar> {
     }
 }
 
+impl<T: Scalar, P: Pendulum<T>> Pendulum<T> for &P {
+    const LINKS: usize = P::LINKS;
+    const LINK_NAMES: &'static [&'static str] = P::LINK_NAMES;
+
+    fn link_name(index: usize) -> Option<LinkName> {
+        P::link_name(index)
+    }
+
+    #[inline]
+    fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+        (**self).accelerations_into(time, theta, omega, alpha);
+    }
+
+    #[inline]
+    fn accelerations_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        alpha: &mut [T],
+    ) {
+        (**self).accelerations_with(workspace, time, theta, omega, alpha);
+    }
+}
+
 /// Equations of motion in symmetric coordinates: means and differences of
 /// identical sibling subtrees.
 ///
 /// There are as many coordinates as links. A set of differences that is
 /// exactly zero, with its rates, has accelerations that are exactly zero.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no symmetric coordinates in `{T}`",
+    note = "a tree with identical siblings has them with `emit(symmetric)` in its attribute"
+)]
 pub trait SymmetricPendulum<T: Scalar>: Pendulum<T> {
     /// Names of the coordinates, in order.
     const COORDINATE_NAMES: &'static [&'static str];
@@ -102,7 +136,26 @@ pub trait SymmetricPendulum<T: Scalar>: Pendulum<T> {
     );
 }
 
+impl<T: Scalar, P: SymmetricPendulum<T>> SymmetricPendulum<T> for &P {
+    const COORDINATE_NAMES: &'static [&'static str] = P::COORDINATE_NAMES;
+
+    #[inline]
+    fn symmetric_accelerations_into(
+        &self,
+        time: T,
+        coordinates: &[T],
+        rates: &[T],
+        accelerations: &mut [T],
+    ) {
+        (**self).symmetric_accelerations_into(time, coordinates, rates, accelerations);
+    }
+}
+
 /// Kinetic and potential energy in absolute angles, in joules.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know its energies in `{T}`",
+    note = "a model knows them with `emit(energies)` in its attribute"
+)]
 pub trait Energy<T: Scalar>: Pendulum<T> {
     /// Kinetic energy for angles `theta` (rad) and angular velocities `omega`
     /// (rad/s); both of length [`Pendulum::LINKS`].
@@ -111,6 +164,18 @@ pub trait Energy<T: Scalar>: Pendulum<T> {
     /// Potential energy for angles `theta` (rad), of length
     /// [`Pendulum::LINKS`]; zero where every link hangs straight down.
     fn potential_energy_of(&self, theta: &[T]) -> T;
+}
+
+impl<T: Scalar, P: Energy<T>> Energy<T> for &P {
+    #[inline]
+    fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
+        (**self).kinetic_energy_of(theta, omega)
+    }
+
+    #[inline]
+    fn potential_energy_of(&self, theta: &[T]) -> T {
+        (**self).potential_energy_of(theta)
+    }
 }
 
 #[cfg(test)]

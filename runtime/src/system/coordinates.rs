@@ -1,14 +1,15 @@
 //! Pendulums as first-order systems.
 
-use super::{Ode, Pendulum, SymmetricPendulum, Workspace};
+use super::{Cast, CastOde, Ode, Pendulum, SymmetricPendulum, Workspace};
 use crate::scalar::Scalar;
 
 /// A pendulum as a first-order system in absolute angles: the state is the
-/// angles followed by the angular velocities.
+/// angles followed by the angular velocities. Holds a pendulum, or a reference to
+/// one.
 #[derive(Clone, Copy, Debug)]
-pub struct AbsoluteAngles<'a, P>(pub &'a P);
+pub struct AbsoluteAngles<P>(pub P);
 
-impl<T: Scalar, P: Pendulum<T>> Ode<T> for AbsoluteAngles<'_, P> {
+impl<T: Scalar, P: Pendulum<T>> Ode<T> for AbsoluteAngles<P> {
     fn dimension(&self) -> usize {
         2 * P::LINKS
     }
@@ -30,11 +31,11 @@ impl<T: Scalar, P: Pendulum<T>> Ode<T> for AbsoluteAngles<'_, P> {
 }
 
 /// A pendulum as a first-order system in symmetric coordinates: the state is
-/// the coordinates followed by their rates.
+/// the coordinates followed by their rates. Holds a pendulum, or a reference to one.
 #[derive(Clone, Copy, Debug)]
-pub struct SymmetricCoordinates<'a, P>(pub &'a P);
+pub struct SymmetricCoordinates<P>(pub P);
 
-impl<T: Scalar, P: SymmetricPendulum<T>> Ode<T> for SymmetricCoordinates<'_, P> {
+impl<T: Scalar, P: SymmetricPendulum<T>> Ode<T> for SymmetricCoordinates<P> {
     fn dimension(&self) -> usize {
         2 * P::LINKS
     }
@@ -50,6 +51,26 @@ impl<T: Scalar, P: SymmetricPendulum<T>> Ode<T> for SymmetricCoordinates<'_, P> 
                     .symmetric_accelerations_into(time, coordinates, velocities, accelerations);
             },
         );
+    }
+}
+
+impl<T: Scalar, S: Scalar, P: Cast<T>> CastOde<T, S> for AbsoluteAngles<P> {
+    type Of = AbsoluteAngles<P::Of<S>>;
+
+    fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
+        AbsoluteAngles(self.0.cast(convert))
+    }
+}
+
+impl<T: Scalar, S: Scalar, P> CastOde<T, S> for SymmetricCoordinates<P>
+where
+    P: Cast<T> + SymmetricPendulum<T>,
+    P::Of<S>: SymmetricPendulum<S>,
+{
+    type Of = SymmetricCoordinates<P::Of<S>>;
+
+    fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
+        SymmetricCoordinates(self.0.cast(convert))
     }
 }
 

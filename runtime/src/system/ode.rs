@@ -5,6 +5,12 @@ use core::fmt;
 use super::Workspace;
 
 /// A system of first-order ordinary differential equations y' = f(t, y).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no system of first-order equations in `{T}`",
+    label = "not an `Ode<{T}>`",
+    note = "choose the coordinates of a model: `AbsoluteAngles(&model)`, with `emit(symmetric)` `SymmetricCoordinates(&model)`, with `emit(momenta)` `CanonicalVariables(&model)`",
+    note = "equations of your own: implement `Ode`, or `OdeFn::new(dimension, |time, state, rates| …)`"
+)]
 pub trait Ode<T> {
     /// Number of components of the state.
     fn dimension(&self) -> usize;
