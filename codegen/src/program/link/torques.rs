@@ -2,7 +2,7 @@
 
 use super::reduced_units::Units;
 use crate::program::ValueId;
-use crate::program::lower::{Door, Lowering};
+use crate::program::lower::{Environment, Lowering};
 use crate::scene::Scene;
 
 impl Lowering<'_> {
@@ -12,16 +12,18 @@ impl Lowering<'_> {
         &mut self,
         scene: &Scene,
         units: &Units,
-        door: &mut Door<'_>,
+        environment: &mut Environment<'_>,
         omega: &[ValueId],
     ) -> Vec<ValueId> {
         let mechanics = self.mechanics;
         let zero = self.builder.integer(0);
         let mut torques = vec![zero; scene.links.len()];
-        let theta = door.frame.coordinates.iter();
-        let theta: Vec<ValueId> = theta.map(|&symbol| self.symbol(door, symbol)).collect();
+        let theta = environment.frame.coordinates.iter();
+        let theta: Vec<ValueId> = theta
+            .map(|&symbol| self.symbol(environment, symbol))
+            .collect();
         if let Some(torque) = mechanics.drive.as_ref().and_then(|drive| drive.torque) {
-            let torque = self.symbol(door, torque);
+            let torque = self.symbol(environment, torque);
             torques[0] = self.builder.mul(units.links[0].per_torque, torque);
         }
         let builder = &mut self.builder;
