@@ -147,6 +147,9 @@ fn node(random: &mut Random, parent: Option<(usize, &Node)>, copies: usize) -> N
     }
     if properties.random.below(4) == 0 {
         link.spring = properties.number("spring", 1e-3, 5.0);
+        if properties.random.below(2) == 0 {
+            link.rest = properties.number("rest", -2.0, 2.0);
+        }
     }
     Node {
         parent: parent.map(|(index, _)| index),
@@ -171,6 +174,7 @@ fn body(properties: &mut Properties<'_>, shape: usize) -> (&'static str, Link, [
         friction: 0.0,
         drag: 0.0,
         spring: 0.0,
+        rest: 0.0,
     };
     if shape == 0 {
         let mut plain = link(mass, 0.0, 0.0);
