@@ -8,6 +8,7 @@
 //!             | "solve" "=" name
 //!             | "code" "=" name
 //!             | "emit" "(" [ request { "," request } [ "," ] ] ")"
+//!             | "parameters" "(" [ name { "," name } [ "," ] ] ")"
 //!             | "drive" "(" [ property { "," property } [ "," ] ] ")"
 //!             | "observe" "(" [ observable { "," observable } [ "," ] ] ")"
 //!             | "in_phase" "(" [ name { "," name } [ "," ] ] ")"
@@ -31,7 +32,8 @@
 //!
 //! Unlike in Rust, `^` is a power and binds tightest: `-a^2` is `-(a^2)`. A
 //! `decimal` is read exactly; a `name` is a parameter of the model, the same
-//! name being the same parameter everywhere. In observables a `name` is a symbol
+//! name being the same parameter everywhere; where `parameters(...)` declares them, no
+//! other name is one. In observables a `name` is a symbol
 //! of the scene (an angle, a velocity, a momentum, a parameter, a constant of the
 //! model), and only they and drives have functions. A pair is a point of a link,
 //! `(along, lateral)`; a single value there means `(along, 0)`. Which properties,
@@ -64,6 +66,8 @@ pub struct Description {
     pub solve: Option<(Ident, Ident)>,
     /// `code = ...`: the two names.
     pub code: Option<(Ident, Ident)>,
+    /// `parameters(...)`.
+    pub parameters: Option<ParameterClause>,
     /// `drive(...)`.
     pub drive: Option<DriveClause>,
     /// The links at the top level; a right description has one.
@@ -145,6 +149,15 @@ pub struct StructItem {
     /// The item as it was given, to be repeated where nothing else can be
     /// emitted.
     pub tokens: TokenStream,
+}
+
+/// The declaration of all parameters.
+#[derive(Debug, Clone)]
+pub struct ParameterClause {
+    /// The declared names.
+    pub names: Vec<Ident>,
+    /// True if part of it was unreadable, which is reported already.
+    pub damaged: bool,
 }
 
 /// The motion and the torque that are imposed from outside.

@@ -13,7 +13,7 @@ use super::list::{
 };
 use super::{
     Description, DriveClause, Expression, LockedClause, Multiplicity, Node, ObservableClause,
-    Property, Reductions, Request, RequestForm, StructItem, Value,
+    ParameterClause, Property, Reductions, Request, RequestForm, StructItem, Value,
 };
 use crate::report::{Diagnostic, Message, Report};
 
@@ -50,6 +50,7 @@ pub fn parse(
         gravity: None,
         solve: None,
         code: None,
+        parameters: None,
         drive: None,
         roots: Vec::new(),
         requests: Vec::new(),
@@ -82,6 +83,11 @@ pub fn parse(
                 let (span, message) = (name.span(), Message::duplicate_property(&name));
                 if description.code.replace((name, value)).is_some() {
                     report.error(span, message);
+                }
+            }
+            Member::Parameters(name, clause) => {
+                if description.parameters.replace(clause).is_some() {
+                    report.error(name.span(), Message::duplicate_property(&name));
                 }
             }
             Member::Drive(drive) => {
@@ -187,6 +193,7 @@ enum Member {
     Gravity(Property),
     Solve(Ident, Ident),
     Code(Ident, Ident),
+    Parameters(Ident, ParameterClause),
     Drive(DriveClause),
     Emit(Ident, Vec<Request>),
     Observe(Ident, Vec<ObservableClause>),
@@ -212,6 +219,15 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFaul
     if name == "emit" {
         let requests = group(input, Delimiter::Parenthesis, "`(` and what to emit")?;
         return Ok(Member::Emit(name, list(requests, report, request).members));
+    }
+    if name == "parameters" && declares(input) {
+        let names = group(input, Delimiter::Parenthesis, "`(` and names")?;
+        let names = list(names, report, |input, _| identifier(input, "a name"));
+        let clause = ParameterClause {
+            names: names.members,
+            damaged: names.damaged,
+        };
+        return Ok(Member::Parameters(name, clause));
     }
     if name == "drive" && !input.peek(Token![:]) {
         let parts = group(
@@ -252,6 +268,18 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFaul
         return Err(expected(input, "`=` and a value"));
     }
     node(name, input, report).map(Member::Link)
+}
+
+/// Returns true if parentheses without values follow: a link may be called
+/// `parameters` too.
+fn declares(input: ParseStream<'_>) -> bool {
+    match input.cursor().group(Delimiter::Parenthesis) {
+        Some((inside, ..)) => {
+            let value = inside.ident().and_then(|(_, rest)| rest.punct());
+            value.is_none_or(|(mark, _)| mark.as_char() != '=')
+        }
+        None => false,
+    }
 }
 
 /// `crate = path`, `gravity = value`, `solve = name` or `code = name`, after the

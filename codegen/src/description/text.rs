@@ -21,6 +21,11 @@ impl Display for Description {
         for (name, value) in self.solve.iter().chain(&self.code) {
             writeln!(f, "{name} = {value}")?;
         }
+        if let Some(parameters) = &self.parameters {
+            write!(f, "parameters(")?;
+            separated(&parameters.names, f)?;
+            writeln!(f, ")")?;
+        }
         if let Some(drive) = &self.drive {
             write!(f, "{}(", drive.name)?;
             separated(&drive.parts, f)?;

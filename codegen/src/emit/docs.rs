@@ -20,6 +20,21 @@ const LONGEST_FORMULA: usize = 600;
 const IN_PHASE: &str = "In the formulas w are the angular velocities (in rad/s) of the in-phase motion: those that belong to the in-phase momenta where all differences vanish.";
 
 impl Emission<'_> {
+    /// Returns true if a spring is at rest beside its parent's line.
+    pub(super) fn has_rest_angles(&self) -> bool {
+        self.scene.links.iter().any(|link| link.rest.is_some())
+    }
+
+    /// The state of potential energy zero, for docs.
+    pub(super) fn zero_of_potential(&self) -> &'static str {
+        match self.has_rest_angles() {
+            true => {
+                "that of gravity zero where all are zero, that of springs where they are at rest"
+            }
+            false => "zero where all are zero",
+        }
+    }
+
     pub(super) fn text(&self, expr: &Expr) -> String {
         mechanics::text(expr, &self.mechanics.symbols)
     }
@@ -150,7 +165,8 @@ impl Emission<'_> {
             ],
             Purpose::KineticEnergy => vec![format!("Kinetic energy K = ½ ωᵀ M(θ) ω (in J) at angles `theta` (in rad) and angular velocities `omega` (in rad/s).{}", self.frame_note())],
             Purpose::PotentialEnergy => {
-                vec!["Potential energy U (in J) at angles `theta` (in rad), zero where all are zero.".into()]
+                let zero = self.zero_of_potential();
+                vec![format!("Potential energy U (in J) at angles `theta` (in rad), {zero}.")]
             }
             Purpose::AbsoluteMomenta => {
                 vec!["Generalized momenta p = M(θ) ω (in kg m²/s) of the absolute angles `theta` (in rad), at angular velocities `omega` (in rad/s).".into()]

@@ -11,7 +11,7 @@ use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Columns of bodies, d along and e across the link.
-const BODIES: [&str; 12] = [
+const BODIES: [&str; 13] = [
     "half of the mass m (kg)",
     "first moment m d about the pivot (kg m)",
     "first moment m e across the link (kg m)",
@@ -22,6 +22,7 @@ const BODIES: [&str; 12] = [
     "g m d (J)",
     "g m e (J)",
     "half of the torsion spring's stiffness (N m)",
+    "angle at which the torsion spring is at rest (rad)",
     "friction c in the pivot (N m s)",
     "drag k against the ground (N m s)",
 ];

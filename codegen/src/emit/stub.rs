@@ -368,9 +368,9 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
         #vis struct #parameters<T = f64> { #(#vis #names: T),* }
 
         #[allow(missing_docs, unused_variables, clippy::all)]
-        impl #name<f64> {
+        impl<T: #runtime::scalar::Real> #name<T> {
             pub fn new(
-                parameters: #parameters<f64>,
+                parameters: #parameters<T>,
             ) -> ::core::result::Result<Self, #runtime::ParameterError> {
                 ::core::unimplemented!()
             }
@@ -378,7 +378,7 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
 
         #[allow(missing_docs, unused_variables, clippy::all)]
         impl<T: #runtime::Scalar> #name<T> {
-            pub fn from_parameters(parameters: #parameters<T>) -> Self {
+            pub fn from_parameters_unchecked(parameters: #parameters<T>) -> Self {
                 ::core::unimplemented!()
             }
         }

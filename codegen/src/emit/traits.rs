@@ -97,7 +97,12 @@ impl Emission<'_> {
             false => quote!(self.accelerations(&theta, &omega)),
         };
         let time = self.time_name();
-        let body = self.sunk().unwrap_or_else(|| {
+        let sunk = self.sunk();
+        // As for the functions, see `emit`.
+        let allow = sunk
+            .is_some()
+            .then(|| quote!(#[allow(clippy::possible_missing_comma)]));
+        let body = sunk.unwrap_or_else(|| {
             quote! {
                 let theta = ::core::array::from_fn(theta);
                 let omega = ::core::array::from_fn(omega);
@@ -131,6 +136,7 @@ impl Emission<'_> {
                 }
             }
 
+            #allow
             impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
                 type Of<#other: #runtime::Scalar> = #name<#other>;
 

@@ -257,7 +257,7 @@ impl Derivation<'_> {
         terms
     }
 
-    /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i))².
+    /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i) − ρ_i)².
     fn springs(&mut self, angles: &[SymbolId]) -> Formula {
         let mut terms = Vec::new();
         for index in 0..angles.len() {
@@ -271,8 +271,20 @@ impl Derivation<'_> {
                 meaning: format!("stiffness of the torsion spring in the pivot of `{orbit}`"),
                 unit: "N m",
             };
-            let relative = self.relative(index, angles);
-            terms.push(self.half_square(letter, &orbit, &spring, &relative));
+            let mut strain = self.relative(index, angles);
+            if let Some(rest) = self.scene.links[index].rest.clone() {
+                let value = self.quantity(&rest);
+                let rest = self.constant(
+                    &format!("rest_{orbit}"),
+                    &format!("ρ_{orbit}"),
+                    &format!("\\rho_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
+                    &format!("angle at which the torsion spring of `{orbit}` is at rest"),
+                    "rad",
+                    value,
+                );
+                strain = &strain - &rest;
+            }
+            terms.push(self.half_square(letter, &orbit, &spring, &strain));
         }
         terms.into_iter().sum::<Formula>()
     }

@@ -142,6 +142,23 @@ pub enum Message {
     },
     /// `at` on the root.
     RootPivot,
+    /// A rest angle without a spring.
+    RestWithoutSpring {
+        /// The link.
+        link: String,
+    },
+    /// A name that is no declared parameter.
+    UndeclaredParameter {
+        /// Text as written.
+        name: String,
+        /// The declared one that is spelt most alike.
+        nearest: Option<String>,
+    },
+    /// A declared parameter that no value names.
+    UnusedParameter {
+        /// The parameter.
+        name: String,
+    },
     /// Children of a generation rule.
     RuleChildren,
     /// A pair where a single value is needed.
@@ -435,7 +452,15 @@ impl Message {
         let nearest = nearest(
             &name,
             &[
-                "gravity", "crate", "solve", "code", "drive", "emit", "observe", "in_phase",
+                "gravity",
+                "crate",
+                "solve",
+                "code",
+                "parameters",
+                "drive",
+                "emit",
+                "observe",
+                "in_phase",
                 "locked",
             ],
         );

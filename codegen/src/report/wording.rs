@@ -104,7 +104,7 @@ impl Message {
                 suggest(
                     nearest,
                     "settings are `gravity = ...`, `crate = ...`, `solve = ...`, `code = ...`, \
-                     `drive(...)`, `emit(...)`, `observe(...)`",
+                     `parameters(...)`, `drive(...)`, `emit(...)`, `observe(...)`",
                 ),
             ),
             M::MissingGravity => problem(
@@ -193,6 +193,24 @@ impl Message {
                 "the root does not hang from a link",
                 "`at` is a place on the parent",
                 "leave it out: the root's pivot is the origin",
+            ),
+            M::RestWithoutSpring { link } => problem(
+                format!("`{link}` has a rest angle, but no spring"),
+                "nothing is at rest here",
+                "add `spring = ...`, the spring's stiffness in N m, or leave `rest` out",
+            ),
+            M::UndeclaredParameter { name, nearest } => problem(
+                format!("`{name}` is not declared"),
+                "not in `parameters(...)`",
+                match nearest {
+                    Some(nearest) => format!("did you mean `{nearest}`?"),
+                    None => format!("add `{name}` to `parameters(...)`, or write a number"),
+                },
+            ),
+            M::UnusedParameter { name } => problem(
+                format!("the parameter `{name}` is never used"),
+                "no value names it",
+                "leave it out of `parameters(...)`, or use it",
             ),
             M::RuleChildren => problem(
                 "a generation rule has no other children",

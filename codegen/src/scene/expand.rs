@@ -101,6 +101,7 @@ fn link(template: &Template, pending: &Pending) -> Link {
         friction,
         drag,
         spring,
+        rest,
         ..
     } = template;
     Link {
@@ -114,6 +115,7 @@ fn link(template: &Template, pending: &Pending) -> Link {
         friction: friction.clone(),
         drag: drag.clone(),
         spring: spring.clone(),
+        rest: rest.clone(),
     }
 }
 

@@ -79,9 +79,9 @@ pub struct Scene {
     pub groups: Vec<Group>,
     /// The drive, if the tree has one.
     pub drive: Option<Drive>,
-    /// Named values that the model is given at run time: gravity's first, then
-    /// link by link in the order in which the description names them, then the
-    /// drive's.
+    /// Named values that the model is given at run time, in the order of their
+    /// declaration, or where there is none: gravity's first, then link by link in the
+    /// order in which the description names them, then the drive's.
     pub parameters: Vec<Parameter>,
     /// Conditions on values that depend on parameters, to be checked when the
     /// model is built.
@@ -115,7 +115,7 @@ impl Scene {
         self.layout != Layout::Unrolled
     }
 
-    /// Whether any centre of mass or pivot is beside a link's axis.
+    /// Returns true if any centre of mass or pivot is beside a link's axis.
     pub fn is_lateral(&self) -> bool {
         let beside = |offset: &Offset| !offset.lateral.is_zero();
         let mut links = self.links.iter();
@@ -159,6 +159,8 @@ pub struct Link {
     /// Stiffness of a torsion spring in the link's pivot, N m, on the angle
     /// relative to the parent (to the vertical for the root); `None` without.
     pub spring: Option<Quantity>,
+    /// Relative angle at which the spring is at rest, rad; `None` for zero.
+    pub rest: Option<Quantity>,
 }
 
 /// A point of a link, from the link's pivot, m.

@@ -139,7 +139,8 @@ pub const OBSERVABLE_SUFFIXES: [&str; 5] = [
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
     "accelerations", "accelerations_into", "canonical_rates", "clone", "default",
-    "degrees_of_freedom", "eq", "evaluate", "fmt", "from", "from_parameters", "from_symmetric",
+    "degrees_of_freedom", "eq", "evaluate", "fmt", "from", "from_parameters_unchecked",
+    "from_symmetric",
     "hamiltonian", "into", "kinetic_energy", "kinetic_energy_of", "mass_matrix", "momenta", "new", "part",
     "potential_energy", "potential_energy_of", "cast", "stiffness_matrix",
     "symmetric_accelerations", "symmetric_accelerations_into", "symmetric_momenta",

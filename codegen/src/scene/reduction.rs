@@ -280,6 +280,12 @@ fn lock(
             child.parent = link.parent;
             child.pivot = turned(&child.pivot, angle, &link.pivot);
             child.copies = child.copies.saturating_mul(link.copies);
+            if child.spring.is_some() {
+                // The spring's angle counts from the link that is now a part of another.
+                let rest = child.rest.take().unwrap_or_else(Quantity::zero);
+                let rest = Quantity::sum([rest, Quantity::Exact(angle.clone())]);
+                child.rest = Some(rest).filter(|rest| !rest.is_zero());
+            }
         }
         match weld(&parent.body, link, angle) {
             Ok(body) => parent.body = body,

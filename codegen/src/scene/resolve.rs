@@ -9,7 +9,7 @@ use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_s
 use super::rule::resolve_code;
 use super::singular::check_regular;
 use super::template::TreeBuilder;
-use super::values::{Usage, Values};
+use super::values::{Usage, Values, check_used};
 use super::{CratePath, Quantity, Scene, Sign};
 use crate::description::{Description, Node, Property, Value};
 use crate::report::{Message, Report};
@@ -19,7 +19,10 @@ use crate::report::{Message, Report};
 /// `None` if anything is wrong, here or before: then `report` says what. Every
 /// mistake is looked for that does not depend on another one.
 pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> {
-    let mut builder = TreeBuilder::default();
+    let mut builder = TreeBuilder {
+        values: Values::declared(description.parameters.as_ref(), report),
+        ..TreeBuilder::default()
+    };
     let gravity = gravity(description, &mut builder.values, report);
     check_roots(description, report);
     for root in &description.roots {
@@ -103,6 +106,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     }
     // A link whose own values are wrong would look singular.
     if report.is_empty() {
+        check_used(&scene.parameters, &values.spans, report);
         check_regular(&templates, report);
     }
     report.is_empty().then_some(scene)
@@ -117,7 +121,8 @@ fn gravity(
     let usage = Usage {
         what: "gravity".to_owned(),
         unit: "m/s²",
-        sign: Sign::NonNegative,
+        // Below zero the angles are those from the upward vertical.
+        sign: Sign::Any,
     };
     match &description.gravity {
         Some(Property {

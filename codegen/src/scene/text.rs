@@ -120,6 +120,7 @@ impl Scene {
             friction,
             drag,
             spring,
+            rest,
         } = link;
         let show = |Offset { along, lateral }: &Offset| {
             let along = along.display(&self.parameters);
@@ -143,6 +144,7 @@ impl Scene {
             ("friction", friction, "N m s"),
             ("drag", drag, "N m s"),
             ("spring", spring, "N m"),
+            ("rest", rest, "rad"),
         ];
         for (name, force, unit) in forces {
             if let Some(force) = force {

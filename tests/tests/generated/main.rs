@@ -1,5 +1,6 @@
 //! Emitted code as its users meet it: compiled, called, built in parallel.
 
+mod any_number;
 mod bits;
 mod fused;
 mod generations;

@@ -17,7 +17,8 @@ macro_rules! crown {
                     hand: rod(mass = 0.05, length = 0.12, spring = 4e-3, friction = 1e-5) * 3,
                     finger(mass = 0.03, com = (0.04, 0.01), inertia = 2e-5, joint = 0.08,
                         at = (0.2, 0.04), drag = 1e-6)[
-                        nail: rod(mass = 0.01, length = 0.03, drag = 1e-6)
+                        nail: rod(mass = 0.01, length = 0.03, drag = 1e-6, spring = 2e-3,
+                            rest = 0.7)
                     ] * 2
                 ] * 2,
                 tail: disc(mass = 0.1, length = 0.1, radius = 0.03, at = 0.3)

@@ -106,7 +106,10 @@ fn observed() {
 fn sweep() {
     stages_of("sweep");
     operations("sweep");
-    functions("sweep", &["new", "from_parameters", "accelerations"]);
+    functions(
+        "sweep",
+        &["new", "from_parameters_unchecked", "accelerations"],
+    );
 }
 
 #[test]

@@ -93,10 +93,10 @@ impl<T: Real> StoermerVerlet<T> {
     }
 }
 
-impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<'_, C>> for StoermerVerlet<T> {
+impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<C>> for StoermerVerlet<T> {
     fn integrate(
         &self,
-        ode: &CanonicalVariables<'_, C>,
+        ode: &CanonicalVariables<C>,
         start: &State<T>,
         end: T,
         observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
@@ -121,7 +121,7 @@ impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<'_, C>> for Stoe
 /// Velocities are the same at other coordinates, rates of momenta at other
 /// momenta.
 fn check_separable<T: Real, C: Canonical<T>>(
-    ode: &CanonicalVariables<'_, C>,
+    ode: &CanonicalVariables<C>,
     start: &State<T>,
 ) -> Result<(), InputError<T>> {
     let n = start.values.len() / 2;
