@@ -13,6 +13,7 @@ mod model;
 mod names;
 mod observables;
 mod parts;
+mod positions;
 mod quantities;
 mod sink;
 mod strip_powers;

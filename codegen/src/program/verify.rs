@@ -113,9 +113,10 @@ impl Program {
         for entry in &self.entries {
             let filled = match entry.shape {
                 Shape::Scalar => entry.outputs.len() == 1,
-                Shape::Pair => entry.outputs.len() >= 2 && entry.outputs.len() % 2 == 0,
                 Shape::Vector => !entry.outputs.is_empty(),
-                Shape::Matrix(size) => entry.outputs.len() == size * size,
+                Shape::Rows(length) => {
+                    !entry.outputs.is_empty() && entry.outputs.len() % length == 0
+                }
                 Shape::Split(first) => (1..entry.outputs.len()).contains(&first),
                 Shape::Transfer => entry.outputs.len() == 2,
                 Shape::Transfers(count) => entry.outputs.len() == 2 * count,

@@ -1,9 +1,9 @@
 //! Emitted models, as they are, on other numbers: variational equations, checked
 //! parameters of any real type, every function for many states.
 
+use branched_pendulum::Cast;
 use branched_pendulum::analysis::variational::{Linearised, linearised};
 use branched_pendulum::batch::{Batch, BatchError, StateFunction};
-use branched_pendulum::Cast;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Dual, InstructionSet};
 use branched_pendulum::state_function;

@@ -42,7 +42,7 @@ impl Lowering<'_> {
         })
     }
 
-    pub(super) fn value_of(&mut self, quantity: &Quantity) -> ValueId {
+    pub(in crate::program) fn value_of(&mut self, quantity: &Quantity) -> ValueId {
         let constant = self.quantity(quantity);
         self.builder.constant(constant)
     }
