@@ -4,7 +4,6 @@
 use std::process::{Command, Output};
 
 use branched_pendulum::prelude::*;
-use branched_pendulum_examples::solvers::Method;
 use branched_pendulum_examples::stability_map::verdict::{
     Verdict, damped, damped_model, damped_reference, ideal,
 };

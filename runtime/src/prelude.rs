@@ -11,7 +11,7 @@ pub use crate::branched_pendulum;
 pub use crate::ensemble::Ensemble;
 pub use crate::integrate::{
     Crossing, DenseStep, Dop853, Dopri5, Event, Gauss, GaussOrder, IntegrationError, Integrator,
-    Options, Report, Rk4, Solution, StoermerVerlet, StopReason, Taylor, Verner98,
+    Method, Options, Report, Rk4, Solution, StoermerVerlet, StopReason, Taylor, Verner98,
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};

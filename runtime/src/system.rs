@@ -30,7 +30,7 @@ pub use link_name::LinkName;
 pub use ode::{Ode, OdeFn};
 pub use positions::{LinkPoint, LinkProperties, Positions};
 pub use state::{LengthMismatch, State};
-pub use taylor::{TaylorOde, TaylorPendulum};
+pub use taylor::{RatesOnly, TaylorOde, TaylorPendulum};
 pub use workspace::Workspace;
 
 /// Equations of motion in absolute angles.

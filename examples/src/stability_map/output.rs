@@ -8,7 +8,7 @@ use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
 
 use super::verdict::{DAMPED_ANGLE, Verdict, damped, damped_model, damped_reference, ideal};
 use crate::branched_double::Failure;
-use crate::solvers::Method;
+use crate::solvers::legend;
 
 /// Methods that take a step.
 pub const FIXED: [Method; 5] = [
@@ -154,7 +154,7 @@ pub fn table(maps: &[Map]) -> String {
         }
         text.push('\n');
         for method in &map.methods {
-            text.push_str(&format!("{:24}", method.name()));
+            text.push_str(&format!("{:24}", method.title()));
             for verdict in Verdict::ALL {
                 let own = map.places.iter().filter(|place| place.method == *method);
                 let count = own.filter(|place| place.verdict == verdict).count();
@@ -181,7 +181,7 @@ pub fn write(folder: &Path, maps: &[Map]) -> Result<Vec<PathBuf>, Failure> {
             .map(|(index, verdict)| format!("{index} {}", verdict.name()))
             .collect();
         let columns = [
-            Method::legend(&map.methods),
+            legend(&map.methods),
             map.x.to_owned(),
             map.height.to_owned(),
             format!("verdict: {}", verdicts.join("; ")),
@@ -218,7 +218,7 @@ fn chart(map: &Map) -> Chart {
     let height = 120.0 + 190.0 * map.methods.len() as f64;
     let chart = Chart::new(&map.title, Axis::log(map.x)).size(900.0, height);
     map.methods.iter().fold(chart, |chart, method| {
-        let panel = Panel::new((map.y)(method.name()));
+        let panel = Panel::new((map.y)(method.title()));
         let panel = Verdict::ALL
             .iter()
             .zip(styles)

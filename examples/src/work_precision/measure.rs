@@ -6,7 +6,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorOde;
 
 use super::reference::{Problem, Tree};
-use crate::solvers::Method;
+use crate::solvers::configured;
 use crate::solvers::scenes::{Ideal, Rods};
 
 /// The methods that are compared.
@@ -69,8 +69,8 @@ fn measure_on(ode: &impl TaylorOde<f64>, problem: &Problem) -> Vec<Measurement> 
     for method in METHODS {
         for setting in settings(method) {
             let run = || {
-                let observer = |_: f64, _: &[f64]| ControlFlow::Continue(());
-                method.integrate(setting, ode, &start, problem.end, observer)
+                let observer = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
+                configured(method, setting).integrate(ode, &start, problem.end, observer)
             };
             let Ok(solution) = run() else {
                 continue;
@@ -154,20 +154,20 @@ pub fn energy_drifts() -> Result<Vec<EnergyDrift>, IntegrationError<f64>> {
     ];
     let run = |(method, setting): (Method, f64)| {
         let mut errors = vec![0.0_f64; 100];
-        let visit = |time: f64, state: &[f64]| {
-            let part = ((time / 10.0) as usize).min(99);
-            errors[part] = errors[part].max((energy(state) / initial - 1.0).abs());
+        let observer = |step: &mut DenseStep<'_, f64>| {
+            let part = ((step.end_time() / 10.0) as usize).min(99);
+            errors[part] = errors[part].max((energy(step.end()) / initial - 1.0).abs());
             ControlFlow::Continue(())
         };
         let ode = AbsoluteAngles(&model);
-        let solution = method.integrate(setting, &ode, &start, 1000.0, visit)?;
+        let solution = configured(method, setting).integrate(&ode, &start, 1000.0, observer)?;
         let unit = if method.is_adaptive() {
             "tolerance"
         } else {
             "step"
         };
         Ok(EnergyDrift {
-            name: format!("{}, {unit} {setting:e}", method.name()),
+            name: format!("{}, {unit} {setting:e}", method.title()),
             times: (1..=100).map(|part| 10.0 * f64::from(part)).collect(),
             errors,
             evaluations: solution.report.evaluations,

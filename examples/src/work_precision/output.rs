@@ -8,7 +8,7 @@ use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 
 use super::measure::{EnergyDrift, METHODS, Measurement, time_to_error};
 use crate::branched_double::Failure;
-use crate::solvers::Method;
+use crate::solvers::legend;
 
 /// Errors in the table.
 const LEVELS: [f64; 5] = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14];
@@ -27,7 +27,7 @@ pub fn table(problems: &[Runs], drifts: &[EnergyDrift]) -> String {
         text.push('\n');
         let times = METHODS.map(|method| LEVELS.map(|level| time_to_error(runs, method, level)));
         for (method, row) in METHODS.iter().zip(&times) {
-            push(&mut text, format_args!("{:24}", method.name()));
+            push(&mut text, format_args!("{:24}", method.title()));
             for (column, time) in row.iter().enumerate() {
                 let others = times.iter().filter_map(|row| row[column]);
                 let best = others.fold(f64::INFINITY, f64::min);
@@ -82,7 +82,7 @@ pub fn write(
         &files[0],
         &[
             Column::new(format!("problem: {}", names.join("; ")), ""),
-            Column::new(Method::legend(&METHODS), ""),
+            Column::new(legend(&METHODS), ""),
             Column::new("tolerance or step", ""),
             Column::new("error", "rad or rad/s"),
             Column::new("time", "us"),
@@ -153,7 +153,7 @@ fn chart(title: &str, x: &str, problems: &[Runs], cost: impl Fn(&Measurement) ->
         let panel = METHODS.iter().fold(panel, |panel, method| {
             let own = runs.iter().filter(|run| run.method == *method);
             let (x, y): (Vec<f64>, Vec<f64>) = own.map(|run| (cost(run), run.error)).unzip();
-            panel.series(Series::line(method.name(), &x, &y).with_symbols())
+            panel.series(Series::line(method.title(), &x, &y).with_symbols())
         });
         chart.panel(panel)
     })

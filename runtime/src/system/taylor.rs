@@ -1,6 +1,6 @@
 //! Systems that know the Taylor coefficients of their motion.
 
-use super::{AbsoluteAngles, Cast, Ode};
+use super::{AbsoluteAngles, Cast, Ode, Workspace};
 use crate::scalar::Scalar;
 use crate::simd::Quad;
 
@@ -126,6 +126,12 @@ impl<T: Scalar, P: TaylorPendulum<T>> TaylorPendulum<T> for &P {
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 pub trait TaylorOde<T>: Ode<T> {
+    /// Returns false if the coefficients are not known: a run of
+    /// [`Taylor`](crate::integrate::Taylor) is refused then.
+    fn has_series(&self) -> bool {
+        true
+    }
+
     /// Groups of four numbers that an expansion to order `order` works in.
     fn workspace(&self, order: usize) -> usize;
 
@@ -142,6 +148,10 @@ pub trait TaylorOde<T>: Ode<T> {
 }
 
 impl<T, O: TaylorOde<T> + ?Sized> TaylorOde<T> for &O {
+    fn has_series(&self) -> bool {
+        (**self).has_series()
+    }
+
     fn workspace(&self, order: usize) -> usize {
         (**self).workspace(order)
     }
@@ -166,5 +176,40 @@ impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<P> {
         let (theta, omega) = state.split_at(P::LINKS);
         self.0
             .taylor_coefficients_into(time, theta, omega, coefficients, work);
+    }
+}
+
+/// A system whose Taylor coefficients are not known, where a [`TaylorOde`] is
+/// asked for: for methods that are chosen by name.
+#[derive(Clone, Copy, Debug)]
+pub struct RatesOnly<'a, O: ?Sized>(pub &'a O);
+
+impl<T, O: Ode<T> + ?Sized> Ode<T> for RatesOnly<'_, O> {
+    fn dimension(&self) -> usize {
+        self.0.dimension()
+    }
+
+    #[inline]
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        self.0.rates(time, state, rates);
+    }
+
+    #[inline]
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        self.0.rates_with(workspace, time, state, rates);
+    }
+}
+
+impl<T: Scalar, O: Ode<T> + ?Sized> TaylorOde<T> for RatesOnly<'_, O> {
+    fn has_series(&self) -> bool {
+        false
+    }
+
+    fn workspace(&self, _order: usize) -> usize {
+        0
+    }
+
+    fn taylor(&self, _time: T, _state: &[T], coefficients: &mut [T], _work: &mut [Quad<T>]) {
+        coefficients.fill(T::from_f64(f64::NAN));
     }
 }

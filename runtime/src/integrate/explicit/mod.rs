@@ -119,7 +119,7 @@ pub type Verner98<T> = ExplicitRungeKutta<Verner9, T>;
 ///
 /// [`Report::next_step`]: super::Report::next_step
 pub struct ExplicitRungeKutta<M, T> {
-    options: Options<T>,
+    pub(super) options: Options<T>,
     pair: PhantomData<M>,
 }
 

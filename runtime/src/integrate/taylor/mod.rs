@@ -65,7 +65,7 @@ use run::Run;
 /// [`Report::evaluations`]: super::Report::evaluations
 #[derive(Clone, Debug)]
 pub struct Taylor<T> {
-    options: Options<T>,
+    pub(super) options: Options<T>,
     order: Option<usize>,
 }
 
@@ -175,6 +175,9 @@ impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for Taylor<T> {
         check_times(start.time, &[end])?;
         self.options.validate(start.values.len())?;
         self.check_options()?;
+        if !ode.has_series() {
+            return Err(InputError::NoSeries.into());
+        }
         let order = self.order();
         if end == start.time {
             return Ok(Solution {

@@ -17,7 +17,7 @@ use crate::scalar::Real;
 use crate::system::{Ode, State};
 
 /// The order of a [`Gauss`] method: twice its number of stages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GaussOrder {
     /// One stage: the implicit midpoint rule.
     Two,
