@@ -75,9 +75,8 @@ impl Program {
             _ => None,
         });
         let strips = self.strips.iter().flat_map(|strips| &strips.strips);
-        let mut rows =
-            strips.flat_map(|strip| strip.constants.iter().chain(strip.body.iter().flatten()));
-        in_entries.or_else(|| rows.find_map(|&id| self.unrepresentable_in(id)))
+        let mut rows = strips.flat_map(super::Strip::all_constants);
+        in_entries.or_else(|| rows.find_map(|id| self.unrepresentable_in(id)))
     }
 
     fn unrepresentable_in(&self, id: super::ConstantId) -> Option<&str> {

@@ -31,23 +31,6 @@ impl Shape {
         }
     }
 
-    /// Returns the parent of a link but the root's, and the number of its row.
-    pub(super) fn link(self, link: usize) -> Option<(Option<usize>, usize)> {
-        match self {
-            Self::Parents(parents) => {
-                let &parent = parents.get(link)?;
-                Some(((link > 0).then_some(parent as usize), link))
-            }
-            Self::Generations(copies) => {
-                let (generation, number) = super::place(copies, link)?;
-                // Links of the generation above, in front of this one.
-                let above: usize = copies.iter().take(generation).product();
-                let parent = || link - number - above + number % above;
-                Some(((generation > 0).then(parent), generation))
-            }
-        }
-    }
-
     /// Goes from the root to the leaves: the link, its parent but for the root,
     /// and the number of its row.
     #[inline(always)]
