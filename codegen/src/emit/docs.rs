@@ -272,6 +272,10 @@ impl Emission<'_> {
             Purpose::TotalFrictionPower => vec![
                 "Power −2 R (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.".into(),
             ],
+            Purpose::Positions(_)
+            | Purpose::PointVelocities(_)
+            | Purpose::PointTorques(_)
+            | Purpose::LinkProperties => self.positions_meaning(purpose),
             Purpose::Link(function) => vec![link_meaning(function).into()],
             Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
             Purpose::RootDrive => vec![

@@ -82,6 +82,7 @@ impl Emission<'_> {
             }
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
             Purpose::Observable(n, form) => self.observable_formulas(n, form),
+            Purpose::Positions(_) | Purpose::PointVelocities(_) => self.positions_formulas(purpose),
             Purpose::AbsoluteVelocities
             | Purpose::TaylorCoefficients
             | Purpose::MassMatrix
@@ -94,6 +95,8 @@ impl Emission<'_> {
             | Purpose::FromSymmetric
             | Purpose::SymmetricVelocities
             | Purpose::Hamiltonian
+            | Purpose::PointTorques(_)
+            | Purpose::LinkProperties
             | Purpose::Link(_)
             | Purpose::RootGravity => Vec::new(),
         }

@@ -124,6 +124,10 @@ impl Emission<'_> {
                 Some(frame) => &frame.momenta,
                 None => &mechanics.absolute.momenta,
             },
+            Argument::Forces => {
+                let axis = ["x", "y"][index % 2];
+                return format!("force_{axis}_{}", self.scene.links[index / 2].name);
+            }
             argument => {
                 let strips = self.program.strips.as_ref();
                 let name = strips.map(|strips| strips.element(argument, index));

@@ -20,6 +20,7 @@ impl Emission<'_> {
         let sectors = self.mechanics.sectors.as_ref();
         let sectors = sectors.map(|sectors| self.sectors(sectors));
         let forms = self.transfer_forms();
+        let positions = self.positions_trait();
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
             #pendulum
@@ -28,6 +29,7 @@ impl Emission<'_> {
             #canonical
             #sectors
             #forms
+            #positions
             #taylor
         }
     }

@@ -30,6 +30,7 @@ impl Derivation<'_> {
             drive: self.plain_drive(Some(&absolute)),
             absolute: self.frame(&absolute),
             articulation: self.articulation(&absolute),
+            positions: None,
             link: None,
             coordinates: Vec::new(),
             symmetric: None,
@@ -39,6 +40,7 @@ impl Derivation<'_> {
             observables: Observables::default(),
         };
         let requests = &self.scene.requests;
+        let requests_positions = requests.positions;
         let nested = requests.symmetric && self.is_nested();
         if requests.budget.is_some() || nested {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
@@ -70,6 +72,9 @@ impl Derivation<'_> {
             .as_ref()
             .map(|frame| (frame, &*mechanics.coordinates));
         mechanics.observables = self.observables(&absolute, symmetric)?;
+        if requests_positions {
+            mechanics.positions = Some(self.positions(&absolute));
+        }
         mechanics.constants = self
             .constants
             .iter()
@@ -99,6 +104,7 @@ impl Derivation<'_> {
                 gravity: self.expr(&gravity.expand()),
                 joints: Vec::new(),
             },
+            positions: None,
             link: Some(link),
             combinations: Vec::new(),
             constants: Vec::new(),

@@ -20,6 +20,7 @@ mod lock;
 mod observable;
 mod observable_rate;
 mod observables;
+mod positions;
 mod print;
 mod rate_symbols;
 pub mod sectors;
@@ -41,6 +42,7 @@ pub use observables::{
     CanonicalRate, EnergySymbols, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame,
     Observables, System,
 };
+pub use positions::{LinkPositions, RelativePosition};
 pub use print::{latex, text};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
 pub use work_limit::MOST_TERMS;
@@ -225,6 +227,8 @@ pub struct Mechanics {
     pub absolute: Frame,
     /// The joints, from which their accelerations can be formed as well.
     pub articulation: Articulation,
+    /// Positions of the links' points, if asked for and not in loops.
+    pub positions: Option<Vec<LinkPositions>>,
     /// The balance of one link, where the code is loops.
     pub link: Option<LinkBalance>,
     /// The symmetric coordinates, if asked for.

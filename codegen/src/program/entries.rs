@@ -49,6 +49,9 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
         list.budgets(scene, sectors, request);
     }
     list.observables(scene, mechanics);
+    if let Some(positions) = &mechanics.positions {
+        list.positions(scene, mechanics, positions);
+    }
     if scene.requests.taylor {
         list.taylor(scene, mechanics);
     }
@@ -153,7 +156,7 @@ impl EntryList<'_, '_> {
                     Purpose::CanonicalRates,
                     &self.timed(&[Theta, AbsoluteMomenta]),
                     outputs,
-                    Shape::Pair,
+                    Shape::Rows(frame.coordinates.len()),
                 );
             }
         }
@@ -164,7 +167,7 @@ impl EntryList<'_, '_> {
                 ("stiffness_matrix", Purpose::StiffnessMatrix, stiffness),
             ] {
                 let dense = self.dense(&mut motion, entries, size);
-                self.push(name, purpose, &[Theta], dense, Shape::Matrix(size));
+                self.push(name, purpose, &[Theta], dense, Shape::Rows(size));
             }
         }
         choice

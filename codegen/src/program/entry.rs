@@ -20,6 +20,8 @@ pub enum Argument {
     Rates,
     /// Momenta that belong to the symmetric coordinates, kg m²/s.
     Momenta,
+    /// Forces on the links, x and y of each, N.
+    Forces,
     /// Angles or angular velocities, absolute: the transform serves both.
     Absolute,
     /// Angles or angular velocities, symmetric.
@@ -49,10 +51,8 @@ pub enum Shape {
     Scalar,
     /// An array.
     Vector,
-    /// Two arrays of equal length.
-    Pair,
-    /// A square matrix of that size, by rows.
-    Matrix(usize),
+    /// Arrays of that length.
+    Rows(usize),
     /// A `Transfer`: kinetic part, potential part.
     Transfer,
     /// A number of `Transfer`s.
@@ -74,6 +74,31 @@ pub enum EnergyDefinition {
     Parseval,
     /// C: ½ ωᵀ B(θ) ω.
     Velocity,
+}
+
+/// A kind of points that all links have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointKind {
+    /// The pivot.
+    Pivot,
+    /// The centre of mass.
+    Centre,
+    /// The end.
+    End,
+}
+
+impl PointKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Pivot, Self::Centre, Self::End];
+
+    /// Its name in code.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pivot => "pivot",
+            Self::Centre => "centre",
+            Self::End => "end",
+        }
+    }
 }
 
 /// Purpose of an entry point; the emitter documents it accordingly.
@@ -143,6 +168,14 @@ pub enum Purpose {
     TotalFrictionPower,
     /// The observable with that number.
     Observable(usize, ObservableForm),
+    /// Positions of these points of all links.
+    Positions(PointKind),
+    /// Their velocities.
+    PointVelocities(PointKind),
+    /// Generalized torques Q of forces there.
+    PointTorques(PointKind),
+    /// Masses, moments of inertia and places of the links.
+    LinkProperties,
     /// A function of the recursion, for one link of a tree in loops.
     Link(LinkFunction),
     /// Apparent gravity at the root's pivot of a tree in loops, in reduced units.

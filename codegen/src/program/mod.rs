@@ -28,6 +28,7 @@ mod observables;
 mod operation;
 mod pair;
 mod passes;
+mod positions;
 mod rebuild;
 mod rotations;
 mod rules;
@@ -44,7 +45,9 @@ mod verify;
 pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
-pub use entry::{Argument, EnergyDefinition, Entry, LinkFunction, ObservableForm, Purpose, Shape};
+pub use entry::{
+    Argument, EnergyDefinition, Entry, LinkFunction, ObservableForm, PointKind, Purpose, Shape,
+};
 pub use fuse::FusedSum;
 pub use link::{Column, Strip, Strips};
 pub use operation::{Definition, Op, ValueId};

@@ -63,7 +63,8 @@ impl<'a> Rebuilt<'a> {
             Argument::Rates => &symmetric?.velocities,
             Argument::Momenta => &symmetric?.momenta,
             // What the elements of rows stand for is known to their reader.
-            Argument::Constants
+            Argument::Forces
+            | Argument::Constants
             | Argument::Motion
             | Argument::Response
             | Argument::Sums

@@ -13,6 +13,7 @@ impl Argument {
             Self::AbsoluteMomenta | Self::Momenta => "momenta",
             Self::Coordinates => "coordinates",
             Self::Rates => "rates",
+            Self::Forces => "forces",
             Self::Absolute => "absolute",
             Self::Symmetric => "symmetric",
             Self::Constants => "constants",

@@ -180,6 +180,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         transfer,
         budget,
         taylor,
+        positions: _,
         solve,
     } = &asked.resolved.requests;
     // Loops are the recursion.

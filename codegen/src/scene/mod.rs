@@ -17,6 +17,7 @@ pub mod coordinates;
 mod drive;
 mod expand;
 mod layout;
+mod link_properties;
 mod names;
 mod observable_text;
 mod observables;
@@ -38,6 +39,7 @@ mod values;
 pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, TimeFunction};
 pub use layout::Layout;
+pub use link_properties::LINK_PROPERTIES;
 pub use names::is_keyword;
 pub use observables::{
     CoordinateIndex, Function, OBSERVABLE_SUFFIXES, Observable, Observed, Variable, VariableKind,
@@ -150,6 +152,10 @@ pub struct Link {
     /// The link's pivot on its parent, from the parent's pivot and in the
     /// parent's directions; zero for the root.
     pub pivot: Offset,
+    /// The link's end, from its own pivot: where links hang from it unless they say
+    /// where, or where they would; the centre of mass of a link that has no such
+    /// place.
+    pub end: Offset,
     /// Viscous friction in the link's pivot, N m s, on the angular velocity
     /// relative to the parent (to the ground for the root); `None` without.
     pub friction: Option<Quantity>,
@@ -331,6 +337,8 @@ pub struct Requests {
     pub budget: Option<BudgetRequest>,
     /// Taylor coefficients of the motion.
     pub taylor: bool,
+    /// Positions and velocities of links, and the torques of forces on them.
+    pub positions: bool,
 }
 
 /// Forms of the sectors' budget that are asked for; at least one. The forms

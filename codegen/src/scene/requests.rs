@@ -21,6 +21,7 @@ const OUTPUTS: &[&str] = &[
     "transfer",
     "budget",
     "taylor",
+    "positions",
 ];
 
 /// All forms of the budget.
@@ -85,6 +86,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             "momenta" => wanted.momenta = true,
             "modes" => wanted.modes = true,
             "taylor" => wanted.taylor = true,
+            "positions" => wanted.positions = true,
             "symmetric" => {
                 wanted.symmetric = true;
                 resolved.symmetric = Some(span);

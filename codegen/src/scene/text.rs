@@ -117,6 +117,7 @@ impl Scene {
             inertia,
             com,
             pivot,
+            end,
             friction,
             drag,
             spring,
@@ -140,6 +141,9 @@ impl Scene {
         writeln!(f, "    mass {} kg", mass.display(&self.parameters))?;
         writeln!(f, "    inertia {} kg m²", inertia.display(&self.parameters))?;
         writeln!(f, "    com {} m", show(com))?;
+        if self.requests.positions {
+            writeln!(f, "    end {} m", show(end))?;
+        }
         let forces = [
             ("friction", friction, "N m s"),
             ("drag", drag, "N m s"),
@@ -192,6 +196,7 @@ impl Display for Requests {
             transfer,
             budget,
             taylor,
+            positions,
         } = self;
         write!(f, "accelerations")?;
         if let Some(solve) = solve {
@@ -203,6 +208,7 @@ impl Display for Requests {
             (modes, "modes"),
             (symmetric, "symmetric"),
             (taylor, "taylor"),
+            (positions, "positions"),
         ];
         for (wanted, name) in named {
             if *wanted {

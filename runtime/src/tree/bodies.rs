@@ -17,7 +17,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    fn links(self) -> usize {
+    pub(super) fn links(self) -> usize {
         match self {
             Self::Parents(parents) => parents.len(),
             Self::Generations(copies) => {
@@ -34,7 +34,7 @@ impl Shape {
     /// Goes from the root to the leaves: the link, its parent but for the root,
     /// and the number of its row.
     #[inline(always)]
-    fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
+    pub(super) fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
         match self {
             Self::Parents(parents) => {
                 for (link, &parent) in parents.iter().enumerate() {

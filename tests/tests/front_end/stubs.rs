@@ -50,6 +50,7 @@ fn they_have_the_functions_and_traits_of_models() {
     let mut budgets = 0;
     for scene in [
         "paper",
+        "branch",
         "triplet",
         "driven",
         "observed",

@@ -8,6 +8,7 @@ mod hygiene;
 mod loop_states;
 mod loops;
 mod machine_code;
+mod positions;
 mod scalars;
 mod sectors;
 mod table;

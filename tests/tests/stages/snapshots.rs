@@ -73,6 +73,22 @@ fn simple() {
 }
 
 #[test]
+fn branch() {
+    stages_of("branch");
+    functions(
+        "branch",
+        &[
+            "ends",
+            "end_velocities",
+            "end_torques",
+            "link_properties",
+            "points_into",
+        ],
+    );
+    operations("branch");
+}
+
+#[test]
 fn chain() {
     stages_of("chain");
     program("chain");
