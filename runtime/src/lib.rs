@@ -107,7 +107,8 @@ pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
 pub use system::{
-    Canonical, Cast, Energy, Pendulum, Positions, SymmetricPendulum, TaylorPendulum, WholeTree,
+    Canonical, Cast, Energy, Pendulum, Positions, SymmetricPendulum, TaylorPendulum, Transverse,
+    WholeTree,
 };
 pub use transfer_forms::{TransferForm, TransferForms};
 

@@ -16,6 +16,7 @@ mod ode;
 pub(crate) mod positions;
 mod state;
 mod taylor;
+mod transverse;
 mod whole_tree;
 mod workspace;
 
@@ -32,6 +33,7 @@ pub use ode::{Ode, OdeFn};
 pub use positions::{LinkPoint, LinkProperties, Positions};
 pub use state::{LengthMismatch, State};
 pub use taylor::{RatesOnly, TaylorOde, TaylorPendulum};
+pub use transverse::{InPhaseMotion, Transverse, TransverseOde, TransverseSector};
 pub use whole_tree::{WholeLengthError, WholeTree};
 #[doc(hidden)]
 pub use whole_tree::{WholeMotion, WholeOrbit};

@@ -95,8 +95,10 @@ impl Emission<'_> {
         if !untold.is_empty() {
             lines.push(String::new());
             let untold = match untold.as_slice() {
-                [first, second, third] => format!("{first}, {second} and {third}"),
-                untold => untold.join(" and "),
+                [others @ .., last] if !others.is_empty() => {
+                    format!("{} and {last}", others.join(", "))
+                }
+                untold => untold.concat(),
             };
             lines.push(format!("At {untold}."));
         }
@@ -272,6 +274,10 @@ impl Emission<'_> {
             Purpose::TotalFrictionPower => vec![
                 "Power −2 R (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.".into(),
             ],
+            Purpose::Transverse(_)
+            | Purpose::TransverseEnergy(_)
+            | Purpose::TransverseTransfer(_)
+            | Purpose::TransverseFriction(_) => self.transverse_meaning(purpose),
             Purpose::Positions(_)
             | Purpose::PointVelocities(_)
             | Purpose::PointTorques(_)
@@ -329,6 +335,9 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::Omega => Some("angular velocities `omega` (in rad/s)"),
         Argument::Coordinates => Some("symmetric `coordinates` (in rad)"),
         Argument::Rates => Some("their `rates` (in rad/s)"),
+        Argument::Alpha => Some("angular accelerations `alpha` (in rad/s²)"),
+        Argument::Difference(_) => Some("differences `difference` (in rad)"),
+        Argument::DifferenceRate(_) => Some("their rates `difference_rate` (in rad/s)"),
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
         _ => None,
     }

@@ -28,6 +28,7 @@ mod taylor_rules;
 mod tokens;
 mod traits;
 mod transfer_forms;
+mod transverse;
 mod whole;
 
 pub use stub::stub;

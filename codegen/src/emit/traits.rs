@@ -21,6 +21,7 @@ impl Emission<'_> {
         let sectors = sectors.map(|sectors| self.sectors(sectors));
         let forms = self.transfer_forms();
         let positions = self.positions_trait();
+        let transverse = self.transverse_trait();
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
             #pendulum
@@ -30,6 +31,7 @@ impl Emission<'_> {
             #sectors
             #forms
             #positions
+            #transverse
             #taylor
         }
     }

@@ -49,6 +49,9 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
         list.budgets(scene, sectors, request);
     }
     list.observables(scene, mechanics);
+    if let Some(transverse) = &mechanics.transverse {
+        list.transverse(mechanics, transverse);
+    }
     if let Some(positions) = &mechanics.positions {
         list.positions(scene, mechanics, positions);
     }

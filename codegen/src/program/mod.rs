@@ -40,6 +40,7 @@ mod taylor;
 mod terms;
 mod text;
 mod transfers;
+mod transverse;
 mod verify;
 
 pub use choice::{Choice, cost};

@@ -398,6 +398,8 @@ pub enum Message {
         /// The known one that is spelt most alike.
         nearest: Option<String>,
     },
+    /// Small differences of copies in phase where there are none.
+    NoTransverse,
     /// Copies that should move alike where there are none.
     NothingInPhase {
         /// The link, or `all`.

@@ -452,6 +452,11 @@ impl Message {
                     None => "write the name of a link of the description".to_owned(),
                 },
             ),
+            M::NoTransverse => problem(
+                "`transverse` needs copies that move in phase",
+                "nothing moves in phase",
+                "add `in_phase(all)`, or `in_phase(child)` with a link that has copies",
+            ),
             M::NothingInPhase { name } => problem(
                 format!("nothing to move alike: `{name}` has no copies"),
                 "no copies",

@@ -181,6 +181,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         budget,
         taylor,
         positions: _,
+        transverse,
         solve,
     } = &asked.resolved.requests;
     // Loops are the recursion.
@@ -192,6 +193,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         (transfer.is_some(), "`emit(transfer)`"),
         (budget.is_some(), "`emit(budget)`"),
         (*taylor, "`emit(taylor)`"),
+        (*transverse, "`emit(transverse)`"),
         (asked.observables, "`observe(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),

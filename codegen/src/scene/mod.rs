@@ -34,6 +34,7 @@ mod singular;
 mod symbols;
 mod template;
 mod text;
+mod transverse;
 mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
@@ -48,6 +49,7 @@ pub use observables::{
 pub use quantity::Quantity;
 pub use resolve::resolve;
 pub use sectors::{SectorVariables, sectors};
+pub use transverse::TransverseSector;
 
 use crate::exact::Rational;
 
@@ -339,6 +341,8 @@ pub struct Requests {
     pub taylor: bool,
     /// Positions and velocities of links, and the torques of forces on them.
     pub positions: bool,
+    /// Equations of small differences between copies in phase.
+    pub transverse: bool,
 }
 
 /// Forms of the sectors' budget that are asked for; at least one. The forms

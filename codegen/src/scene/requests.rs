@@ -22,6 +22,7 @@ const OUTPUTS: &[&str] = &[
     "budget",
     "taylor",
     "positions",
+    "transverse",
 ];
 
 /// All forms of the budget.
@@ -51,6 +52,8 @@ pub(super) struct Resolved {
     symmetric: Option<Span>,
     transfer: Option<Span>,
     budget: Option<Span>,
+    /// Place of `transverse`.
+    pub(super) transverse: Option<Span>,
     /// Names of the sectors whose differences are small.
     pub(super) small: Vec<Ident>,
 }
@@ -62,6 +65,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         symmetric: None,
         transfer: None,
         budget: None,
+        transverse: None,
         small: Vec::new(),
     };
     let mut seen: Vec<String> = Vec::new();
@@ -87,6 +91,10 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             "modes" => wanted.modes = true,
             "taylor" => wanted.taylor = true,
             "positions" => wanted.positions = true,
+            "transverse" => {
+                wanted.transverse = true;
+                resolved.transverse = Some(span);
+            }
             "symmetric" => {
                 wanted.symmetric = true;
                 resolved.symmetric = Some(span);

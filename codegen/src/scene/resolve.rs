@@ -1,5 +1,7 @@
 //! Description to scene, on one page.
 
+use proc_macro2::Span;
+
 use super::drive::resolve_drive;
 use super::expand::{check_names, check_pairs, check_size, expand};
 use super::layout::{self, Asked, Layout};
@@ -99,6 +101,12 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         layout,
     };
     if readable {
+        if scene.requests.transverse && scene.transverse_sectors().is_empty() {
+            report.error(
+                resolved.transverse.unwrap_or_else(Span::call_site),
+                Message::NoTransverse,
+            );
+        }
         if !scene.groups.is_empty() {
             resolve_small(&resolved.small, &mut scene, report);
         }

@@ -197,6 +197,7 @@ impl Display for Requests {
             budget,
             taylor,
             positions,
+            transverse,
         } = self;
         write!(f, "accelerations")?;
         if let Some(solve) = solve {
@@ -209,6 +210,7 @@ impl Display for Requests {
             (symmetric, "symmetric"),
             (taylor, "taylor"),
             (positions, "positions"),
+            (transverse, "transverse"),
         ];
         for (wanted, name) in named {
             if *wanted {

@@ -22,3 +22,4 @@ mod support;
 mod symmetric;
 mod taylor;
 mod transfer;
+mod transverse;

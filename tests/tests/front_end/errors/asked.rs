@@ -194,6 +194,11 @@ pub(super) const CASES: &[Case] = &[
     )] struct Pendulum;",
     ),
     (
+        "no_transverse",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2], emit(transverse))] struct Pendulum;",
+    ),
+    (
         "nothing_in_phase",
         "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), in_phase(all))] struct Pendulum;",
     ),
