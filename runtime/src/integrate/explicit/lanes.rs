@@ -239,7 +239,8 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> Stepper<R> for PairInLanes<'_, M, P
 
     #[inline(always)]
     fn advance(&mut self, accepted: R::Mask) {
-        self.stages.advance::<M, _>(&self.system, accepted);
+        self.stages
+            .advance::<M, Pendulums<P, R>>(2 * P::LINKS, accepted);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::stages::{RightHandSide, StepStages};
 use crate::integrate::control::ControlConstants;
+use crate::integrate::piece::Form;
 use crate::scalar::Scalar;
 
 /// One row of a table: numbers of stages, from 1, and their coefficients.
@@ -46,6 +47,14 @@ pub enum DenseForm {
 }
 
 impl DenseForm {
+    /// The form alone.
+    pub(super) fn form(self) -> Form {
+        match self {
+            Self::Alternating(_) => Form::Alternating,
+            Self::Bernstein(_) => Form::Bernstein,
+        }
+    }
+
     /// Rows of the coefficients that are sums over stages.
     pub(super) const fn rows(self) -> &'static [&'static [(usize, f64)]] {
         match self {

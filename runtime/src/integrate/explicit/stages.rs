@@ -205,6 +205,12 @@ impl<W: Scalar> StepStages<W> {
         }
     }
 
+    /// Starts anew from `values`, whose rates are not known.
+    pub(super) fn restart(&mut self, values: &[W]) {
+        self.start.copy_from_slice(values);
+        self.start_residue.fill(W::from_f64(0.0));
+    }
+
     /// Rates at the start of the first step: stage 1.
     #[inline(always)]
     pub(super) fn evaluate_start<S: RightHandSide<W>>(
@@ -314,15 +320,14 @@ impl<W: Scalar> StepStages<W> {
         size * (squares / count(system)).sqrt()
     }
 
-    /// Makes the end of the step the start of the next one, where it is accepted.
-    /// The rates there become its first stage.
+    /// Makes the end of the step the start of the next one, where it is accepted, in the
+    /// first `n` components. The rates there become its first stage.
     #[inline(always)]
     pub(super) fn advance<M: Pair, S: RightHandSide<W>>(
         &mut self,
-        system: &S,
+        n: usize,
         accepted: S::Accepted,
     ) {
-        let n = system.dimension();
         let (first, rest) = self.rates.split_at_mut(n);
         let last = &rest[(M::STAGES - 1) * n..][..n];
         let (start, end) = (&mut self.start[..n], &self.end[..n]);

@@ -140,7 +140,7 @@ where
     }
 
     fn check(&self, pendulum: &P, start: &State<T>) -> Result<(), InputError<T>> {
-        check_start(&AbsoluteAngles(pendulum), start)?;
+        check_start(&AbsoluteAngles(pendulum), (start.time, &start.values))?;
         check_times(start.time, self.task.times)?;
         check_times(start.time, self.task.end.as_slice())
     }

@@ -8,9 +8,10 @@ use alloc::vec::Vec;
 
 use super::registers::{Numbers, WIDEST};
 use crate::integrate::error::IntegrationError;
-use crate::integrate::explicit::{Span, check_step};
+use crate::integrate::explicit::Span;
 use crate::integrate::options::Options;
 use crate::integrate::report::{Report, Solution, StopReason};
+use crate::integrate::steps::StepLimits;
 use crate::scalar::Real;
 use crate::system::State;
 
@@ -151,14 +152,9 @@ impl<T: Real> Runs<T> {
     ) -> Option<IntegrationError<T>> {
         let time = self.time[lane];
         let attempt = (time, self.step[lane], self.last[lane]);
-        let state = State { time, values };
-        check_step(
-            options,
-            &self.report(lane, StopReason::EndReached),
-            attempt,
-            || state,
-        )
-        .err()
+        let report = self.report(lane, StopReason::EndReached);
+        let failure = StepLimits::new(options).check(&report, 0, attempt).err()?;
+        Some(failure.error(State { time, values }, &report))
     }
 
     /// The step that is tried.

@@ -1,19 +1,15 @@
 //! The symplectic, symmetric Gauss–Legendre methods.
 
 mod solve;
-mod stepper;
+mod step;
 mod tables;
 
-use core::ops::ControlFlow;
-
-pub(super) use self::stepper::GaussStepper;
+pub(super) use self::step::GaussStep;
 use self::tables::Table;
-use super::driver::Grid;
-use crate::integrate::dense::DenseStep;
-use crate::integrate::error::IntegrationError;
+use super::grid::{Grid, GridSteps};
+use crate::integrate::error::InputError;
 use crate::integrate::integrator::Integrator;
-use crate::integrate::report::Solution;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::system::{Ode, State};
 
 /// The order of a [`Gauss`] method: twice its number of stages.
@@ -37,6 +33,15 @@ impl GaussOrder {
             Self::Six => 2,
             Self::Eight => 3,
         }]
+    }
+
+    /// Integral from 0 to x of the Lagrange polynomial of node j; zero where there is no
+    /// such node.
+    pub(in crate::integrate) fn integral<S: Scalar>(self, j: usize, x: S) -> S {
+        let table = self.table();
+        let row = table.integrals.chunks_exact(table.nodes.len()).nth(j);
+        let coefficients = row.unwrap_or_default().iter().rev();
+        coefficients.fold(S::from_f64(0.0), |sum, &c| (sum + S::from_f64(c)) * x)
     }
 }
 
@@ -180,14 +185,9 @@ impl<T: Real> Gauss<T> {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Gauss<T> {
-    fn integrate(
-        &self,
-        ode: &O,
-        start: &State<T>,
-        end: T,
-        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        let new = || GaussStepper::new(self, &start.values);
-        self.grid().run(ode, start, end, new, observer)
+    type Steps = GridSteps<GaussStep<T>, T>;
+
+    fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
+        self.grid().steps(GaussStep::new(self, &start.values))
     }
 }
