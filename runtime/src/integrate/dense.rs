@@ -80,11 +80,17 @@ impl<'a, T: Real> DenseStep<'a, T> {
     /// at one of the additional points that the method needs.
     pub fn eval(&mut self, time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
         let ends = self.made.times();
-        self.made.piece().fraction(ends, time, out)?;
-        if !ends.contains(&time) {
+        let piece = self.made.piece();
+        let fraction = piece.fraction(ends, time, out)?;
+        if time == ends[1] {
+            out.copy_from_slice(piece.end);
+        } else if time == ends[0] {
+            out.copy_from_slice(piece.start);
+        } else {
             self.made.prepare()?;
+            self.made.piece().value(fraction, out);
         }
-        self.made.piece().at(ends, time, out)
+        Ok(())
     }
 
     /// Writes the derivative of the solution at `time` to `out`: of the dense output,

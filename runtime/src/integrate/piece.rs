@@ -10,6 +10,7 @@ use crate::scalar::{Dual, Real, Scalar};
 
 /// How a polynomial is written, s being the fraction of the step and r = 1 − s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Form {
     /// y + s (d₀ + r (d₁ + s (d₂ + …))), the terms being d₀, d₁, ….
     Alternating,
@@ -25,6 +26,20 @@ pub enum Form {
     Taylor,
     /// The straight line.
     Linear,
+}
+
+impl Form {
+    /// Returns true if the polynomial of a state of `n` components has so many terms of
+    /// both kinds. Those of a method do; a file may say anything.
+    pub(super) fn fits(self, n: usize, terms: [usize; 2]) -> bool {
+        match self {
+            Self::Alternating => terms[0] >= n,
+            Self::Bernstein => terms[0] >= bernstein(0.0).len() * n,
+            Self::Hermite => terms == [n, n],
+            Self::Collocation(_) => terms[1] == 0 || terms[1] == n,
+            Self::Taylor | Self::Linear => true,
+        }
+    }
 }
 
 /// A step and the polynomial that leads from its start to its end.

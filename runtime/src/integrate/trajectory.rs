@@ -37,6 +37,7 @@ use crate::system::State;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Trajectory<T> {
     dimension: usize,
     /// The start, and the end of each step.
@@ -49,6 +50,7 @@ pub struct Trajectory<T> {
 
 /// What is kept of a step beside its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Kept<T> {
     form: Form,
     length: T,
@@ -179,6 +181,9 @@ impl<T: Real> Trajectory<T> {
             return None;
         }
         let kept = self.steps.get(index)?;
+        if !kept.form.fits(self.dimension, kept.terms) {
+            return None;
+        }
         let numbers = self.numbers.get(kept.first..)?;
         let (start, numbers) = numbers.split_at_checked(self.dimension)?;
         let (end, numbers) = numbers.split_at_checked(self.dimension)?;

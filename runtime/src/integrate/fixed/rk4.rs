@@ -39,6 +39,7 @@ use crate::system::{Ode, State};
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rk4<T> {
     /// Length of the steps, positive whatever the direction.
     pub step: T,

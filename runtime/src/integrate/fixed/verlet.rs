@@ -73,6 +73,7 @@ use crate::system::{Canonical, CanonicalVariables, Ode, State};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StoermerVerlet<T> {
     /// Length of the steps, positive whatever the direction. The last one is
     /// shorter where the span is no multiple of it.

@@ -59,6 +59,7 @@ use crate::system::{State, TaylorOde};
 /// [`AbsoluteAngles`]: crate::system::AbsoluteAngles
 /// [`Report::evaluations`]: super::Report::evaluations
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Taylor<T> {
     pub(super) options: Options<T>,
     order: Option<usize>,

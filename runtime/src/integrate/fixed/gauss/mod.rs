@@ -14,6 +14,7 @@ use crate::system::{Ode, State};
 
 /// The order of a [`Gauss`] method: twice its number of stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum GaussOrder {
     /// One stage: the implicit midpoint rule.
     Two,
@@ -47,6 +48,7 @@ impl GaussOrder {
 
 /// The iteration that solves the equations of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Solver {
     /// Fixed-point iteration: no derivatives, cheap, and converges where the
     /// step is short beside the shortest time scale of the system.
@@ -119,6 +121,7 @@ pub enum Solver {
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Gauss<T> {
     /// Order of the method.
     pub order: GaussOrder,
