@@ -7,7 +7,7 @@ use core::convert::Infallible;
 use core::error::Error;
 use core::fmt;
 
-use super::report::{Report, Solution};
+use super::report::Report;
 use crate::scalar::Real;
 use crate::system::State;
 
@@ -204,8 +204,8 @@ impl<T: Real> fmt::Display for IntegrationError<T> {
     }
 }
 
-/// What is wrong with a request is told by the message of
-/// [`Input`](IntegrationError::Input) itself: no error has a cause beyond it.
+/// The message tells all: that of [`Input`](IntegrationError::Input) is the fault of the
+/// request itself.
 impl<T: Real> Error for IntegrationError<T> {}
 
 /// Why a run ended before its goal whose observer may fail.
@@ -223,16 +223,6 @@ pub enum RunError<T, E> {
         /// Account of the run so far.
         report: Report<T>,
     },
-}
-
-impl<T, E> RunError<T, E> {
-    pub(super) fn observer(error: E, stopped: Solution<T>) -> Self {
-        Self::Observer {
-            error,
-            last: stopped.state,
-            report: stopped.report,
-        }
-    }
 }
 
 impl<T, E> From<IntegrationError<T>> for RunError<T, E> {

@@ -6,10 +6,9 @@ use core::ops::ControlFlow;
 
 use super::dense::DenseStep;
 use super::error::{InputError, IntegrationError, RunError};
-use super::events::{Event, Found, Occurrence, Search, SearchError};
+use super::events::{Event, Occurrence};
 use super::report::{Solution, StopReason};
-use super::request::{check_start, check_times};
-use super::run::{Run, RunOn};
+use super::run::Run;
 use super::stepper::Stepper;
 use super::steps::Steps;
 use super::trajectory::Trajectory;
@@ -70,7 +69,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         Self: Sized,
         O: Sized,
     {
-        Ok(Stepper::new(self, ode, start)?)
+        Stepper::new(self, ode, start)
     }
 
     /// Integrates from `start` to the time `end`, which may lie before it.
@@ -108,7 +107,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         end: T,
         mut observer: impl FnMut(&mut DenseStep<'_, T>) -> Result<ControlFlow<()>, E>,
     ) -> Result<Solution<T>, RunError<T, E>> {
-        let mut run = run(self, ode, start, &[end])?;
+        let mut run = Run::new(self, ode, start, &[end])?;
         let goal = run.goal(end);
         while let Some(mut step) = run.step_to(goal)? {
             match observer(&mut step) {
@@ -116,10 +115,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
                 Ok(ControlFlow::Break(())) => {
                     return Ok(run.solution(StopReason::StoppedByObserver));
                 }
-                Err(error) => {
-                    let stopped = run.solution(StopReason::StoppedByObserver);
-                    return Err(RunError::observer(error, stopped));
-                }
+                Err(error) => return Err(run.stopped_at(run.time(), run.state(), error)),
             }
         }
         Ok(run.solution(StopReason::EndReached))
@@ -211,16 +207,11 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         times: &[T],
         mut visit: impl FnMut(T, &[T]) -> Result<(), E>,
     ) -> Result<Solution<T>, RunError<T, E>> {
-        let mut run = run(self, ode, start, times)?;
+        let mut run = Run::new(self, ode, start, times)?;
         let mut pending = times.iter().copied().peekable();
-        let stopped = |run: &RunOn<'_, O, Self::Steps, T>, (time, values): (T, &[T]), error| {
-            let mut solution = run.solution(StopReason::StoppedByObserver);
-            solution.state = State::new(time, values.to_vec());
-            RunError::observer(error, solution)
-        };
         while let Some(time) = pending.next_if(|&time| time == start.time) {
             visit(time, &start.values)
-                .map_err(|error| stopped(&run, (time, &start.values), error))?;
+                .map_err(|error| run.stopped_at(time, &start.values, error))?;
         }
         let goal = run.goal(times.last().copied().unwrap_or(start.time));
         let mut values = start.values.clone();
@@ -230,7 +221,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
                     return Err(run.dense_failure(error).into());
                 }
                 if let Err(error) = visit(time, &values) {
-                    return Err(stopped(&run, (time, &values), error));
+                    return Err(run.stopped_at(time, &values, error));
                 }
             }
         }
@@ -269,7 +260,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         start: &State<T>,
         end: T,
     ) -> Result<Trajectory<T>, IntegrationError<T>> {
-        let mut run = run(self, ode, start, &[end])?;
+        let mut run = Run::new(self, ode, start, &[end])?;
         let mut trajectory = Trajectory::new(start.clone());
         let goal = run.goal(end);
         while let Some(mut step) = run.step_to(goal)? {
@@ -350,83 +341,8 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         start: &State<T>,
         end: T,
         events: &[Event<'_, T>],
-        mut visit: impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
+        visit: impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
     ) -> Result<Solution<T>, RunError<T, E>> {
-        let mut run = run(self, ode, start, &[end])?;
-        let mut search = Search::new(events, &start.values);
-        let goal = run.goal(end);
-        while let Some(mut step) = run.step_to(goal)? {
-            let (time, flow) = match search_step(&mut search, &mut step, &mut visit) {
-                Ok(None) => continue,
-                Ok(Some(stop)) => stop,
-                Err(SearchError::Dense(error)) => return Err(run.dense_failure(error).into()),
-                Err(SearchError::Undefined { event, time }) => {
-                    let Solution { state, report } = run.solution(StopReason::NonFinite);
-                    let error = IntegrationError::Event {
-                        event,
-                        time,
-                        last: state,
-                        report,
-                    };
-                    return Err(error.into());
-                }
-            };
-            let mut solution = run.solution(StopReason::StoppedByEvent);
-            solution.state = State::new(time, search.state);
-            return match flow {
-                Ok(()) => Ok(solution),
-                Err(error) => Err(RunError::observer(error, solution)),
-            };
-        }
-        Ok(run.solution(StopReason::EndReached))
+        Run::new(self, ode, start, &[end])?.find(end, events, visit)
     }
-}
-
-/// A run of `method` from `start` through `times`, all of which are checked.
-fn run<'o, T: Real, O: Ode<T> + ?Sized, M: Integrator<T, O> + ?Sized>(
-    method: &M,
-    ode: &'o O,
-    start: &State<T>,
-    times: &[T],
-) -> Result<RunOn<'o, O, M::Steps, T>, IntegrationError<T>> {
-    check_start(ode, (start.time, &start.values))?;
-    check_times(start.time, times)?;
-    let steps = method.steps(ode, start)?;
-    Ok(RunOn {
-        ode,
-        run: Run::new(steps, start),
-    })
-}
-
-/// Time at which a run is to end, and why: asked for, or an error of the visitor.
-type Stop<T, E> = (T, Result<(), E>);
-
-/// Visits the crossings within `step`; gives the time of the one at which the
-/// run is to end, the state there being that of the search.
-fn search_step<T: Real, E>(
-    search: &mut Search<'_, T>,
-    step: &mut DenseStep<'_, T>,
-    visit: &mut impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
-) -> Result<Option<Stop<T, E>>, SearchError<T>> {
-    search.step(step)?;
-    for index in 0..search.found.len() {
-        let Found {
-            event,
-            time,
-            rising,
-        } = search.found[index];
-        step.eval(time, &mut search.state)?;
-        let flow = visit(Occurrence {
-            event,
-            time,
-            state: &search.state,
-            rising,
-        });
-        match flow {
-            Ok(ControlFlow::Continue(())) => {}
-            Ok(ControlFlow::Break(())) => return Ok(Some((time, Ok(())))),
-            Err(error) => return Ok(Some((time, Err(error)))),
-        }
-    }
-    Ok(None)
 }

@@ -1,18 +1,26 @@
 //! A run under way, whoever asks for its steps.
 
+use core::borrow::Borrow;
+use core::marker::PhantomData;
+
 use super::dense::{DenseError, DenseStep, Made};
-use super::error::IntegrationError;
+use super::error::{IntegrationError, RunError};
 use super::evaluator::{Evaluator, NonFinite};
+use super::integrator::Integrator;
 use super::piece::Piece;
 use super::report::{Report, Solution, StopReason};
+use super::request::{check_start, check_times};
 use super::steps::{Goal, Steps};
 use crate::scalar::Real;
-use crate::system::{State, Workspace};
+use crate::system::{Ode, State, Workspace};
 
-/// A method at work, with the time it has reached and its account. The equations are
-/// handed over with each request.
+/// A method at work on equations, with the time it has reached and its account.
+///
+/// The equations `O` are owned or borrowed: they are what `B` is or refers to.
 #[derive(Clone, Debug)]
-pub(super) struct Run<S, T> {
+pub(super) struct Run<B, O: ?Sized, S, T> {
+    pub(super) ode: B,
+    equations: PhantomData<fn(&O)>,
     steps: S,
     workspace: Workspace<T>,
     report: Report<T>,
@@ -25,18 +33,31 @@ pub(super) struct Run<S, T> {
     prepared: bool,
 }
 
-impl<S, T: Real> Run<S, T> {
-    /// A run of `steps` about to leave `start`.
-    pub(super) fn new(steps: S, start: &State<T>) -> Self {
-        Self {
-            steps,
+impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> {
+    /// A run of `method` about to leave `start`, which is checked, and whose way to
+    /// `times` is.
+    pub(super) fn new<M>(
+        method: &M,
+        ode: B,
+        start: &State<T>,
+        times: &[T],
+    ) -> Result<Self, IntegrationError<T>>
+    where
+        M: Integrator<T, O, Steps = S> + ?Sized,
+    {
+        check_start(ode.borrow(), (start.time, &start.values))?;
+        check_times(start.time, times)?;
+        Ok(Self {
+            steps: method.steps(ode.borrow(), start)?,
+            ode,
+            equations: PhantomData,
             workspace: Workspace::new(),
             report: Report::new(),
             dimension: start.values.len(),
             times: [start.time; 2],
             made: false,
             prepared: false,
-        }
+        })
     }
 
     /// Time that the run has reached.
@@ -44,13 +65,20 @@ impl<S, T: Real> Run<S, T> {
         self.times[1]
     }
 
-    /// The account so far.
-    pub(super) fn report(&self) -> &Report<T> {
-        &self.report
+    /// The state that the run has reached.
+    pub(super) fn state(&self) -> &[T] {
+        let piece = self.steps.piece();
+        if self.made { piece.end } else { piece.start }
     }
 
-    /// The goal `end`, or the way in that direction without one.
-    pub(super) fn goal(&self, end: Option<T>, direction: T) -> Goal<T> {
+    /// The goal `end`.
+    pub(super) fn goal(&self, end: T) -> Goal<T> {
+        let forwards = end >= self.time();
+        self.way(Some(end), if forwards { T::ONE } else { -T::ONE })
+    }
+
+    /// The way in a direction, to an end if there is one.
+    pub(super) fn way(&self, end: Option<T>, direction: T) -> Goal<T> {
         Goal {
             end,
             direction,
@@ -59,9 +87,9 @@ impl<S, T: Real> Run<S, T> {
     }
 
     /// Splits into the steps and what they work with.
-    fn parts<'r, O: ?Sized>(&'r mut self, ode: &'r O) -> (&'r mut S, Evaluator<'r, T, O>) {
+    fn parts(&mut self) -> (&mut S, Evaluator<'_, T, O>) {
         let system = Evaluator {
-            ode,
+            ode: self.ode.borrow(),
             dimension: self.dimension,
             workspace: &mut self.workspace,
             report: &mut self.report,
@@ -75,20 +103,14 @@ impl<S, T: Real> Run<S, T> {
     /// As the method's, with the last good state, from which the run can be asked
     /// to go on.
     #[inline(always)]
-    pub(super) fn step<O: ?Sized>(
-        &mut self,
-        ode: &O,
-        goal: Goal<T>,
-    ) -> Result<(), IntegrationError<T>>
-    where
-        S: Steps<T, O>,
-    {
+    pub(super) fn step(&mut self, goal: Goal<T>) -> Result<(), IntegrationError<T>> {
         if self.made {
             self.steps.advance();
             self.made = false;
         }
         let start = self.times[1];
-        let (steps, mut system) = self.parts(ode);
+        self.times = [start; 2];
+        let (steps, mut system) = self.parts();
         match steps.step(&mut system, start, goal) {
             Ok(end) => {
                 self.times = [start, end];
@@ -96,75 +118,10 @@ impl<S, T: Real> Run<S, T> {
                 Ok(())
             }
             Err(failure) => {
-                self.times = [start; 2];
-                let last = State {
-                    time: start,
-                    values: self.steps.piece().start.to_vec(),
-                };
+                let last = State::new(start, self.steps.piece().start.to_vec());
                 Err(failure.error(last, &self.report))
             }
         }
-    }
-
-    /// The state that the run has reached.
-    pub(super) fn state<O: ?Sized>(&self) -> &[T]
-    where
-        S: Steps<T, O>,
-    {
-        let piece = self.steps.piece();
-        if self.made { piece.end } else { piece.start }
-    }
-
-    /// Starts anew from these values.
-    pub(super) fn restart<O: ?Sized>(&mut self, time: T, values: &[T])
-    where
-        S: Steps<T, O>,
-    {
-        self.steps.restart(values);
-        self.times = [time; 2];
-        self.made = false;
-    }
-
-    /// Times at the start and at the end of the last step.
-    pub(super) fn times(&self) -> [T; 2] {
-        self.times
-    }
-
-    /// The last step.
-    pub(super) fn piece<O: ?Sized>(&self) -> Piece<'_, T>
-    where
-        S: Steps<T, O>,
-    {
-        self.steps.piece()
-    }
-
-    /// Computes what values inside the last step need, if that has not been done.
-    pub(super) fn prepare<O: ?Sized>(&mut self, ode: &O) -> Result<(), NonFinite<T>>
-    where
-        S: Steps<T, O>,
-    {
-        if !self.prepared {
-            let start = self.times[0];
-            let (steps, mut system) = self.parts(ode);
-            steps.prepare(&mut system, start)?;
-            self.prepared = true;
-        }
-        Ok(())
-    }
-}
-
-/// A run and the equations that it borrows.
-pub(super) struct RunOn<'o, O: ?Sized, S, T> {
-    pub(super) ode: &'o O,
-    pub(super) run: Run<S, T>,
-}
-
-impl<O: ?Sized, S: Steps<T, O>, T: Real> RunOn<'_, O, S, T> {
-    /// The goal `end`.
-    pub(super) fn goal(&self, end: T) -> Goal<T> {
-        let forwards = end >= self.run.time();
-        let direction = if forwards { T::ONE } else { -T::ONE };
-        self.run.goal(Some(end), direction)
     }
 
     /// Makes the next step towards the goal; none where that is reached.
@@ -173,68 +130,87 @@ impl<O: ?Sized, S: Steps<T, O>, T: Real> RunOn<'_, O, S, T> {
         &mut self,
         goal: Goal<T>,
     ) -> Result<Option<DenseStep<'_, T>>, IntegrationError<T>> {
-        if goal.end == Some(self.run.time()) {
+        if goal.end == Some(self.time()) {
             return Ok(None);
         }
-        self.run.step(self.ode, goal)?;
+        self.step(goal)?;
         Ok(Some(DenseStep::new(self)))
+    }
+
+    /// Starts anew from these values.
+    pub(super) fn restart(&mut self, time: T, values: &[T]) {
+        self.steps.restart(values);
+        self.times = [time; 2];
+        self.made = false;
     }
 
     /// The end of the run.
     pub(super) fn solution(&self, stop: StopReason) -> Solution<T> {
         Solution {
             state: State {
-                time: self.run.time(),
-                values: self.run.state::<O>().to_vec(),
+                time: self.time(),
+                values: self.state().to_vec(),
             },
             report: Report {
                 stop,
-                ..*self.run.report()
+                ..self.report
             },
         }
     }
 
-    /// The end of a run whose last step had no value to give.
+    /// The end of a run whose observer failed when it saw this time and state.
+    #[cold]
+    pub(super) fn stopped_at<E>(&self, time: T, values: &[T], error: E) -> RunError<T, E> {
+        RunError::Observer {
+            error,
+            last: State::new(time, values.to_vec()),
+            report: Report {
+                stop: StopReason::StoppedByObserver,
+                ..self.report
+            },
+        }
+    }
+
+    /// The end of a run whose last step had no value to give: time and length were right,
+    /// so the rates were not finite.
     #[cold]
     pub(super) fn dense_failure(&self, error: DenseError<T>) -> IntegrationError<T> {
-        dense_failure(error, self.solution(StopReason::NonFinite))
+        let Solution { state, report } = self.solution(StopReason::NonFinite);
+        let (time, values) = match error {
+            DenseError::NonFinite { time, values } => (time, values),
+            DenseError::OutsideStep { .. } | DenseError::Length { .. } => {
+                (state.time, state.values.clone())
+            }
+        };
+        IntegrationError::NonFinite {
+            time,
+            values,
+            last: state,
+            report,
+        }
     }
 }
 
-impl<O: ?Sized, S: Steps<T, O>, T: Real> Made<T> for RunOn<'_, O, S, T> {
+impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Made<T> for Run<B, O, S, T> {
     fn times(&self) -> [T; 2] {
-        self.run.times()
+        self.times
     }
 
     fn piece(&self) -> Piece<'_, T> {
-        self.run.piece::<O>()
+        self.steps.piece()
     }
 
     fn prepare(&mut self) -> Result<(), NonFinite<T>> {
-        self.run.prepare(self.ode)
+        if !self.prepared {
+            let start = self.times[0];
+            let (steps, mut system) = self.parts();
+            steps.prepare(&mut system, start)?;
+            self.prepared = true;
+        }
+        Ok(())
     }
 
     fn report(&self) -> &Report<T> {
-        self.run.report()
-    }
-}
-
-/// The end of a run that `solution` describes, whose last step had no value to
-/// give: time and length were right, so the rates were not finite.
-pub(super) fn dense_failure<T: Real>(
-    error: DenseError<T>,
-    solution: Solution<T>,
-) -> IntegrationError<T> {
-    let (time, values) = match error {
-        DenseError::NonFinite { time, values } => (time, values),
-        DenseError::OutsideStep { .. } | DenseError::Length { .. } => {
-            (solution.state.time, solution.state.values.clone())
-        }
-    };
-    IntegrationError::NonFinite {
-        time,
-        values,
-        last: solution.state,
-        report: solution.report,
+        &self.report
     }
 }

@@ -5,12 +5,10 @@ use core::fmt;
 
 use super::dense::{DenseStep, Made};
 use super::error::{InputError, IntegrationError};
-use super::evaluator::NonFinite;
 use super::integrator::Integrator;
-use super::piece::Piece;
-use super::report::{Report, Solution, StopReason};
+use super::report::Report;
 use super::request::{check_start, check_times};
-use super::run::{Run, dense_failure};
+use super::run::Run;
 use super::sum::two_sum;
 use crate::scalar::Real;
 use crate::system::{Ode, State};
@@ -98,8 +96,7 @@ where
     O: Ode<T>,
     M: Integrator<T, O>,
 {
-    ode: O,
-    run: Run<M::Steps, T>,
+    run: Run<O, O, M::Steps, T>,
     /// 1, or −1 backwards.
     direction: T,
     /// Time that the caller has reached, and what its rounding left over.
@@ -113,11 +110,9 @@ where
 }
 
 impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
-    pub(super) fn new(method: &M, ode: O, start: &State<T>) -> Result<Self, InputError<T>> {
-        check_start(&ode, (start.time, &start.values))?;
+    pub(super) fn new(method: &M, ode: O, start: &State<T>) -> Result<Self, IntegrationError<T>> {
         Ok(Self {
-            run: Run::new(method.steps(&ode, start)?, start),
-            ode,
+            run: Run::new(method, ode, start, &[])?,
             direction: T::ONE,
             time: start.time,
             residue: T::ZERO,
@@ -156,13 +151,13 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
 
     /// The equations.
     pub fn ode(&self) -> &O {
-        &self.ode
+        &self.run.ode
     }
 
     /// The equations, to change them. The next step starts anew from the state.
     pub fn ode_mut(&mut self) -> &mut O {
         self.changed = true;
-        &mut self.ode
+        &mut self.run.ode
     }
 
     /// Goes on from another time and state.
@@ -172,7 +167,7 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
     /// [`InputError`] if they are not finite or their number is not that of before;
     /// nothing has changed then.
     pub fn set_state(&mut self, time: T, values: &[T]) -> Result<(), InputError<T>> {
-        check_start(&self.ode, (time, values))?;
+        check_start(&self.run.ode, (time, values))?;
         check_length(self.inside.len(), values.len())?;
         self.inside.copy_from_slice(values);
         (self.time, self.residue) = (time, T::ZERO);
@@ -189,7 +184,7 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
     /// changed or to go on from.
     pub fn step(&mut self) -> Result<DenseStep<'_, T>, IntegrationError<T>> {
         self.make_step(None, self.direction)?;
-        Ok(DenseStep::new(self))
+        Ok(DenseStep::new(&mut self.run))
     }
 
     /// Makes the next step, not beyond the time `end`, and returns it; none where that
@@ -205,7 +200,7 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         }
         let direction = if end > self.time { T::ONE } else { -T::ONE };
         self.make_step(Some(end), direction)?;
-        Ok(Some(DenseStep::new(self)))
+        Ok(Some(DenseStep::new(&mut self.run)))
     }
 
     /// The states at the ends of the steps to the time `end`, one after the other; it
@@ -253,11 +248,11 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
             self.start_anew(direction)?;
         }
         let (time, residue) = two_sum(self.time, duration + self.residue);
-        let goal = self.run.goal(None, direction);
+        let goal = self.run.way(None, direction);
         // Steps and frames of equal length meet but for rounding.
         let rounding = T::from_f64(2.0) * T::EPSILON * time.abs();
         while (time - self.run.time()) * direction > rounding {
-            if let Err(error) = self.run.step(&self.ode, goal) {
+            if let Err(error) = self.run.step(goal) {
                 self.stay();
                 return Err(error);
             }
@@ -265,18 +260,10 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         self.is_inside = (self.run.time() - time) * direction > rounding;
         (self.time, self.residue) = (time, residue);
         if self.is_inside {
-            let prepared = self.run.prepare(&self.ode);
-            let times = self.run.times();
-            let piece = self.run.piece::<O>();
-            let inside = &mut self.inside;
-            let value = prepared.map_err(Into::into);
-            if let Err(error) = value.and_then(|()| piece.at(times, time, inside)) {
+            let value = DenseStep::new(&mut self.run).eval(time, &mut self.inside);
+            if let Err(error) = value {
                 self.stay();
-                let state = self.to_state();
-                let stop = StopReason::NonFinite;
-                let report = *self.report();
-                let report = Report { stop, ..report };
-                return Err(dense_failure(error, Solution { state, report }));
+                return Err(self.run.dense_failure(error));
             }
         }
         Ok(())
@@ -287,8 +274,8 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
         if self.changed || self.is_inside || direction != self.direction {
             self.start_anew(direction)?;
         }
-        let goal = self.run.goal(end, direction);
-        let made = self.run.step(&self.ode, goal);
+        let goal = self.run.way(end, direction);
+        let made = self.run.step(goal);
         self.stay();
         made
     }
@@ -301,7 +288,7 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
 
     /// Starts anew from the present state.
     fn start_anew(&mut self, direction: T) -> Result<(), InputError<T>> {
-        check_length(self.ode.dimension(), self.inside.len())?;
+        check_length(self.run.ode.dimension(), self.inside.len())?;
         if !self.is_inside {
             self.inside.copy_from_slice(self.run.state());
         }
@@ -317,24 +304,6 @@ fn check_length<T>(expected: usize, found: usize) -> Result<(), InputError<T>> {
         Ok(())
     } else {
         Err(InputError::Dimension { expected, found })
-    }
-}
-
-impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Made<T> for Stepper<M, O, T> {
-    fn times(&self) -> [T; 2] {
-        self.run.times()
-    }
-
-    fn piece(&self) -> Piece<'_, T> {
-        self.run.piece::<O>()
-    }
-
-    fn prepare(&mut self) -> Result<(), NonFinite<T>> {
-        self.run.prepare(&self.ode)
-    }
-
-    fn report(&self) -> &Report<T> {
-        self.run.report()
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a method is made of: its memory, and how it makes a step.
+//! Methods at work: their memory, and how they make a step.
 
 // A sealed trait names the types.
 #![allow(unreachable_pub)]

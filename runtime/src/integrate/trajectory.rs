@@ -48,7 +48,7 @@ pub struct Trajectory<T> {
     numbers: Vec<T>,
 }
 
-/// What is kept of a step beside its numbers.
+/// A step that is kept, without its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Kept<T> {

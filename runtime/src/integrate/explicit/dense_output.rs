@@ -3,8 +3,8 @@
 // One index into all components at once.
 #![allow(clippy::needless_range_loop)]
 
-use super::pair::{DenseForm, Pair};
-use super::stages::{RightHandSide, Span, StepStages, sum, terms};
+use super::pair::{DenseForm, EmbeddedPair};
+use super::stages::{RightHandSide, StepSpan, StepStages, sum, terms};
 use crate::integrate::piece::Lift;
 use crate::scalar::Scalar;
 
@@ -14,10 +14,10 @@ const DEGREE: usize = 8;
 impl<W: Scalar> StepStages<W> {
     /// The stages and the coefficients of the dense output of a step.
     #[inline(always)]
-    pub(super) fn prepare_dense<M: Pair, S: RightHandSide<W>>(
+    pub(super) fn prepare_dense<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
         system: &mut S,
-        span: Span<W>,
+        span: StepSpan<W>,
     ) -> Result<(), S::Failure> {
         self.make_dense::<M, S>(system, span)?;
         let n = system.dimension();
@@ -35,7 +35,7 @@ impl<W: Scalar> StepStages<W> {
 
     /// h (sum of row) for row `ROW` of the dense output, if there are so many.
     #[inline(always)]
-    fn row_terms<M: Pair, const ROW: usize>(&mut self, n: usize, step: W) {
+    fn row_terms<M: EmbeddedPair, const ROW: usize>(&mut self, n: usize, step: W) {
         const { assert!(M::DENSE.rows().len() <= 5) }
         let row = const {
             let rows = M::DENSE.rows();
@@ -54,7 +54,7 @@ impl<W: Scalar> StepStages<W> {
 
     /// The first three coefficients of [`DenseForm::Alternating`].
     #[inline(always)]
-    fn hermite<M: Pair>(&mut self, n: usize, step: W) {
+    fn hermite<M: EmbeddedPair>(&mut self, n: usize, step: W) {
         let (start, end) = (&self.start[..n], &self.end[..n]);
         let (first, last) = (&self.rates[..n], &self.rates[M::STAGES * n..][..n]);
         let dense = &mut self.dense[..3 * n];
@@ -69,7 +69,7 @@ impl<W: Scalar> StepStages<W> {
 
     /// The first and the last two coefficients of [`DenseForm::Bernstein`].
     #[inline(always)]
-    fn end_terms<M: Pair>(&mut self, n: usize, step: W) {
+    fn end_terms<M: EmbeddedPair>(&mut self, n: usize, step: W) {
         let part = step / W::from_f64(DEGREE as f64);
         let (start, end) = (&self.start[..n], &self.end[..n]);
         let (first, last) = (&self.rates[..n], &self.rates[M::STAGES * n..][..n]);
@@ -84,7 +84,7 @@ impl<W: Scalar> StepStages<W> {
 
     /// Writes the solution at the fraction `s` of the step.
     #[inline(always)]
-    pub(super) fn value<M: Pair>(&self, s: W, out: &mut [W]) {
+    pub(super) fn value<M: EmbeddedPair>(&self, s: W, out: &mut [W]) {
         let n = self.start.len();
         match M::DENSE {
             DenseForm::Alternating(_) => {

@@ -19,8 +19,8 @@ use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 pub(crate) use self::dense_output::{alternating, bernstein, blend};
-use self::pair::Pair;
-pub(crate) use self::stages::Span;
+use self::pair::EmbeddedPair;
+pub(crate) use self::stages::StepSpan;
 use self::steps::PairSteps;
 use super::dense::DenseStep;
 use super::error::{InputError, IntegrationError};
@@ -143,7 +143,7 @@ impl<M, T: core::fmt::Debug> core::fmt::Debug for ExplicitRungeKutta<M, T> {
     }
 }
 
-impl<M: Pair, T: Real> ExplicitRungeKutta<M, T> {
+impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     /// The method with these options, which are checked when a run starts.
     pub fn new(options: Options<T>) -> Self {
         Self {
@@ -219,7 +219,7 @@ impl<M: Pair, T: Real> ExplicitRungeKutta<M, T> {
         let stages = &mut PairSteps::<M, T>::new(&self.options, start).stages;
         let made = stages
             .evaluate_start(system, time)
-            .and_then(|()| stages.make::<M, _>(system, Span { time, step }))
+            .and_then(|()| stages.make::<M, _>(system, StepSpan { time, step }))
             .and_then(|()| {
                 if all_finite(&stages.end) {
                     Ok(())

@@ -4,8 +4,8 @@ use core::convert::identity;
 use core::marker::PhantomData;
 
 use super::ExplicitRungeKutta;
-use super::pair::Pair;
-use super::stages::{RightHandSide, Span, StepStages};
+use super::pair::EmbeddedPair;
+use super::stages::{RightHandSide, StepSpan, StepStages};
 use crate::integrate::control::{FirstStep, StepControl, Verdict};
 use crate::integrate::error::InputError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
@@ -17,7 +17,7 @@ use crate::integrate::steps::{Failure, Goal, StepLimits, Steps};
 use crate::scalar::Real;
 use crate::system::{Ode, State};
 
-impl<M: Pair, T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for ExplicitRungeKutta<M, T> {
+impl<M: EmbeddedPair, T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for ExplicitRungeKutta<M, T> {
     type Steps = PairSteps<M, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<PairSteps<M, T>, InputError<T>> {
@@ -36,11 +36,11 @@ pub struct PairSteps<M, T> {
     /// Length of the step that is tried next; none before the first one.
     next: Option<T>,
     /// The last step.
-    span: Span<T>,
+    span: StepSpan<T>,
     pair: PhantomData<M>,
 }
 
-impl<M: Pair, T: Real> PairSteps<M, T> {
+impl<M: EmbeddedPair, T: Real> PairSteps<M, T> {
     /// The pair about to leave `start`.
     pub(super) fn new(options: &Options<T>, start: &State<T>) -> Self {
         Self {
@@ -48,7 +48,7 @@ impl<M: Pair, T: Real> PairSteps<M, T> {
             control: StepControl::new(M::CONTROL, options),
             stages: StepStages::new::<M, T>(options, start.values.clone(), identity),
             next: None,
-            span: Span {
+            span: StepSpan {
                 time: start.time,
                 step: T::ZERO,
             },
@@ -76,7 +76,7 @@ impl<M: Pair, T: Real> PairSteps<M, T> {
             longest,
         };
         let euler = first.euler();
-        let span = Span {
+        let span = StepSpan {
             time,
             step: goal.direction * euler,
         };
@@ -85,7 +85,7 @@ impl<M: Pair, T: Real> PairSteps<M, T> {
     }
 }
 
-impl<M: Pair, T: Real, O: Ode<T> + ?Sized> Steps<T, O> for PairSteps<M, T> {
+impl<M: EmbeddedPair, T: Real, O: Ode<T> + ?Sized> Steps<T, O> for PairSteps<M, T> {
     #[inline(always)]
     fn step(
         &mut self,
@@ -103,7 +103,7 @@ impl<M: Pair, T: Real, O: Ode<T> + ?Sized> Steps<T, O> for PairSteps<M, T> {
             self.limits
                 .check(system.report, goal.steps_before, (time, step, last))?;
             // The difference of the rounded times, so that they add up.
-            let span = Span {
+            let span = StepSpan {
                 time,
                 step: end_time - time,
             };

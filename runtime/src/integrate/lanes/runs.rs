@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::registers::{Numbers, WIDEST};
 use crate::integrate::error::IntegrationError;
-use crate::integrate::explicit::Span;
+use crate::integrate::explicit::StepSpan;
 use crate::integrate::options::Options;
 use crate::integrate::report::{Report, Solution, StopReason};
 use crate::integrate::steps::StepLimits;
@@ -33,7 +33,7 @@ pub(crate) struct Outcome<T> {
 /// In a lane without a trajectory everything is zero.
 #[derive(Debug)]
 pub struct Runs<T> {
-    /// Which lanes have a trajectory.
+    /// True for the lanes that have a trajectory.
     pub(crate) active: Flags,
     /// Its place among the cases.
     index: [usize; WIDEST],
@@ -159,8 +159,8 @@ impl<T: Real> Runs<T> {
 
     /// The step that is tried.
     #[inline(always)]
-    pub(crate) fn span(&self, lane: usize) -> Span<T> {
-        Span {
+    pub(crate) fn span(&self, lane: usize) -> StepSpan<T> {
+        StepSpan {
             time: self.time[lane],
             // The difference of the rounded times, so that they add up.
             step: self.end_time[lane] - self.time[lane],

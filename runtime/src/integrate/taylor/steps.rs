@@ -7,7 +7,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::polynomial::{Ahead, LastTerms};
-use super::root::least_inverse_root;
+use super::root::least_inverse_roots;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::options::Options;
 use crate::integrate::piece::{Form, Piece};
@@ -27,8 +27,6 @@ pub struct TaylorSteps<T> {
     relative: Vec<T>,
     absolute: Vec<T>,
     order: usize,
-    /// Reciprocals of the last two orders.
-    over_orders: [f64; 2],
     /// exp(−2/(order − 1)).
     safety: T,
     /// State at the start of the step.
@@ -58,7 +56,6 @@ impl<T: Real> TaylorSteps<T> {
             relative: options.relative.expand(n),
             absolute: options.absolute.expand(n),
             order,
-            over_orders: [order - 1, order].map(|order| 1.0 / order as f64),
             safety: super::safety(order),
             start: start.to_vec(),
             end: vec![T::ZERO; n],
@@ -82,10 +79,9 @@ impl<T: Real> TaylorSteps<T> {
             absolute: &self.absolute,
             ratios: &mut ratios,
         });
-        let [before, last] = ratios.map(T::to_f64);
-        let [over_before, over_last] = self.over_orders;
-        let step = least_inverse_root([(before, over_before), (last, over_last)]);
-        self.safety * T::from_f64(step)
+        let [before, last] = ratios;
+        let [step] = least_inverse_roots(1, (&[before], self.order - 1), (&[last], self.order));
+        self.safety * step
     }
 
     /// Returns true if the last two terms are finite.

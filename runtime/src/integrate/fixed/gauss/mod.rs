@@ -5,7 +5,7 @@ mod step;
 mod tables;
 
 pub(super) use self::step::GaussStep;
-use self::tables::Table;
+use self::tables::GaussTable;
 use super::grid::{Grid, GridSteps};
 use crate::integrate::error::InputError;
 use crate::integrate::integrator::Integrator;
@@ -27,7 +27,7 @@ pub enum GaussOrder {
 }
 
 impl GaussOrder {
-    fn table(self) -> &'static Table {
+    fn table(self) -> &'static GaussTable {
         &tables::TABLES[match self {
             Self::Two => 0,
             Self::Four => 1,

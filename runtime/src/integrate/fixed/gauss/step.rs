@@ -6,7 +6,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::tables::Table;
+use super::tables::GaussTable;
 use super::{Gauss, GaussOrder, Solver};
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::fixed::grid::FixedStep;
@@ -23,7 +23,7 @@ use crate::system::Ode;
 #[derive(Clone, Debug)]
 pub struct GaussStep<T> {
     order: GaussOrder,
-    pub(super) table: &'static Table,
+    pub(super) table: &'static GaussTable,
     pub(super) solver: Solver,
     pub(super) tolerance: T,
     pub(super) iteration_limit: u32,
