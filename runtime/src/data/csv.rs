@@ -164,7 +164,7 @@ pub enum CsvError {
         path: PathBuf,
         /// `"create"` or `"write"`.
         action: &'static str,
-        /// What the system said.
+        /// Message of the system.
         source: io::Error,
     },
     /// A table without columns.
