@@ -106,7 +106,9 @@ pub mod tree;
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
-pub use system::{Canonical, Cast, Energy, Pendulum, Positions, SymmetricPendulum, TaylorPendulum};
+pub use system::{
+    Canonical, Cast, Energy, Forced, Pendulum, Positions, SymmetricPendulum, TaylorPendulum,
+};
 pub use transfer_forms::{TransferForm, TransferForms};
 
 #[cfg(feature = "macros")]

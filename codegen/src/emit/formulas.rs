@@ -84,6 +84,7 @@ impl Emission<'_> {
             Purpose::Observable(n, form) => self.observable_formulas(n, form),
             Purpose::Positions(_) | Purpose::PointVelocities(_) => self.positions_formulas(purpose),
             Purpose::AbsoluteVelocities
+            | Purpose::AccelerationsUnder
             | Purpose::TaylorCoefficients
             | Purpose::MassMatrix
             | Purpose::Budget(_)

@@ -124,6 +124,7 @@ impl Emission<'_> {
                 Some(frame) => &frame.momenta,
                 None => &mechanics.absolute.momenta,
             },
+            Argument::Torques => return format!("outside_{}", self.scene.links[index].name),
             Argument::Forces => {
                 let axis = ["x", "y"][index % 2];
                 return format!("force_{axis}_{}", self.scene.links[index / 2].name);

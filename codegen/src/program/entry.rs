@@ -22,6 +22,8 @@ pub enum Argument {
     Momenta,
     /// Forces on the links, x and y of each, N.
     Forces,
+    /// Generalized torques from outside, one for each absolute angle, N m.
+    Torques,
     /// Angles or angular velocities, absolute: the transform serves both.
     Absolute,
     /// Angles or angular velocities, symmetric.
@@ -106,6 +108,8 @@ impl PointKind {
 pub enum Purpose {
     /// θ̈ from θ, ω.
     Accelerations,
+    /// θ̈ from θ, ω and torques from outside.
+    AccelerationsUnder,
     /// The coefficients of θ and ω in powers of the time: order 0 of the
     /// recurrences, which is θ̈ and the sines and cosines that it goes without.
     TaylorCoefficients,

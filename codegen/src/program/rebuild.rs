@@ -64,6 +64,7 @@ impl<'a> Rebuilt<'a> {
             Argument::Momenta => &symmetric?.momenta,
             // What the elements of rows stand for is known to their reader.
             Argument::Forces
+            | Argument::Torques
             | Argument::Constants
             | Argument::Motion
             | Argument::Response

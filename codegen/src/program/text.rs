@@ -14,6 +14,7 @@ impl Argument {
             Self::Coordinates => "coordinates",
             Self::Rates => "rates",
             Self::Forces => "forces",
+            Self::Torques => "torques",
             Self::Absolute => "absolute",
             Self::Symmetric => "symmetric",
             Self::Constants => "constants",

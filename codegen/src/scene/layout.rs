@@ -162,6 +162,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         budget,
         taylor,
         positions: _,
+        forces,
         solve,
     } = &asked.resolved.requests;
     // Loops are the recursion.
@@ -173,6 +174,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         (transfer.is_some(), "`emit(transfer)`"),
         (budget.is_some(), "`emit(budget)`"),
         (*taylor, "`emit(taylor)`"),
+        (*forces, "`emit(forces)`"),
         (asked.observables, "`observe(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),

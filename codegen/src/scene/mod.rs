@@ -277,6 +277,8 @@ pub struct Requests {
     pub taylor: bool,
     /// Positions and velocities of links, and the torques of forces on them.
     pub positions: bool,
+    /// Accelerations under torques that the caller hands over.
+    pub forces: bool,
 }
 
 /// Forms of the sectors' budget that are asked for; at least one. The forms

@@ -22,6 +22,7 @@ const OUTPUTS: &[&str] = &[
     "budget",
     "taylor",
     "positions",
+    "forces",
 ];
 
 /// All forms of the budget.
@@ -87,6 +88,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             "modes" => wanted.modes = true,
             "taylor" => wanted.taylor = true,
             "positions" => wanted.positions = true,
+            "forces" => wanted.forces = true,
             "symmetric" => {
                 wanted.symmetric = true;
                 resolved.symmetric = Some(span);

@@ -164,6 +164,7 @@ impl Display for Requests {
             budget,
             taylor,
             positions,
+            forces,
         } = self;
         write!(f, "accelerations")?;
         if let Some(solve) = solve {
@@ -176,6 +177,7 @@ impl Display for Requests {
             (symmetric, "symmetric"),
             (taylor, "taylor"),
             (positions, "positions"),
+            (forces, "forces"),
         ];
         for (wanted, name) in named {
             if *wanted {

@@ -6,7 +6,7 @@ use crate::program::lower::{Environment, Lowering};
 use crate::scene::Scene;
 
 impl Lowering<'_> {
-    /// Q of each link, in its unit of torque: −c (ω − ω_π) and −κ (θ − θ_π) of its
+    /// Q of each link, in its unit of torque: what the caller hands over, −c (ω − ω_π) and −κ (θ − θ_π) of its
     /// own joint less those of the joints on it, −k ω, and τ on the root.
     pub(super) fn joint_torques(
         &mut self,
@@ -22,9 +22,17 @@ impl Lowering<'_> {
         let theta: Vec<ValueId> = theta
             .map(|&symbol| self.symbol(environment, symbol))
             .collect();
+        if let Some(argument) = environment.torques {
+            for (index, link) in scene.links.iter().enumerate() {
+                let outside = self.builder.input(argument, index);
+                let unit = &units.links[link.orbit.0];
+                torques[index] = self.builder.mul(unit.per_torque, outside);
+            }
+        }
         if let Some(torque) = mechanics.drive.as_ref().and_then(|drive| drive.torque) {
             let torque = self.symbol(environment, torque);
-            torques[0] = self.builder.mul(units.links[0].per_torque, torque);
+            let torque = self.builder.mul(units.links[0].per_torque, torque);
+            torques[0] = self.builder.add(torques[0], torque);
         }
         let builder = &mut self.builder;
         let children = super::children(scene);
