@@ -90,6 +90,10 @@ pub struct Sector {
 /// let square = |values: &[f64]| values.iter().map(|x| x * x).sum::<f64>();
 /// assert!((square(&orthonormal) - square(&theta)).abs() < 1e-15);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know its sectors",
+    note = "a tree with identical siblings knows them with `emit(budget)` in its attribute"
+)]
 pub trait Sectors {
     /// The sectors: the means, then the differences, those of a branching before
     /// those of the branchings below it.
