@@ -28,7 +28,7 @@ const MISTAKES: [(&str, &str); 9] = [
         "with `emit(taylor)` in its attribute",
     ),
     (
-        "let _ = CanonicalVariables(model).rates(0.0, &[0.0; 2], &mut [0.0; 2]);",
+        "let _ = method.integrate(&CanonicalVariables(model), start, 1.0, |_| ControlFlow::Continue(()));",
         "a model has them with `emit(momenta)` in its attribute",
     ),
     (
