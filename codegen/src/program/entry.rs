@@ -32,10 +32,10 @@ pub enum Argument {
     Constants,
     /// Its motion: sine, cosine, angular velocity, joint angle, joint rate.
     Motion,
-    /// What a subtree answers: deficit xx, xy, yy of the articulated inertia, bias
+    /// Response of a subtree: deficit xx, xy, yy of the articulated inertia, bias
     /// force, torque of its joint on the parent.
     Response,
-    /// What all subtrees on a link answer.
+    /// Sum of the responses of all subtrees on a link.
     Sums,
     /// Kept of a link for the way down: gain and offset of its acceleration.
     Elimination,
@@ -184,7 +184,7 @@ pub enum Purpose {
     Link(LinkFunction),
     /// Apparent gravity at the root's pivot of a tree in loops, in reduced units.
     RootGravity,
-    /// What the drive adds to that, and its torque on the root, in reduced units.
+    /// Contribution of the drive to that, and its torque on the root, in reduced units.
     RootDrive,
 }
 

@@ -22,14 +22,14 @@ pub enum Column {
     InverseLength,
     /// h L/M of a leaf.
     GainAlong,
-    /// The same of the lateral part of the moment.
+    /// h⊥ L/M of a leaf, with the lateral part of the moment.
     GainAcross,
     /// L² m/M of a leaf.
     InverseInertia,
     /// Place of the children's pivot along the link over L; where children hang at
     /// several places, of the link on its parent.
     Along,
-    /// The same across the link.
+    /// Place across the link over L.
     Across,
     /// Friction in the pivot over m l².
     Friction,

@@ -38,7 +38,7 @@ impl Lowering<'_> {
         let children = super::children(scene);
         let below = |parent: Option<usize>| parent.map_or(&[0][..], |parent| &children[parent]);
         for parent in std::iter::once(None).chain((0..scene.links.len()).map(Some)) {
-            // What equal joints on one parent turn by, together.
+            // Sums of the motions of equal joints on one parent.
             let mut sums: Vec<(&str, ValueId, ValueId)> = Vec::new();
             for &link in below(parent) {
                 let unit = &units.links[scene.links[link].orbit.0];
