@@ -3,7 +3,7 @@
 
 use super::count::{Operations, operations};
 use super::lower::{Environment, Lowering};
-use super::{Pass, ValueId};
+use super::{Argument, Pass, ValueId};
 use crate::scene::{Scene, Solve};
 
 /// The solve for the accelerations in absolute angles, and the cost of both.
@@ -63,7 +63,21 @@ impl Lowering<'_> {
         }
     }
 
-    /// q̈ with M q̈ = −bias, by elimination.
+    /// θ̈ under torques from outside, by the solve that was chosen without them.
+    pub(super) fn accelerations_under(
+        &mut self,
+        scene: &Scene,
+        environment: &mut Environment<'_>,
+        solve: Solve,
+    ) -> Vec<ValueId> {
+        environment.torques = Some(Argument::Torques);
+        match solve {
+            Solve::Factorization => self.factorization(environment),
+            Solve::Recursion => self.recursion(scene, environment),
+        }
+    }
+
+    /// q̈ with M q̈ = Q − bias, Q from outside if at all, by elimination.
     pub(super) fn factorization(&mut self, environment: &mut Environment<'_>) -> Vec<ValueId> {
         let frame = environment.frame;
         let names = self.coordinate_names(frame);
@@ -72,7 +86,11 @@ impl Lowering<'_> {
         for (bias, name) in frame.bias.iter().zip(&names) {
             let value = self.expr(environment, bias);
             self.builder.name(value, &format!("bias_{name}"));
-            let torque = self.builder.neg(value);
+            let mut torque = self.builder.neg(value);
+            if let Some(argument) = environment.torques {
+                let outside = self.builder.input(argument, right.len());
+                torque = self.builder.add(outside, torque);
+            }
             right.push(self.builder.name(torque, &format!("torque_{name}")));
         }
         let solution = self.builder.solve(mass, right, &names);
