@@ -112,8 +112,11 @@ impl Emission<'_> {
         let operations = self.program.operations(&entry.outputs);
         let mut cost = format!("Cost: {operations}{fused}.");
         let choice = &self.program.choice;
-        if entry.purpose == Purpose::Accelerations && choice.solve == Solve::Recursion {
-            cost += &format!(" By elimination: {}.", choice.factorization);
+        if entry.purpose == Purpose::Accelerations
+            && choice.solve == Solve::Recursion
+            && let Some(factorization) = choice.factorization
+        {
+            cost += &format!(" By elimination: {factorization}.");
         }
         lines.push(cost);
         doc_lines(&lines)

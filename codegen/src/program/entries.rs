@@ -19,7 +19,7 @@ pub(super) fn link_entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowere
     let strips = list.link_functions(scene, mechanics);
     let choice = Choice {
         solve: Solve::Recursion,
-        factorization: Operations::default(),
+        factorization: None,
         recursion: Operations::default(),
     };
     (list.entries, choice, Some(strips))
