@@ -9,8 +9,8 @@ use branched_pendulum::prelude::{
 
 use super::apparatus::{Apparatus, Flow, Sample};
 use super::arguments::{Arguments, Precision};
-use super::failure::Failure;
 use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
+use crate::failure::Failure;
 use crate::quadrature::GAUSS;
 
 /// What the integrator did.
@@ -48,7 +48,7 @@ impl Run {
     /// that is measured on the trajectory is computed in double precision.
     ///
     /// # Errors
-    /// [`Failure::Friction`], or [`Failure::Integration`] if the integrator
+    /// [`Failure::Parameter`], or [`Failure::Integration`] if the integrator
     /// does not reach the end.
     pub fn new(
         angle_deg: f64,
@@ -224,7 +224,8 @@ fn halves<T: Real>(values: &[T]) -> ([f64; 3], [f64; 3]) {
 #[cfg(test)]
 mod tests {
     use super::Run;
-    use crate::branched_double::{Arguments, Failure};
+    use crate::branched_double::Arguments;
+    use crate::failure::Failure;
 
     #[test]
     fn samples_stand_at_even_times_and_intervals_between_them() {

@@ -8,8 +8,8 @@ use branched_pendulum::integrate::DenseError;
 use branched_pendulum::prelude::{DenseStep, Dop853, Options, State, SymmetricCoordinates};
 
 use super::arguments::Arguments;
-use super::failure::Failure;
 use super::scene::{LINKS, SECTORS, Tree, TreeParameters};
+use crate::failure::Failure;
 use crate::quadrature::GAUSS;
 
 /// Samples per second.
@@ -60,9 +60,12 @@ impl Run {
     /// follows it. In symmetric coordinates, where small differences keep their
     /// digits.
     ///
+    /// `progress` is called after every step with the part of the duration that
+    /// is done.
+    ///
     /// # Errors
-    /// [`Failure::Drive`] or [`Failure::Integration`].
-    pub fn new(arguments: &Arguments) -> Result<Self, Failure> {
+    /// [`Failure::Parameter`] or [`Failure::Integration`].
+    pub fn new(arguments: &Arguments, mut progress: impl FnMut(f64)) -> Result<Self, Failure> {
         let tree = Tree::new(TreeParameters {
             torque: arguments.torque,
             pace: TAU * arguments.frequency,
@@ -77,17 +80,20 @@ impl Run {
                 &SymmetricCoordinates(&tree),
                 &start,
                 arguments.duration,
-                |step| match recorder.step(step) {
-                    Ok(()) => ControlFlow::Continue(()),
-                    Err(error) => {
-                        failure = Some(error);
-                        ControlFlow::Break(())
+                |step| {
+                    progress(step.end_time() / arguments.duration);
+                    match recorder.step(step) {
+                        Ok(()) => ControlFlow::Continue(()),
+                        Err(error) => {
+                            failure = Some(error);
+                            ControlFlow::Break(())
+                        }
                     }
                 },
             )
-            .map_err(|error| Failure::Integration(error.to_string().into()))?;
+            .map_err(|error| Failure::integration(0.0, error))?;
         if let Some(error) = failure {
-            return Err(Failure::Integration(error.to_string().into()));
+            return Err(Failure::integration(0.0, error));
         }
         Ok(Self {
             samples: recorder.samples,
@@ -264,7 +270,7 @@ mod tests {
             tolerance: 1e-11,
             ..Arguments::default()
         };
-        Run::new(&arguments).unwrap()
+        Run::new(&arguments, |_| ()).unwrap()
     }
 
     #[test]
@@ -296,7 +302,7 @@ mod tests {
             difference: 0.0,
             ..Arguments::default()
         };
-        let run = Run::new(&arguments).unwrap();
+        let run = Run::new(&arguments, |_| ()).unwrap();
         let last = run.samples.last().unwrap();
         for energies in last.energies {
             assert!(energies[0] > 0.0);

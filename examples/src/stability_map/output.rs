@@ -1,14 +1,12 @@
 //! Maps, CSV file and charts.
 
-use std::path::{Path, PathBuf};
-
-use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum::data::{Cell, Column};
 use branched_pendulum::prelude::*;
 use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
 
 use super::verdict::{DAMPED_ANGLE, Verdict, damped, damped_model, damped_reference, ideal};
-use crate::branched_double::Failure;
-use crate::solvers::legend;
+use crate::failure::Failure;
+use crate::program::Job;
 
 /// Methods that take a step.
 pub const FIXED: [Method; 5] = [
@@ -40,19 +38,77 @@ pub struct Place {
     pub verdict: Verdict,
 }
 
-/// A map: its file name, title, axes, methods and places.
+/// A map: a sweep and its runs.
 #[derive(Clone, Debug)]
 pub struct Map {
-    name: &'static str,
-    title: String,
-    x: &'static str,
-    height: &'static str,
-    /// The y axis of a method's panel.
-    y: fn(&str) -> Axis,
-    /// The methods, in the order of the panels.
-    pub methods: Vec<Method>,
+    sweep: Sweep,
     /// The runs.
     pub places: Vec<Place>,
+}
+
+/// The runs that make a map.
+#[derive(Clone, Copy, Debug)]
+pub struct Sweep {
+    /// Name on the command line.
+    pub name: &'static str,
+    title: &'static str,
+    /// Setting and height, each with its unit.
+    columns: [(&'static str, &'static str); 2],
+    /// The y axis of a method's panel.
+    y: fn(&str) -> Axis,
+    methods: &'static [Method],
+    settings: fn() -> Vec<f64>,
+    heights: fn() -> Vec<f64>,
+    judge: fn(&[f64]) -> Result<Judge, Failure>,
+}
+
+/// Verdict on a run with this method, setting and height.
+type Judge = Box<dyn Fn(Method, f64, f64) -> Verdict + Sync>;
+
+/// All sweeps.
+pub const SWEEPS: [Sweep; 3] = [
+    Sweep {
+        name: "amplitude",
+        title: "100 s without friction: step against amplitude",
+        columns: [("step", "s"), ("release", "degrees")],
+        y: release_axis,
+        methods: &FIXED,
+        settings: steps,
+        heights: releases,
+        judge: |_| Ok(Box::new(ideal)),
+    },
+    Sweep {
+        name: "tolerance",
+        title: "100 s without friction: tolerance against amplitude",
+        columns: [("tolerance", ""), ("release", "degrees")],
+        y: release_axis,
+        methods: &ADAPTIVE,
+        settings: || logarithmic(1e-12, 1e-1, 12),
+        heights: releases,
+        judge: |_| Ok(Box::new(ideal)),
+    },
+    Sweep {
+        name: "friction",
+        title: "3 s from 40° with friction in every pivot",
+        columns: [("step", "s"), ("friction", "N m s")],
+        y: |method| Axis::log(format!("{method}: c (N m s)")).range(5e-6, 20.0),
+        methods: &FIXED,
+        settings: steps,
+        heights: || logarithmic(1e-5, 10.0, 13),
+        judge: damped_by_friction,
+    },
+];
+
+fn release_axis(method: &str) -> Axis {
+    Axis::linear(format!("{method}: θ_1(0) (°)")).range(0.0, 180.0)
+}
+
+fn releases() -> Vec<f64> {
+    (1..=11).map(|k| 15.0 * f64::from(k)).collect()
+}
+
+fn steps() -> Vec<f64> {
+    logarithmic(1e-3, 0.3, 16)
 }
 
 fn logarithmic(low: f64, high: f64, count: u32) -> Vec<f64> {
@@ -62,76 +118,47 @@ fn logarithmic(low: f64, high: f64, count: u32) -> Vec<f64> {
         .collect()
 }
 
-/// Computes all maps, on all cores.
-///
-/// # Errors
-/// [`Failure`]: the reference with friction could not be computed.
-pub fn maps() -> Result<Vec<Map>, Failure> {
-    let angles: Vec<f64> = (1..=11).map(|k| 15.0 * f64::from(k)).collect();
-    let steps = logarithmic(1e-3, 0.3, 16);
-    let tolerances = logarithmic(1e-12, 1e-1, 12);
-    let frictions = logarithmic(1e-5, 10.0, 13);
-    let by_angle = |methods: &[Method], settings: &[f64]| {
-        let grid = grid(methods, settings, &angles);
-        Ensemble::new().map(&grid, |_, &(method, setting, height)| Place {
-            method,
-            setting,
-            height,
-            verdict: ideal(method, setting, height),
-        })
+/// Computes the references of all frictions before the runs.
+fn damped_by_friction(frictions: &[f64]) -> Result<Judge, Failure> {
+    let reference = |&friction: &f64| {
+        let model = damped_model(friction)?;
+        let energy =
+            damped_reference(&model).map_err(|error| Failure::integration(DAMPED_ANGLE, error))?;
+        Ok((friction, model, energy))
     };
-    let references = frictions
-        .iter()
-        .map(|&friction| {
-            let model = damped_model(friction)?;
-            let energy = damped_reference(&model).map_err(|error| Failure::Integration {
-                angle_deg: DAMPED_ANGLE,
-                source: error.to_string().into(),
-            })?;
-            Ok((friction, model, energy))
-        })
-        .collect::<Result<Vec<_>, Failure>>()?;
-    let by_friction = grid(&FIXED, &steps, &frictions);
-    let by_friction = Ensemble::new().map(&by_friction, |_, &(method, setting, height)| {
-        let reference = references.iter().find(|reference| reference.0 == height);
+    let references = frictions.iter().map(reference);
+    let references = references.collect::<Result<Vec<_>, Failure>>()?;
+    Ok(Box::new(move |method, setting, friction| {
+        let reference = references.iter().find(|(own, ..)| *own == friction);
         let verdict = reference.map(|(_, model, energy)| damped(method, setting, model, *energy));
-        Place {
-            method,
-            setting,
-            height,
-            verdict: verdict.unwrap_or(Verdict::Refused),
-        }
-    });
-    let release = |method: &str| Axis::linear(format!("{method}: θ_1(0) (°)")).range(0.0, 180.0);
-    Ok(vec![
-        Map {
-            name: "stability-amplitude",
-            title: "100 s without friction: step against amplitude".to_owned(),
-            x: "step (s)",
-            height: "release (degrees)",
-            y: release,
-            methods: FIXED.to_vec(),
-            places: by_angle(&FIXED, &steps),
-        },
-        Map {
-            name: "stability-tolerance",
-            title: "100 s without friction: tolerance against amplitude".to_owned(),
-            x: "tolerance",
-            height: "release (degrees)",
-            y: release,
-            methods: ADAPTIVE.to_vec(),
-            places: by_angle(&ADAPTIVE, &tolerances),
-        },
-        Map {
-            name: "stability-friction",
-            title: format!("3 s from {DAMPED_ANGLE}° with friction in every pivot"),
-            x: "step (s)",
-            height: "friction (N m s)",
-            y: |method| Axis::log(format!("{method}: c (N m s)")).range(5e-6, 20.0),
-            methods: FIXED.to_vec(),
-            places: by_friction,
-        },
-    ])
+        verdict.unwrap_or(Verdict::Refused)
+    }))
+}
+
+impl Sweep {
+    /// Runs the sweep, on all cores.
+    ///
+    /// # Errors
+    /// [`Failure`]: the reference with friction could not be computed.
+    pub fn map(self, job: &Job) -> Result<Map, Failure> {
+        let heights = (self.heights)();
+        let grid = grid(self.methods, &(self.settings)(), &heights);
+        let progress = job.progress(grid.len());
+        progress.begin(self.name);
+        let judge = (self.judge)(&heights)?;
+        let places = Ensemble::new().map(&grid, |_, &(method, setting, height)| {
+            let verdict = judge(method, setting, height);
+            progress.next();
+            Place {
+                method,
+                setting,
+                height,
+                verdict,
+            }
+        });
+        let sweep = self;
+        Ok(Map { sweep, places })
+    }
 }
 
 fn grid(methods: &[Method], settings: &[f64], heights: &[f64]) -> Vec<(Method, f64, f64)> {
@@ -144,67 +171,54 @@ fn grid(methods: &[Method], settings: &[f64], heights: &[f64]) -> Vec<(Method, f
     grid
 }
 
-/// How many runs of each method came to what.
-pub fn table(maps: &[Map]) -> String {
-    let mut text = String::new();
-    for map in maps {
-        text.push_str(&format!("{}\n\n{:24}", map.title, ""));
+/// The table of a map: how many runs of each method met each fate.
+pub fn table(map: &Map) -> String {
+    let mut text = format!("{}\n\n{:24}", map.sweep.title, "");
+    for verdict in Verdict::ALL {
+        text.push_str(&format!("{:>18}", verdict.name()));
+    }
+    text.push('\n');
+    for method in map.sweep.methods {
+        text.push_str(&format!("{:24}", method.title()));
         for verdict in Verdict::ALL {
-            text.push_str(&format!("{:>18}", verdict.name()));
-        }
-        text.push('\n');
-        for method in &map.methods {
-            text.push_str(&format!("{:24}", method.title()));
-            for verdict in Verdict::ALL {
-                let own = map.places.iter().filter(|place| place.method == *method);
-                let count = own.filter(|place| place.verdict == verdict).count();
-                text.push_str(&format!("{count:>18}"));
-            }
-            text.push('\n');
+            let own = map.places.iter().filter(|place| place.method == *method);
+            let count = own.filter(|place| place.verdict == verdict).count();
+            text.push_str(&format!("{count:>18}"));
         }
         text.push('\n');
     }
+    text.push('\n');
     text
 }
 
-/// Writes CSV files and charts, and returns the files.
+/// Prints the table of a map and writes CSV file and chart.
 ///
 /// # Errors
-/// [`Failure::Csv`] or [`Failure::Chart`].
-pub fn write(folder: &Path, maps: &[Map]) -> Result<Vec<PathBuf>, Failure> {
-    let mut files = Vec::new();
-    for map in maps {
-        let file = |extension: &str| folder.join(format!("{}.{extension}", map.name));
-        let (csv, svg, png) = (file("csv"), file("svg"), file("png"));
-        let verdicts = Verdict::ALL.iter().enumerate();
-        let verdicts: Vec<_> = verdicts
-            .map(|(index, verdict)| format!("{index} {}", verdict.name()))
-            .collect();
-        let columns = [
-            legend(&map.methods),
-            map.x.to_owned(),
-            map.height.to_owned(),
-            format!("verdict: {}", verdicts.join("; ")),
-        ];
-        let mut writer = CsvWriter::create(&csv, &columns.map(|name| Column::new(name, "")))?;
-        for place in &map.places {
-            let method = map
-                .methods
-                .iter()
-                .position(|method| *method == place.method);
-            let verdict = Verdict::ALL
-                .iter()
-                .position(|verdict| *verdict == place.verdict);
-            let number = |index: Option<usize>| index.map_or(f64::NAN, |index| index as f64);
-            writer.row(&[number(method), place.setting, place.height, number(verdict)])?;
-        }
-        writer.finish()?;
-        let chart = chart(map);
-        chart.write_svg(&svg)?;
-        chart.write_png(&png)?;
-        files.extend([csv, svg, png]);
-    }
-    Ok(files)
+/// [`Failure`].
+pub fn deliver(job: &Job, map: &Map) -> Result<(), Failure> {
+    let [x, height] = map
+        .sweep
+        .columns
+        .map(|(name, unit)| Column::new(name, unit));
+    let columns = [
+        Column::new("method", ""),
+        x,
+        height,
+        Column::new("verdict", ""),
+    ];
+    let name = format!("stability-{}", map.sweep.name);
+    job.csv(&format!("{name}.csv"), &columns, |csv| {
+        map.places.iter().try_for_each(|place| {
+            csv.row([
+                Cell::from(place.method.title()),
+                place.setting.into(),
+                place.height.into(),
+                place.verdict.name().into(),
+            ])
+        })
+    })?;
+    job.chart(&name, &chart(map))?;
+    job.print(&table(map))
 }
 
 fn chart(map: &Map) -> Chart {
@@ -215,10 +229,22 @@ fn chart(map: &Map) -> Chart {
         (Color::rgb(0xc0, 0x2a, 0x2a), Symbol::Cross),
         (Color::rgb(0x80, 0x80, 0x80), Symbol::Plus),
     ];
-    let height = 120.0 + 190.0 * map.methods.len() as f64;
-    let chart = Chart::new(&map.title, Axis::log(map.x)).size(900.0, height);
-    map.methods.iter().fold(chart, |chart, method| {
-        let panel = Panel::new((map.y)(method.title()));
+    let Sweep {
+        title,
+        columns: [(x, unit), _],
+        y,
+        methods,
+        ..
+    } = map.sweep;
+    let x = if unit.is_empty() {
+        x.to_owned()
+    } else {
+        format!("{x} ({unit})")
+    };
+    let height = 120.0 + 190.0 * methods.len() as f64;
+    let chart = Chart::new(title, Axis::log(x)).size(900.0, height);
+    methods.iter().fold(chart, |chart, method| {
+        let panel = Panel::new(y(method.title()));
         let panel = Verdict::ALL
             .iter()
             .zip(styles)
@@ -235,4 +261,18 @@ fn chart(map: &Map) -> Chart {
             });
         chart.panel(panel)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DAMPED_ANGLE, SWEEPS};
+    use crate::stability_map::verdict::{DAMPED_DURATION, IDEAL_DURATION};
+
+    #[test]
+    fn titles_tell_the_runs() {
+        let [amplitude, tolerance, friction] = SWEEPS.map(|sweep| sweep.title);
+        let ideal = format!("{IDEAL_DURATION} s without friction");
+        assert!(amplitude.starts_with(&ideal) && tolerance.starts_with(&ideal));
+        assert!(friction.starts_with(&format!("{DAMPED_DURATION} s from {DAMPED_ANGLE}°")));
+    }
 }

@@ -1,15 +1,14 @@
 //! Where does each truncation of W fail: amplitude of what it takes for small
 //! against the size of the motion that feeds it.
 
-use std::path::{Path, PathBuf};
-
 use branched_pendulum::analysis::truncation::{Background, PhaseAverage, logarithmic};
-use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum::data::{Cell, Column};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::{TransferForm, TransferForms};
 use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
 
-use crate::branched_double::Failure;
+use crate::failure::Failure;
+use crate::program::Job;
 use crate::transfer_orders::Apparatus;
 
 /// Random states at each place.
@@ -70,9 +69,15 @@ pub struct Place {
 ///
 /// # Errors
 /// [`Failure::Truncation`].
-pub fn map() -> Result<Vec<Place>, Failure> {
+pub fn map(job: &Job) -> Result<Vec<Place>, Failure> {
     let releases: Vec<f64> = (1..=11).map(|k| 15.0 * f64::from(k)).collect();
-    let places = Ensemble::new().map(&releases, |_, &release| after(release));
+    let progress = job.progress(releases.len());
+    progress.begin("truncation");
+    let places = Ensemble::new().map(&releases, |_, &release| {
+        let places = after(release);
+        progress.next();
+        places
+    });
     let places: Result<Vec<_>, Failure> = places.into_iter().collect();
     Ok(places?.concat())
 }
@@ -132,36 +137,32 @@ pub fn table(places: &[Place]) -> String {
     text
 }
 
-/// Writes CSV file and chart, and returns the files.
+/// Prints the table and writes CSV file and chart.
 ///
 /// # Errors
-/// [`Failure::Csv`] or [`Failure::Chart`].
-pub fn write(folder: &Path, places: &[Place]) -> Result<Vec<PathBuf>, Failure> {
-    let file = |extension: &str| folder.join(format!("stability-truncation.{extension}"));
-    let (csv, svg, png) = (file("csv"), file("svg"), file("png"));
-    let names: Vec<String> = forms()
-        .enumerate()
-        .map(|(index, form)| format!("{index} {form}"))
-        .collect();
-    let mut writer = CsvWriter::create(
-        &csv,
-        &[
-            Column::new(format!("form: {}", names.join("; ")), ""),
-            Column::new("amplitude", "rad"),
-            Column::new("release", "degrees"),
-            Column::new("relative error", ""),
-        ],
-    )?;
-    for place in places {
-        let form = forms().position(|form| form == place.form);
-        let form = form.map_or(f64::NAN, |index| index as f64);
-        writer.row(&[form, place.amplitude, place.release, place.error])?;
-    }
-    writer.finish()?;
-    let chart = chart(places);
-    chart.write_svg(&svg)?;
-    chart.write_png(&png)?;
-    Ok(vec![csv, svg, png])
+/// [`Failure`].
+pub fn deliver(job: &Job, places: &[Place]) -> Result<(), Failure> {
+    let columns = [
+        Column::new("form", ""),
+        Column::new("amplitude", "rad"),
+        Column::new("release", "degrees"),
+        Column::new("relative error", ""),
+        Column::new("worth", ""),
+    ];
+    job.csv("stability-truncation.csv", &columns, |csv| {
+        places.iter().try_for_each(|place| {
+            let form = place.form.to_string();
+            csv.row([
+                Cell::from(form.as_str()),
+                place.amplitude.into(),
+                place.release.into(),
+                place.error.into(),
+                Worth::of(place.error).name().into(),
+            ])
+        })
+    })?;
+    job.chart("stability-truncation", &chart(places))?;
+    job.print(&table(places))
 }
 
 fn chart(places: &[Place]) -> Chart {
