@@ -2,7 +2,7 @@
 
 use branched_pendulum::data::{Cell, Column};
 use branched_pendulum::prelude::*;
-use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
+use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series};
 
 use super::verdict::{DAMPED_ANGLE, Verdict, damped, damped_model, damped_reference, ideal};
 use crate::failure::Failure;
@@ -91,7 +91,7 @@ pub const SWEEPS: [Sweep; 3] = [
         name: "friction",
         title: "3 s from 40° with friction in every pivot",
         columns: [("step", "s"), ("friction", "N m s")],
-        y: |method| Axis::log(format!("{method}: c (N m s)")).range(5e-6, 20.0),
+        y: |method| Axis::log(format!("{method}: c (N m s)")),
         methods: &FIXED,
         settings: steps,
         heights: || logarithmic(1e-5, 10.0, 13),
@@ -100,7 +100,7 @@ pub const SWEEPS: [Sweep; 3] = [
 ];
 
 fn release_axis(method: &str) -> Axis {
-    Axis::linear(format!("{method}: θ_1(0) (°)")).range(0.0, 180.0)
+    Axis::linear(format!("{method}: θ_1(0) (°)"))
 }
 
 fn releases() -> Vec<f64> {
@@ -222,12 +222,12 @@ pub fn deliver(job: &Job, map: &Map) -> Result<(), Failure> {
 }
 
 fn chart(map: &Map) -> Chart {
-    let styles = [
-        (Color::rgb(0x1b, 0x7a, 0x3d), Symbol::Circle),
-        (Color::rgb(0x2b, 0x6c, 0xb8), Symbol::Square),
-        (Color::rgb(0xd9, 0x8a, 0x00), Symbol::Triangle),
-        (Color::rgb(0xc0, 0x2a, 0x2a), Symbol::Cross),
-        (Color::rgb(0x80, 0x80, 0x80), Symbol::Plus),
+    let colors = [
+        Color::rgb(0x1b, 0x7a, 0x3d),
+        Color::rgb(0x56, 0xb4, 0xe9),
+        Color::rgb(0xe6, 0x9f, 0x00),
+        Color::rgb(0xc0, 0x2a, 0x2a),
+        Color::rgb(0xb0, 0xb0, 0xb0),
     ];
     let Sweep {
         title,
@@ -236,29 +236,27 @@ fn chart(map: &Map) -> Chart {
         methods,
         ..
     } = map.sweep;
-    let x = if unit.is_empty() {
-        x.to_owned()
-    } else {
-        format!("{x} ({unit})")
+    let x = match unit {
+        "" => x.to_owned(),
+        _ => format!("{x} ({unit})"),
     };
-    let height = 120.0 + 190.0 * methods.len() as f64;
-    let chart = Chart::new(title, Axis::log(x)).size(900.0, height);
+    let rows = methods.len().div_ceil(2);
+    let chart = Chart::new(title, Axis::log(x))
+        .columns(2)
+        .size(1000.0, 120.0 + 240.0 * rows as f64);
     methods.iter().fold(chart, |chart, method| {
         let panel = Panel::new(y(method.title()));
-        let panel = Verdict::ALL
-            .iter()
-            .zip(styles)
-            .fold(panel, |panel, (verdict, style)| {
-                let own = map.places.iter();
-                let own = own.filter(|place| place.method == *method && place.verdict == *verdict);
-                let (x, y): (Vec<f64>, Vec<f64>) =
-                    own.map(|place| (place.setting, place.height)).unzip();
-                if x.is_empty() {
-                    return panel;
-                }
-                let series = Series::points(verdict.name(), &x, &y);
-                panel.series(series.color(style.0).symbol(style.1))
-            });
+        let verdicts = Verdict::ALL.iter().zip(colors);
+        let panel = verdicts.fold(panel, |panel, (verdict, color)| {
+            let own = map.places.iter();
+            let own = own.filter(|place| place.method == *method && place.verdict == *verdict);
+            let (x, y): (Vec<f64>, Vec<f64>) =
+                own.map(|place| (place.setting, place.height)).unzip();
+            match x.as_slice() {
+                [] => panel,
+                _ => panel.series(Series::cells(verdict.name(), &x, &y).color(color)),
+            }
+        });
         chart.panel(panel)
     })
 }

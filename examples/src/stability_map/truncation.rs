@@ -5,7 +5,7 @@ use branched_pendulum::analysis::truncation::{Background, PhaseAverage, logarith
 use branched_pendulum::data::{Cell, Column};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::{TransferForm, TransferForms};
-use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
+use branched_pendulum_charts::{Axis, Chart, Panel};
 
 use crate::failure::Failure;
 use crate::program::Job;
@@ -165,35 +165,23 @@ pub fn deliver(job: &Job, places: &[Place]) -> Result<(), Failure> {
     job.print(&table(places))
 }
 
+/// Errors between which the colours of the map change; those of [`Worth`] among
+/// them.
+const LEVELS: [f64; 4] = [1e-4, 0.01, 0.1, 1.0];
+
 fn chart(places: &[Place]) -> Chart {
-    let styles = [
-        (Color::rgb(0x1b, 0x7a, 0x3d), Symbol::Circle),
-        (Color::rgb(0x2b, 0x6c, 0xb8), Symbol::Square),
-        (Color::rgb(0xc0, 0x2a, 0x2a), Symbol::Cross),
-    ];
-    let title = "Truncations of W: amplitude of θ_d against release of the in-phase motion";
-    let height = 120.0 + 190.0 * forms().count() as f64;
-    let chart = Chart::new(title, Axis::log("amplitude of θ_d (rad)")).size(900.0, height);
+    let title = "Relative error of truncated W: amplitude of θ_d against the release that feeds it";
+    let rows = forms().count().div_ceil(2);
+    let chart = Chart::new(title, Axis::log("amplitude of θ_d (rad)"))
+        .columns(2)
+        .size(1000.0, 120.0 + 240.0 * rows as f64);
     forms().fold(chart, |chart, form| {
-        let panel = Panel::new(Axis::linear(format!("{form}: θ_1(0) (°)")).range(0.0, 180.0));
-        let panel = Worth::ALL
-            .iter()
-            .zip(styles)
-            .fold(panel, |panel, (worth, (color, symbol))| {
-                let own = places.iter().filter(|place| place.form == form);
-                let own = own.filter(|place| Worth::of(place.error) == *worth);
-                let (x, y): (Vec<f64>, Vec<f64>) =
-                    own.map(|place| (place.amplitude, place.release)).unzip();
-                if x.is_empty() {
-                    return panel;
-                }
-                panel.series(
-                    Series::points(worth.name(), &x, &y)
-                        .color(color)
-                        .symbol(symbol),
-                )
-            });
-        chart.panel(panel)
+        let own = || places.iter().filter(|place| place.form == form);
+        let x: Vec<f64> = own().map(|place| place.amplitude).collect();
+        let y: Vec<f64> = own().map(|place| place.release).collect();
+        let errors: Vec<f64> = own().map(|place| place.error).collect();
+        let panel = Panel::new(Axis::linear(format!("{form}: θ_1(0) (°)")));
+        chart.panel(panel.heatmap(&x, &y, &errors, &LEVELS))
     })
 }
 

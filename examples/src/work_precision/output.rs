@@ -120,7 +120,10 @@ pub fn write_drifts(job: &Job, drifts: &[EnergyDrift]) -> Result<(), Failure> {
 }
 
 fn chart(title: &str, x: &str, problems: &[Runs], cost: impl Fn(&Measurement) -> f64) -> Chart {
-    let chart = Chart::new(title, Axis::log(x)).size(900.0, 120.0 + 320.0 * problems.len() as f64);
+    let rows = problems.len().div_ceil(2);
+    let chart = Chart::new(title, Axis::log(x))
+        .columns(2)
+        .size(1100.0, 140.0 + 300.0 * rows as f64);
     problems.iter().fold(chart, |chart, (name, runs)| {
         let panel = Panel::new(Axis::log(format!("error, {name}")).range(1e-14, 10.0));
         let panel = METHODS.iter().fold(panel, |panel, method| {

@@ -1,5 +1,5 @@
 use crate::label::Label;
-use crate::style::{Color, Dash, Symbol};
+use crate::style::{Color, Dash, Fill, Symbol};
 
 /// Longest side of a canvas in px, and of a PNG in pixels.
 pub(crate) const LARGEST_SIDE: f64 = 16384.0;
@@ -30,6 +30,12 @@ pub(crate) enum Mark {
         at: Vec<Point>,
         radius: f64,
         color: Color,
+    },
+    /// Filled polygons.
+    Areas {
+        polygons: Vec<Vec<Point>>,
+        color: Color,
+        fill: Fill,
     },
     Text(Text),
 }
