@@ -1,4 +1,4 @@
-//! What a trajectory to a given error costs.
+//! The cost of a trajectory to a given error.
 //!
 //! `integration-speed --help` says what is measured.
 

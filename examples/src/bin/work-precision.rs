@@ -1,4 +1,4 @@
-//! What a given error costs, with which method.
+//! The cost of a given error with each method.
 //!
 //! `work-precision --help` lists the options.
 

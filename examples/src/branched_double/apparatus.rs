@@ -1,4 +1,4 @@
-//! What is measured on the apparatus at one instant.
+//! Measurements on the apparatus at one instant.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
@@ -39,7 +39,7 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// Whether there is none.
+    /// Returns true if there is none.
     pub fn is_zero(self) -> bool {
         self.root == 0.0 && self.children == 0.0
     }
@@ -81,9 +81,9 @@ pub struct Apparatus {
 pub struct Flow {
     /// W into H_d in the three forms of [`FORMS`], each by part.
     pub transfer: [Transfer<f64>; 3],
-    /// What friction does to H_d.
+    /// Power of friction on H_d.
     pub antiphase_friction: f64,
-    /// What friction does to the whole energy; never positive.
+    /// Power of friction on the whole energy; never positive.
     pub friction: f64,
 }
 

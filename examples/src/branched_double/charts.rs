@@ -255,7 +255,7 @@ fn spectrum(
     )
 }
 
-/// What all runs have in common, for a title.
+/// The conditions that all runs share, for a title.
 pub(super) fn conditions(arguments: &Arguments) -> String {
     let disturbance = plain(arguments.disturbance);
     format!("θ_d(0) = {disturbance} rad, {}", arguments.friction)

@@ -13,7 +13,7 @@ use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoublePa
 use crate::failure::Failure;
 use crate::quadrature::GAUSS;
 
-/// What the integrator did.
+/// The integrator's work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Work {
     /// Steps accepted.
@@ -34,7 +34,7 @@ pub struct Run {
     /// Energies in joules that flowed between sample i and sample i + 1:
     /// integrals of W and of the power of friction over the interval.
     pub intervals: Vec<Flow>,
-    /// What the integrator did.
+    /// The integrator's work.
     pub work: Work,
 }
 
@@ -151,7 +151,7 @@ struct Recorder<'a> {
     arguments: &'a Arguments,
     samples: Vec<Sample>,
     intervals: Vec<Flow>,
-    /// What has flowed since the last sample.
+    /// Energies that have flowed since the last sample.
     since: Flow,
 }
 

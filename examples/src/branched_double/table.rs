@@ -9,7 +9,7 @@ use super::findings::{Findings, Frequencies, Peak};
 use super::terms::{Sizes, TERMS};
 use crate::program::command_line::plain;
 
-/// What stands above the rows: three lines of headings for each column.
+/// The head of a table: three lines of headings for each column.
 type Headings = [[&'static str; 3]];
 
 const MOTION: &Headings = &[

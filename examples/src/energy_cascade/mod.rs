@@ -13,7 +13,7 @@ pub mod run;
 pub mod scene;
 
 pub use arguments::Arguments;
-pub use run::{Run, Work};
+pub use run::{Cascade, Work};
 pub use scene::{Level, Tree};
 
 use crate::failure::Failure;
@@ -32,7 +32,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     })?)?;
     let progress = job.progress(1);
     progress.begin("fifteen rods");
-    let run = Run::new(arguments, |done| progress.within(0, done))?;
+    let run = Cascade::new(arguments, |done| progress.within(0, done))?;
     report::write_samples(job, &run)?;
     job.print(&(report::report(arguments, &modes, &run) + "\n"))?;
     job.chart("energy-cascade", &charts::chart(&run))?;

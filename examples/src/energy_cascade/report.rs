@@ -6,13 +6,13 @@ use branched_pendulum::analysis::SectorModes;
 use branched_pendulum::data::Column;
 
 use super::arguments::Arguments;
-use super::run::{DEFINITIONS, PARSEVAL, Run};
+use super::run::{Cascade, DEFINITIONS, PARSEVAL};
 use super::scene::{Level, SECTORS, by_level, sectors};
 use crate::failure::Failure;
 use crate::program::Job;
 
 /// Everything that is printed, as Markdown.
-pub fn report(arguments: &Arguments, modes: &SectorModes, run: &Run) -> String {
+pub fn report(arguments: &Arguments, modes: &SectorModes, run: &Cascade) -> String {
     let Arguments {
         duration,
         torque,
@@ -39,7 +39,7 @@ fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
 }
 
 /// Sectors with their sizes, frequencies and closures.
-fn sector_table(modes: &SectorModes, run: &Run) -> String {
+fn sector_table(modes: &SectorModes, run: &Cascade) -> String {
     let mut text = format!(
         "Sectors: size, eigenfrequencies, and how well each budget closes, as the\n\
          largest |∫(W+P) dt − ΔE| over the largest energy of all sectors. Entries between\n\
@@ -73,7 +73,7 @@ fn sector_table(modes: &SectorModes, run: &Run) -> String {
 }
 
 /// The time-averaged transfer matrix, with the power of friction and drive.
-fn matrix_table(run: &Run) -> String {
+fn matrix_table(run: &Cascade) -> String {
     let Some(last) = run.samples.last() else {
         return String::new();
     };
@@ -123,7 +123,7 @@ fn milli(watts: f64) -> String {
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
-pub fn write_samples(job: &Job, run: &Run) -> Result<(), Failure> {
+pub fn write_samples(job: &Job, run: &Cascade) -> Result<(), Failure> {
     let mut columns = vec![Column::new("time", "s")];
     for quantity in ["energy", "given by friction and drive", "given by sectors"] {
         let names = sectors().iter().map(|sector| sector.name);

@@ -47,7 +47,7 @@ const REPEAT: &str = "repeat";
 /// and all values as text, those by default included, for `run.json`.
 ///
 /// # Errors
-/// What is to be printed instead of a run: the help, or what is wrong.
+/// The text to be printed instead of a run: the help, or a mistake.
 pub fn parse<A: Arguments>(
     words: impl IntoIterator<Item = OsString>,
 ) -> Result<(A, Map<String, Value>), clap::Error> {
@@ -163,7 +163,7 @@ pub fn plain(value: f64) -> String {
 /// Reads the command line of a test, without the program's name.
 ///
 /// # Errors
-/// What would be printed.
+/// The text that would be printed.
 pub fn parse_line<A: Arguments>(line: &str) -> Result<A, String> {
     let name = A::command().get_name().to_owned();
     let words = std::iter::once(name.as_str()).chain(line.split_whitespace());

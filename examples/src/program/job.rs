@@ -35,7 +35,7 @@ pub enum Ended {
 pub(super) struct Record {
     pub(super) program: String,
     pub(super) folder: Option<PathBuf>,
-    /// Whether the folder was not there before.
+    /// True if the folder was not there before.
     made: bool,
     arguments: Map<String, Value>,
     report: Map<String, Value>,

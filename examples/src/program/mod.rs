@@ -1,4 +1,4 @@
-//! What all programs have in common: how one starts, shows its progress, keeps
+//! The frame that all programs share: how one starts, shows its progress, keeps
 //! its results and ends.
 //!
 //! - [`command_line`]: options, `--output` and `--repeat`,

@@ -51,9 +51,9 @@ impl crate::program::Arguments for Arguments {
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let asked = |name: &str| arguments.map == "all" || arguments.map == name;
-    for sweep in output::SWEEPS {
-        if asked(sweep.name) {
-            output::deliver(job, &sweep.map(job)?)?;
+    for survey in output::SURVEYS {
+        if asked(survey.name) {
+            output::deliver(job, &survey.map(job)?)?;
         }
     }
     if asked("truncation") {

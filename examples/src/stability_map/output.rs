@@ -25,30 +25,30 @@ pub const ADAPTIVE: [Method; 4] = [
     Method::Taylor,
 ];
 
-/// A run's place in its map, and what became of it.
+/// A run's trial in its map, and its fate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct Trial {
     /// The method.
     pub method: Method,
     /// Its step or tolerance.
     pub setting: f64,
     /// Angle of release (degrees) or friction (N m s).
     pub height: f64,
-    /// What became of the run.
+    /// The run's fate.
     pub verdict: Verdict,
 }
 
-/// A map: a sweep and its runs.
+/// A map: a survey and its runs.
 #[derive(Clone, Debug)]
 pub struct Map {
-    sweep: Sweep,
+    survey: Survey,
     /// The runs.
-    pub places: Vec<Place>,
+    pub trials: Vec<Trial>,
 }
 
 /// The runs that make a map.
 #[derive(Clone, Copy, Debug)]
-pub struct Sweep {
+pub struct Survey {
     /// Name on the command line.
     pub name: &'static str,
     title: &'static str,
@@ -65,9 +65,9 @@ pub struct Sweep {
 /// Verdict on a run with this method, setting and height.
 type Judge = Box<dyn Fn(Method, f64, f64) -> Verdict + Sync>;
 
-/// All sweeps.
-pub const SWEEPS: [Sweep; 3] = [
-    Sweep {
+/// All surveys.
+pub const SURVEYS: [Survey; 3] = [
+    Survey {
         name: "amplitude",
         title: "100 s without friction: step against amplitude",
         columns: [("step", "s"), ("release", "degrees")],
@@ -77,7 +77,7 @@ pub const SWEEPS: [Sweep; 3] = [
         heights: releases,
         judge: |_| Ok(Box::new(ideal)),
     },
-    Sweep {
+    Survey {
         name: "tolerance",
         title: "100 s without friction: tolerance against amplitude",
         columns: [("tolerance", ""), ("release", "degrees")],
@@ -87,7 +87,7 @@ pub const SWEEPS: [Sweep; 3] = [
         heights: releases,
         judge: |_| Ok(Box::new(ideal)),
     },
-    Sweep {
+    Survey {
         name: "friction",
         title: "3 s from 40° with friction in every pivot",
         columns: [("step", "s"), ("friction", "N m s")],
@@ -135,8 +135,8 @@ fn damped_by_friction(frictions: &[f64]) -> Result<Judge, Failure> {
     }))
 }
 
-impl Sweep {
-    /// Runs the sweep, on all cores.
+impl Survey {
+    /// Runs the survey, on all cores.
     ///
     /// # Errors
     /// [`Failure`]: the reference with friction could not be computed.
@@ -146,18 +146,18 @@ impl Sweep {
         let progress = job.progress(grid.len());
         progress.begin(self.name);
         let judge = (self.judge)(&heights)?;
-        let places = Ensemble::new().map(&grid, |_, &(method, setting, height)| {
+        let trials = Ensemble::new().map(&grid, |_, &(method, setting, height)| {
             let verdict = judge(method, setting, height);
             progress.next();
-            Place {
+            Trial {
                 method,
                 setting,
                 height,
                 verdict,
             }
         });
-        let sweep = self;
-        Ok(Map { sweep, places })
+        let survey = self;
+        Ok(Map { survey, trials })
     }
 }
 
@@ -173,16 +173,16 @@ fn grid(methods: &[Method], settings: &[f64], heights: &[f64]) -> Vec<(Method, f
 
 /// The table of a map: how many runs of each method met each fate.
 pub fn table(map: &Map) -> String {
-    let mut text = format!("{}\n\n{:24}", map.sweep.title, "");
+    let mut text = format!("{}\n\n{:24}", map.survey.title, "");
     for verdict in Verdict::ALL {
         text.push_str(&format!("{:>18}", verdict.name()));
     }
     text.push('\n');
-    for method in map.sweep.methods {
+    for method in map.survey.methods {
         text.push_str(&format!("{:24}", method.title()));
         for verdict in Verdict::ALL {
-            let own = map.places.iter().filter(|place| place.method == *method);
-            let count = own.filter(|place| place.verdict == verdict).count();
+            let own = map.trials.iter().filter(|trial| trial.method == *method);
+            let count = own.filter(|trial| trial.verdict == verdict).count();
             text.push_str(&format!("{count:>18}"));
         }
         text.push('\n');
@@ -197,7 +197,7 @@ pub fn table(map: &Map) -> String {
 /// [`Failure`].
 pub fn deliver(job: &Job, map: &Map) -> Result<(), Failure> {
     let [x, height] = map
-        .sweep
+        .survey
         .columns
         .map(|(name, unit)| Column::new(name, unit));
     let columns = [
@@ -206,14 +206,14 @@ pub fn deliver(job: &Job, map: &Map) -> Result<(), Failure> {
         height,
         Column::new("verdict", ""),
     ];
-    let name = format!("stability-{}", map.sweep.name);
+    let name = format!("stability-{}", map.survey.name);
     job.csv(&format!("{name}.csv"), &columns, |csv| {
-        map.places.iter().try_for_each(|place| {
+        map.trials.iter().try_for_each(|trial| {
             csv.row([
-                Cell::from(place.method.title()),
-                place.setting.into(),
-                place.height.into(),
-                place.verdict.name().into(),
+                Cell::from(trial.method.title()),
+                trial.setting.into(),
+                trial.height.into(),
+                trial.verdict.name().into(),
             ])
         })
     })?;
@@ -229,13 +229,13 @@ fn chart(map: &Map) -> Chart {
         Color::rgb(0xc0, 0x2a, 0x2a),
         Color::rgb(0xb0, 0xb0, 0xb0),
     ];
-    let Sweep {
+    let Survey {
         title,
         columns: [(x, unit), _],
         y,
         methods,
         ..
-    } = map.sweep;
+    } = map.survey;
     let x = match unit {
         "" => x.to_owned(),
         _ => format!("{x} ({unit})"),
@@ -248,10 +248,10 @@ fn chart(map: &Map) -> Chart {
         let panel = Panel::new(y(method.title()));
         let verdicts = Verdict::ALL.iter().zip(colors);
         let panel = verdicts.fold(panel, |panel, (verdict, color)| {
-            let own = map.places.iter();
-            let own = own.filter(|place| place.method == *method && place.verdict == *verdict);
+            let own = map.trials.iter();
+            let own = own.filter(|trial| trial.method == *method && trial.verdict == *verdict);
             let (x, y): (Vec<f64>, Vec<f64>) =
-                own.map(|place| (place.setting, place.height)).unzip();
+                own.map(|trial| (trial.setting, trial.height)).unzip();
             match x.as_slice() {
                 [] => panel,
                 _ => panel.series(Series::cells(verdict.name(), &x, &y).color(color)),
@@ -263,12 +263,12 @@ fn chart(map: &Map) -> Chart {
 
 #[cfg(test)]
 mod tests {
-    use super::{DAMPED_ANGLE, SWEEPS};
+    use super::{DAMPED_ANGLE, SURVEYS};
     use crate::stability_map::verdict::{DAMPED_DURATION, IDEAL_DURATION};
 
     #[test]
     fn titles_tell_the_runs() {
-        let [amplitude, tolerance, friction] = SWEEPS.map(|sweep| sweep.title);
+        let [amplitude, tolerance, friction] = SURVEYS.map(|survey| survey.title);
         let ideal = format!("{IDEAL_DURATION} s without friction");
         assert!(amplitude.starts_with(&ideal) && tolerance.starts_with(&ideal));
         assert!(friction.starts_with(&format!("{DAMPED_DURATION} s from {DAMPED_ANGLE}°")));

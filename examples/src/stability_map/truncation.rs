@@ -17,7 +17,7 @@ const STATES: usize = 400;
 /// Time after the release over which the in-phase motion is looked at, s.
 const BACKGROUND: f64 = 10.0;
 
-/// What a form of W is worth.
+/// The worth of a form of W.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Worth {
     /// Within 1 % of the exact form, rms over rms.
@@ -54,7 +54,7 @@ impl Worth {
 
 /// The error of a form at an amplitude after a release.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct FormError {
     /// The form.
     pub form: TransferForm,
     /// Amplitude of θ_d, rad.
@@ -69,7 +69,7 @@ pub struct Place {
 ///
 /// # Errors
 /// [`Failure::Truncation`].
-pub fn map(job: &Job) -> Result<Vec<Place>, Failure> {
+pub fn map(job: &Job) -> Result<Vec<FormError>, Failure> {
     let releases: Vec<f64> = (1..=11).map(|k| 15.0 * f64::from(k)).collect();
     let progress = job.progress(releases.len());
     progress.begin("truncation");
@@ -86,7 +86,7 @@ pub fn map(job: &Job) -> Result<Vec<Place>, Failure> {
 ///
 /// # Errors
 /// [`Failure::Truncation`].
-pub fn after(release: f64) -> Result<Vec<Place>, Failure> {
+pub fn after(release: f64) -> Result<Vec<FormError>, Failure> {
     let model = Apparatus::new();
     let start = [release.to_radians(), 0.0, 0.0];
     let average = PhaseAverage {
@@ -98,7 +98,7 @@ pub fn after(release: f64) -> Result<Vec<Place>, Failure> {
     for curve in average.curves(&model)? {
         for point in &curve.points {
             let forms = curve.forms.iter().zip(&point.errors);
-            places.extend(forms.map(|(&form, &error)| Place {
+            places.extend(forms.map(|(&form, &error)| FormError {
                 form,
                 amplitude: point.amplitude,
                 release,
@@ -115,7 +115,7 @@ fn forms() -> impl Iterator<Item = TransferForm> {
 }
 
 /// How many places of each form are worth what.
-pub fn table(places: &[Place]) -> String {
+pub fn table(places: &[FormError]) -> String {
     let mut text = format!(
         "Truncations of W: amplitude of θ_d against release\n\n{:24}",
         ""
@@ -141,7 +141,7 @@ pub fn table(places: &[Place]) -> String {
 ///
 /// # Errors
 /// [`Failure`].
-pub fn deliver(job: &Job, places: &[Place]) -> Result<(), Failure> {
+pub fn deliver(job: &Job, places: &[FormError]) -> Result<(), Failure> {
     let columns = [
         Column::new("form", ""),
         Column::new("amplitude", "rad"),
@@ -169,7 +169,7 @@ pub fn deliver(job: &Job, places: &[Place]) -> Result<(), Failure> {
 /// them.
 const LEVELS: [f64; 4] = [1e-4, 0.01, 0.1, 1.0];
 
-fn chart(places: &[Place]) -> Chart {
+fn chart(places: &[FormError]) -> Chart {
     let title = "Relative error of truncated W: amplitude of θ_d against the release that feeds it";
     let rows = forms().count().div_ceil(2);
     let chart = Chart::new(title, Axis::log("amplitude of θ_d (rad)"))

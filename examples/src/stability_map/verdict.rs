@@ -1,4 +1,4 @@
-//! What became of a run.
+//! The fates of runs.
 
 use branched_pendulum::integrate::Solver;
 use branched_pendulum::prelude::*;

@@ -24,12 +24,12 @@ const DURATION: f64 = 32.0;
 /// Time over which the background is looked at, s.
 const BACKGROUND: f64 = 10.0;
 
-/// What a study is made of.
+/// The ingredients of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Short name, for files.
     pub name: &'static str,
-    /// What the tree is, and how it was released.
+    /// Description of the tree and of its release.
     pub title: &'static str,
     /// States with random phases.
     pub phase_average: PhaseAverage,
@@ -74,7 +74,7 @@ impl Settings {
 /// Errors and costs of the forms of W of one tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// What was asked.
+    /// The settings asked for.
     pub settings: Settings,
     /// Over states with random phases, one curve for each receiver.
     pub phase_average: Vec<ErrorCurve>,

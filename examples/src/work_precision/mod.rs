@@ -1,4 +1,4 @@
-//! What does a given error cost, with which method?
+//! The cost of a given error with each method.
 //!
 //! The apparatus is that of [`branched_double`](crate::branched_double), beside
 //! seven rods; the equations are those that the macro writes, in absolute angles.

@@ -25,7 +25,7 @@ pub enum Tree {
 pub struct Problem {
     /// Name, as the charts show it.
     pub name: &'static str,
-    /// What moves.
+    /// The tree that moves.
     pub tree: Tree,
     /// Angles at the start, rad.
     pub start: Vec<f64>,

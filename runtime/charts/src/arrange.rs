@@ -48,7 +48,7 @@ pub(crate) struct XAxis {
     pub(crate) scale: Scale,
     pub(crate) ticks: Ticks,
     pub(crate) label: Vec<Label>,
-    /// What is common to the tick labels has a line of its own, since the
+    /// The part common to the tick labels has a line of its own, since the
     /// label of the axis leaves no room beside it.
     pub(crate) common_below: bool,
 }

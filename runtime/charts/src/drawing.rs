@@ -7,7 +7,7 @@ pub(crate) const LARGEST_SIDE: f64 = 16384.0;
 /// A point of the canvas in px, y down.
 pub(crate) type Point = (f64, f64);
 
-/// What both file formats draw, in this order, on white.
+/// The picture that both file formats draw, in this order, on white.
 #[derive(Debug)]
 pub(crate) struct Drawing {
     pub(crate) width: f64,

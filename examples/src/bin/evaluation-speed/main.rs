@@ -1,4 +1,4 @@
-//! What one evaluation of the accelerations costs.
+//! The cost of one evaluation of the accelerations.
 //!
 //! `evaluation-speed --help` says what is measured.
 
