@@ -1,37 +1,22 @@
 //! Samples as CSV, one file for each initial angle.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum::data::Column;
 
 use super::apparatus::{FORMS, Sample};
 use super::experiment::Run;
-use super::failure::Failure;
+use crate::failure::Failure;
+use crate::program::Job;
 
-/// Makes the output folder, with those above it, unless it is there.
+/// Writes the samples of a run.
 ///
 /// # Errors
-/// [`Failure::Folder`].
-pub fn make_folder(path: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(path).map_err(|source| Failure::Folder {
-        path: path.to_path_buf(),
-        source,
+/// [`Failure::Csv`] or [`Failure::File`].
+pub fn write(job: &Job, run: &Run) -> Result<(), Failure> {
+    let name = format!("samples-{:?}deg.csv", run.angle_deg);
+    job.csv(&name, &columns(), |file| {
+        let mut samples = run.samples.iter();
+        samples.try_for_each(|sample| file.row(&row(sample)))
     })
-}
-
-/// Writes the samples of a run and returns the file's path.
-///
-/// # Errors
-/// [`Failure::Csv`].
-pub fn write_samples(folder: &Path, run: &Run) -> Result<PathBuf, Failure> {
-    let path = folder.join(format!("samples-{:?}deg.csv", run.angle_deg));
-    let mut file = CsvWriter::create(&path, &columns())?;
-    for sample in &run.samples {
-        file.row(&row(sample))?;
-    }
-    file.finish()?;
-    Ok(path)
 }
 
 /// The columns, in the order of [`row`].

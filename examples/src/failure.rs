@@ -1,47 +1,95 @@
-//! How the examples end: 0 done, 1 a failure, 2 a wrong command line.
+//! Why a program could not finish.
 
 use std::error::Error;
-use std::fmt::Display;
-use std::process::ExitCode;
+use std::io;
+use std::path::PathBuf;
 
-/// Says what is wrong with the command line, and where help is.
-pub fn wrong_command_line(program: &str, error: &impl Display) -> ExitCode {
-    eprintln!("{program}: {error}\nTry `{program} --help`.");
-    ExitCode::from(2)
+use branched_pendulum::ParameterError;
+use branched_pendulum::analysis::truncation::TruncationError;
+use branched_pendulum::analysis::{ModesError, SectorModesError, SpectrumError};
+use branched_pendulum::data::CsvError;
+use branched_pendulum_charts::ChartError;
+
+/// Why a program could not finish. Causes are told by `source`, once each.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Failure {
+    /// A parameter that no model can have.
+    #[error("the model is not possible")]
+    Parameter(#[from] ParameterError),
+    /// The equations of motion were not integrated to the end.
+    #[error("the run from {angle_deg}° did not reach its end")]
+    Integration {
+        /// Initial angle of the run, in degrees.
+        angle_deg: f64,
+        /// The integrator's error, whatever the precision it ran in.
+        source: Box<dyn Error + Send + Sync>,
+    },
+    /// The linear modes could not be found.
+    #[error("the linear modes could not be found")]
+    Modes(#[from] ModesError),
+    /// The linear modes of the sectors could not be found.
+    #[error("the linear modes of the sectors could not be found")]
+    SectorModes(#[from] SectorModesError),
+    /// A spectrum could not be taken.
+    #[error("the spectrum of θ_m could not be taken")]
+    Spectrum(#[from] SpectrumError),
+    /// Forms of W could not be compared.
+    #[error("the forms of W could not be compared")]
+    Truncation(#[from] TruncationError),
+    /// The output folder could not be made.
+    #[error("cannot make the output folder {}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A file could not be written.
+    #[error("cannot write {}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A table could not be written.
+    #[error("a table could not be written")]
+    Csv(#[from] CsvError),
+    /// A chart could not be drawn.
+    #[error("a chart could not be drawn")]
+    Chart(#[from] ChartError),
+    /// Text could not be printed.
+    #[error("cannot write to the standard output")]
+    Print(#[source] io::Error),
+    /// The reader of the standard output has read enough.
+    #[error("the standard output was closed")]
+    Closed,
 }
 
-/// The exit code of a run; a failure is told with all its causes.
-pub fn of_run(program: &str, result: Result<(), impl Error>) -> ExitCode {
-    let Err(failure) = result else {
-        return ExitCode::SUCCESS;
-    };
-    eprintln!("{program}: {}", messages(&failure).join(": "));
-    ExitCode::FAILURE
-}
-
-/// Messages of an error and of its causes, the outermost first.
-fn messages(error: &dyn Error) -> Vec<String> {
-    let mut messages = vec![error.to_string()];
-    let mut cause = error.source();
-    while let Some(error) = cause {
-        messages.push(error.to_string());
-        cause = error.source();
+impl Failure {
+    /// A run that an integrator has not brought to its end.
+    pub fn integration(angle_deg: f64, error: impl Error + Send + Sync + 'static) -> Self {
+        Self::Integration {
+            angle_deg,
+            source: Box::new(error),
+        }
     }
-    messages
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::{branched_double, energy_cascade};
+    use super::Failure;
+    use crate::program::messages;
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
     use branched_pendulum::data::CsvError;
-    use branched_pendulum::integrate::RunError;
+    use branched_pendulum::integrate::IntegrationError;
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::OdeFn;
     use branched_pendulum_charts::ChartError;
+    use std::error::Error;
     use std::io;
     use std::path::PathBuf;
 
@@ -80,7 +128,8 @@ mod tests {
     fn request() -> IntegrationError<f64> {
         let ode = OdeFn::new(1, |_: f64, _: &[f64], rates: &mut [f64]| rates[0] = 1.0);
         let start = State::new(0.0, vec![0.0]);
-        let run = Rk4::new(0.1).integrate(&ode, &start, f64::NAN, |_| ControlFlow::Continue(()));
+        let go_on = |_: &mut DenseStep<'_, f64>| std::ops::ControlFlow::Continue(());
+        let run = Rk4::new(0.1).integrate(&ode, &start, f64::NAN, go_on);
         run.expect_err("NaN is no time")
     }
 
@@ -103,8 +152,6 @@ mod tests {
     /// in a message above it.
     #[test]
     fn every_cause_is_told_once() {
-        use branched_double::Failure as Experiment;
-        use energy_cascade::Failure as Cascade;
         let truncation = || TruncationError::Integration(integration());
         let folder = || PathBuf::from("output");
         let chains: Vec<Box<dyn Error>> = vec![
@@ -122,28 +169,22 @@ mod tests {
             Box::new(LyapunovError::Integration(integration())),
             Box::new(SectorModesError::Matrices(no_rows())),
             Box::new(modes()),
-            Box::new(Experiment::Friction(parameter())),
-            Box::new(Experiment::Integration {
-                angle_deg: 50.0,
-                source: Box::new(integration()),
-            }),
-            Box::new(Experiment::Modes(no_rows())),
-            Box::new(Experiment::Truncation(truncation())),
-            Box::new(Experiment::Folder {
+            Box::new(Failure::Parameter(parameter())),
+            Box::new(Failure::integration(50.0, integration())),
+            Box::new(Failure::Modes(no_rows())),
+            Box::new(Failure::SectorModes(modes())),
+            Box::new(Failure::Truncation(truncation())),
+            Box::new(Failure::Folder {
                 path: folder(),
                 source: refused(),
             }),
-            Box::new(Experiment::Csv(csv())),
-            Box::new(Experiment::Chart(chart())),
-            Box::new(Cascade::Drive(parameter())),
-            Box::new(Cascade::Modes(modes())),
-            Box::new(Cascade::Integration(Box::new(integration()))),
-            Box::new(Cascade::Folder {
+            Box::new(Failure::File {
                 path: folder(),
                 source: refused(),
             }),
-            Box::new(Cascade::Csv(csv())),
-            Box::new(Cascade::Chart(chart())),
+            Box::new(Failure::Csv(csv())),
+            Box::new(Failure::Chart(chart())),
+            Box::new(Failure::Print(refused())),
         ];
         for chain in chains {
             let messages = messages(chain.as_ref());

@@ -1,4 +1,4 @@
-//! The `expand` tool, run as its users run it.
+//! The tool, run as its users run it.
 
 use branched_pendulum_codegen::program::Pass;
 use std::path::PathBuf;
@@ -6,12 +6,12 @@ use std::process::{Command, Output};
 
 fn fixture(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../tests/fixtures")
+        .join("../../tests/fixtures")
         .join(name)
 }
 
 fn expand(arguments: &[&std::ffi::OsStr]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_expand"))
+    Command::new(env!("CARGO_BIN_EXE_branched-pendulum"))
         .args(arguments)
         .output()
         .expect("the tool starts")
@@ -49,8 +49,8 @@ fn stale_expansion_is_told() {
         stale.as_ref(),
         fixture("scenes/paper.rs").as_ref(),
     ]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(text(&output.stderr).contains("is stale from line"));
+    assert_eq!(output.status.code(), Some(3));
+    assert!(text(&output.stderr).contains(": stale from here on"));
     std::fs::remove_file(stale).expect("it is ours");
 }
 
@@ -74,19 +74,82 @@ fn processes_agree_and_keep_the_rest_of_the_file() {
     std::fs::remove_file(path).expect("it is ours");
 }
 
+/// The caret stands under the wrong token behind a tab and wide letters, and the
+/// place is one that terminals and editors jump to.
 #[test]
-fn errors_name_line_and_column() {
-    let source =
-        "#[branched_pendulum(gravity = 9.8, rod: rod(mass = -1, length = 1))]\nstruct Rod;";
+fn errors_name_file_line_and_column() {
+    let source = "#[branched_pendulum(gravity = 9.8,\n/* 振り子 */\trod: rod(mass = -1, length = 1))]\nstruct Rod;";
     let path = temporary("wrong.rs", source);
     let output = expand(&[path.as_ref()]);
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(output.status.code(), Some(1));
+    let shown = text(&output.stderr);
+    assert!(shown.starts_with("error: "), "{shown}");
     assert!(
-        text(&output.stderr).contains("--> 1:"),
+        shown.contains(&format!("--> {}:2:", path.display())),
+        "{shown}"
+    );
+    let lines: Vec<&str> = shown.lines().collect();
+    let wrong = lines
+        .iter()
+        .position(|line| line.contains("mass = -1"))
+        .expect("the line");
+    // Wide letters take two columns, a tab four.
+    let width = |c: char| match c {
+        '\t' => 4,
+        '振' | 'り' | '子' => 2,
+        _ => 1,
+    };
+    let token = lines[wrong].find("-1").expect("the token");
+    let column: usize = lines[wrong][..token].chars().map(width).sum();
+    let caret = lines[wrong + 1].find('^').expect("a caret");
+    assert_eq!(lines[wrong + 1][..caret].chars().count(), column, "{shown}");
+    assert!(shown.contains("help: "), "{shown}");
+    std::fs::remove_file(path).expect("it is ours");
+}
+
+#[test]
+fn files_that_are_not_there_and_sources_that_are_no_rust() {
+    let output = expand(&["nowhere.rs".as_ref()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).starts_with("error: cannot read nowhere.rs: "));
+    let path = temporary("no-rust.rs", "struct Rod {");
+    let output = expand(&[path.as_ref()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        text(&output.stderr).contains("no-rust.rs:1:"),
         "{}",
         text(&output.stderr)
     );
+    std::fs::write(&path, "fn main() {}").expect("it is ours");
+    let output = expand(&[path.as_ref()]);
+    assert!(text(&output.stderr).contains("no struct with #[branched_pendulum(...)]"));
     std::fs::remove_file(path).expect("it is ours");
+}
+
+#[test]
+fn the_output_is_written_whole_and_found_fresh() {
+    let model = temporary("model.rs", "");
+    let scene = fixture("scenes/simple.rs");
+    let (output, check): (&std::ffi::OsStr, _) = ("--output".as_ref(), "--check".as_ref());
+    assert!(
+        expand(&[scene.as_ref(), output, model.as_ref()])
+            .status
+            .success()
+    );
+    assert!(
+        expand(&[scene.as_ref(), check, model.as_ref()])
+            .status
+            .success()
+    );
+    let both = expand(&[
+        scene.as_ref(),
+        output,
+        model.as_ref(),
+        check,
+        model.as_ref(),
+    ]);
+    assert_eq!(both.status.code(), Some(2));
+    std::fs::remove_file(model).expect("it is ours");
 }
 
 #[test]
@@ -107,7 +170,7 @@ fn passes_are_left_out_by_name() {
     assert_ne!(text(&without.stdout), text(&all.stdout));
     let unknown = expand_without("optimism");
     assert_eq!(unknown.status.code(), Some(2));
-    assert!(text(&unknown.stderr).contains("passes are sharing, folding"));
+    assert!(text(&unknown.stderr).contains("[possible values: sharing, folding"));
     // The help lists them all.
     let help = expand(&["--help".as_ref()]);
     let help = text(&help.stdout);
@@ -130,10 +193,10 @@ fn stages_and_help() {
         );
     }
     let help = expand(&["--help".as_ref()]);
-    for option in ["--out", "--check", "--stage", "--without", "--help"] {
+    for option in ["--output", "--check", "--stage", "--without", "--help"] {
         assert!(text(&help.stdout).contains(option));
     }
     let unknown = expand(&["--stage".as_ref(), "assembler".as_ref(), "x.rs".as_ref()]);
     assert_eq!(unknown.status.code(), Some(2));
-    assert!(text(&unknown.stderr).contains("stages are"));
+    assert!(text(&unknown.stderr).contains("[possible values: description, scene"));
 }
