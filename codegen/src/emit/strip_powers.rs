@@ -12,6 +12,8 @@ impl Emission<'_> {
         if !self.scene.requests.energies {
             return TokenStream::new();
         }
+        let runtime = self.runtime();
+        let energy = quote!(#runtime::Energy);
         let frame = match self.frame_note() {
             "" => None,
             note => Some(quote!(#[doc = #note])),
@@ -24,7 +26,7 @@ impl Emission<'_> {
             #frame
             #[must_use]
             pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
-                self.bodies.kinetic_energy(theta, omega)
+                #energy::kinetic_energy_of(self, theta, omega)
             }
 
             /// Potential energy U (in J) at angles `theta` (in rad), zero where all are
@@ -33,7 +35,7 @@ impl Emission<'_> {
             /// of another length than there are links. O(links).
             #[must_use]
             pub fn potential_energy(&self, theta: &[T]) -> T {
-                self.bodies.potential_energy(theta)
+                #energy::potential_energy_of(self, theta)
             }
         }
     }
@@ -93,7 +95,8 @@ impl Emission<'_> {
             #power
             #[must_use]
             pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
-                self.bodies.drive_power(self.drive(time), theta, omega)
+                let mut workspace = #runtime::system::Workspace::new();
+                self.bodies.drive_power(&mut workspace, self.drive(time), theta, omega)
             }
 
             #friction
@@ -102,14 +105,35 @@ impl Emission<'_> {
 
     pub(super) fn strip_energy(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
+        let (energy, workspace) = (
+            quote!(#runtime::Energy),
+            quote!(#runtime::system::Workspace),
+        );
         quote! {
-            impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
+            impl<T: #runtime::Scalar> #energy<T> for #name<T> {
                 fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
-                    self.bodies.kinetic_energy(theta, omega)
+                    #energy::kinetic_energy_with(self, &mut #workspace::new(), theta, omega)
                 }
 
                 fn potential_energy_of(&self, theta: &[T]) -> T {
-                    self.bodies.potential_energy(theta)
+                    #energy::potential_energy_with(self, &mut #workspace::new(), theta)
+                }
+
+                fn kinetic_energy_with(
+                    &self,
+                    workspace: &mut #workspace<T>,
+                    theta: &[T],
+                    omega: &[T],
+                ) -> T {
+                    self.bodies.kinetic_energy(workspace, theta, omega)
+                }
+
+                fn potential_energy_with(
+                    &self,
+                    workspace: &mut #workspace<T>,
+                    theta: &[T],
+                ) -> T {
+                    self.bodies.potential_energy(workspace, theta)
                 }
             }
         }

@@ -13,47 +13,41 @@ use crate::tree::memory::Sizes;
 use crate::tree::shared::Shared;
 use crate::tree::strips::{Attachment, Strip};
 
-/// From the leaves of a block to its first generation.
-pub(in crate::tree) fn up<E: LinkEquations, T: Scalar>(view: &View<'_, T, T>) {
-    T::dispatch(Up::<E, T>(view, PhantomData));
+/// Which way the equations are taken through a block.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::tree) struct Way<'a, T> {
+    /// From the leaves to the first generation, at first.
+    pub(in crate::tree) up: bool,
+    /// From the first generation, the accelerations of whose pivots are the root's or
+    /// in memory, to the leaves. The accelerations start with the block's first link,
+    /// and are as many as its strips reach.
+    pub(in crate::tree) down: Option<Shared<'a, T>>,
 }
 
-/// From the first generation of a block, the accelerations of whose pivots are in
-/// memory, to the leaves. `alpha` starts with the block's first link, and is as long
-/// as its strips reach.
-pub(in crate::tree) fn down<E: LinkEquations, T: Scalar>(
-    view: &View<'_, T, T>,
-    alpha: Shared<'_, T>,
-) {
-    T::dispatch(Down::<E, T>(view, alpha, PhantomData));
+/// Takes the equations through a block, in the widest registers of the machine.
+pub(in crate::tree) fn sweep<E: LinkEquations, T: Scalar>(view: &View<'_, T, T>, way: Way<'_, T>) {
+    T::dispatch(SweepKernel::<E, T>(view, way, PhantomData));
 }
 
-pub(in crate::tree) struct Up<'a, E, T>(
+/// [`sweep`] in one kind of registers.
+pub(in crate::tree) struct SweepKernel<'a, E, T>(
     pub(in crate::tree) &'a View<'a, T, T>,
+    pub(in crate::tree) Way<'a, T>,
     pub(in crate::tree) PhantomData<E>,
 );
 
-pub(in crate::tree) struct Down<'a, E, T>(
-    pub(in crate::tree) &'a View<'a, T, T>,
-    pub(in crate::tree) Shared<'a, T>,
-    pub(in crate::tree) PhantomData<E>,
-);
-
-impl<E: LinkEquations, T: Scalar> Kernel<T> for Up<'_, E, T> {
+impl<E: LinkEquations, T: Scalar> Kernel<T> for SweepKernel<'_, E, T> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Simd<T>>(self) {
-        Passes::<E, T, T, V>::of(self.0).up();
-    }
-}
-
-impl<E: LinkEquations, T: Scalar> Kernel<T> for Down<'_, E, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<V: Simd<T>>(mut self) {
-        Passes::<E, T, T, V>::of(self.0).down(&mut self.1);
+        let (passes, Way { up, down }) = (Passes::<E, T, T, V>::of(self.0), self.1);
+        if up {
+            passes.up();
+        }
+        if let Some(mut alpha) = down {
+            passes.down(&mut alpha);
+        }
     }
 }
 
