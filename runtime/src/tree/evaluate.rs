@@ -39,7 +39,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             block,
             constants: &self.tree.constants,
             omega: self.omega,
-            storage: room.storage(lasting, passing),
+            storage: room.storage(lasting, passing, false),
             root: None,
             torque: None,
         }

@@ -5,7 +5,7 @@
 use core::marker::PhantomData;
 
 use super::strip::{Output, StripView};
-use super::view::View;
+use super::view::{LinkCells, View};
 use crate::scalar::Scalar;
 use crate::simd::{Kernel, Simd};
 use crate::tree::equations::{LinkEquations, LinkMotion, Row};
@@ -74,18 +74,30 @@ where
     /// when the equations are compiled takes no loop.
     const BRANCHING: usize = branching(E::COPIES);
 
+    /// Numbers `T` are several states: the numbers of a link stand side by side then.
+    const IN_ROWS: bool = <T as Simd<N>>::LANES > 1;
+
+    const SIZES: Sizes = Sizes::of::<E, V>();
+
     /// Constants are a row a link.
     const BY_LINK: bool = E::COPIES.is_empty();
 
     #[inline(always)]
     pub(in crate::tree) fn of(view: &'a View<'_, N, T>) -> Self {
-        let (strips, attachments) = view.strips(Sizes::of::<E, V>(), Self::BRANCHING);
+        let (strips, attachments) = view.strips(Self::SIZES, Self::IN_ROWS, Self::BRANCHING);
         Self {
             view,
             strips,
             attachments,
             types: PhantomData,
         }
+    }
+
+    /// Where the numbers of links stand: asked for where a loop begins, since compilers
+    /// read what is behind a reference again after everything that is written.
+    #[inline(always)]
+    pub(super) fn links(&self) -> LinkCells<T> {
+        self.view.cells(Self::SIZES, Self::IN_ROWS)
     }
 
     /// The constants of a generation; zeros if it has none.
@@ -152,7 +164,7 @@ where
         while let Some((strip, before)) = strips.split_last() {
             let row = self.row(strip.generation);
             let below_row = self.row(strip.generation + 1);
-            let near = StripView::of(self.view, strip, Self::BRANCHING);
+            let near = StripView::of(self.links(), strip, Self::BRANCHING);
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
                 // SAFETY: see the top.
@@ -178,7 +190,7 @@ where
     /// The sum of the responses of children that are leaves.
     #[inline(always)]
     fn leaves(
-        near: &StripView<'_, T>,
+        near: &StripView<T>,
         at: usize,
         constants: &E::Constants<V>,
         link: LinkMotion<V>,
@@ -199,7 +211,7 @@ where
     /// The sum of the responses of children that are no leaves.
     #[inline(always)]
     fn sum(
-        near: &StripView<'_, T>,
+        near: &StripView<T>,
         at: usize,
         constants: &E::Constants<V>,
         link: LinkMotion<V>,
@@ -251,7 +263,7 @@ where
         while let Some((strip, behind)) = strips.split_first() {
             let row = self.row(strip.generation);
             let below_row = self.row(strip.generation + 1);
-            let near = StripView::of(self.view, strip, Self::BRANCHING);
+            let near = StripView::of(self.links(), strip, Self::BRANCHING);
             let in_register = strip.lanes <= V::LANES;
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
