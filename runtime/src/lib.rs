@@ -109,7 +109,10 @@ pub mod tree;
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
-pub use system::{Canonical, Cast, Energy, Pendulum, SymmetricPendulum, TaylorPendulum};
+pub use system::{
+    Canonical, Cast, Energy, Forced, Pendulum, Positions, SymmetricPendulum, TaylorPendulum,
+    Transverse, WholeTree,
+};
 pub use transfer_forms::{TransferForm, TransferForms};
 
 #[cfg(feature = "macros")]

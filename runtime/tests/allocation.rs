@@ -156,8 +156,8 @@ impl TaylorOde<f64> for Series {
 
     fn taylor(&self, _time: f64, y: &[f64], coefficients: &mut [f64], _work: &mut [Quad<f64>]) {
         let (mut position, mut velocity) = (y[0], y[1]);
-        for (k, row) in coefficients.chunks_exact_mut(2).enumerate() {
-            row.copy_from_slice(&[position, velocity]);
+        for (k, row) in coefficients.as_chunks_mut().0.iter_mut().enumerate() {
+            *row = [position, velocity];
             let next = 1.0 / (k + 1) as f64;
             (position, velocity) = (velocity * next, -position * next);
         }
@@ -222,8 +222,8 @@ impl<T: Scalar> TaylorPendulum<T> for Oscillator<T> {
         _work: &mut [Quad<T>],
     ) {
         let (mut position, mut velocity) = (theta[0], omega[0]);
-        for (k, row) in coefficients.chunks_exact_mut(2).enumerate() {
-            row.copy_from_slice(&[position, velocity]);
+        for (k, row) in coefficients.as_chunks_mut().0.iter_mut().enumerate() {
+            *row = [position, velocity];
             let next = T::from_f64(1.0 / (k + 1) as f64);
             (position, velocity) = (velocity * next, -(self.0 * position * next));
         }

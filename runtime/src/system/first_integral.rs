@@ -4,7 +4,7 @@ use super::{Canonical, Energy};
 use crate::scalar::Scalar;
 
 /// A function of the state that is constant along every motion, with its
-/// gradient: what [`Projected`](crate::integrate::Projected) holds a state to.
+/// gradient. [`Projected`](crate::integrate::Projected) holds states to one.
 ///
 /// A function `(state, gradient) -> value` is one.
 pub trait FirstIntegral<T> {

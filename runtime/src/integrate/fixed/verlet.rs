@@ -93,12 +93,12 @@ impl<T: Real> StoermerVerlet<T> {
     }
 }
 
-impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<'_, C>> for StoermerVerlet<T> {
+impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<C>> for StoermerVerlet<T> {
     type Steps = GridSteps<VerletStep<T>, T>;
 
     fn steps(
         &self,
-        ode: &CanonicalVariables<'_, C>,
+        ode: &CanonicalVariables<C>,
         start: &State<T>,
     ) -> Result<Self::Steps, InputError<T>> {
         check_separable(ode, start)?;
@@ -114,7 +114,7 @@ impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<'_, C>> for Stoe
 /// Passes equations whose velocities do not change with the coordinates, nor rates of
 /// momenta with the momenta.
 fn check_separable<T: Real, C: Canonical<T>>(
-    ode: &CanonicalVariables<'_, C>,
+    ode: &CanonicalVariables<C>,
     start: &State<T>,
 ) -> Result<(), InputError<T>> {
     let n = start.values.len() / 2;
