@@ -34,7 +34,7 @@ pub mod sweep;
 #[path = "../fixtures/scenes/triplet.rs"]
 pub mod triplet;
 
-/// The paper's scene as `expand` commits it: built without the macro.
+/// The paper's scene as `branched-pendulum` commits it: built without the macro.
 #[rustfmt::skip]
 #[path = "../fixtures/expanded/paper.rs"]
 pub mod paper_expanded;

@@ -64,8 +64,13 @@ impl Emission<'_> {
     }
 
     /// Links and coordinates are equally many.
-    pub(super) fn argument_size(&self, _argument: Argument) -> Literal {
-        Literal::usize_unsuffixed(self.scene.links.len())
+    pub(super) fn argument_size(&self, argument: Argument) -> Literal {
+        Literal::usize_unsuffixed(match argument {
+            Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
+                self.transverse_links(sector)
+            }
+            _ => self.scene.links.len(),
+        })
     }
 
     pub(super) fn result_type(&self, entry: &Entry) -> TokenStream {
@@ -267,8 +272,13 @@ impl Emission<'_> {
         }
         let length = match &self.program.strips {
             Some(strips) => strips.length(argument),
-            None if argument == Argument::Forces => 2 * self.scene.links.len(),
-            None => self.scene.links.len(),
+            None => match argument {
+                Argument::Forces => 2 * self.scene.links.len(),
+                Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
+                    self.transverse_links(sector)
+                }
+                _ => self.scene.links.len(),
+            },
         };
         let mut any = false;
         let elements: Vec<TokenStream> = (0..length)

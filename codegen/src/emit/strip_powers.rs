@@ -12,10 +12,19 @@ impl Emission<'_> {
         if !self.scene.requests.energies {
             return TokenStream::new();
         }
+        let runtime = self.runtime();
+        let energy = quote!(#runtime::Energy);
         let frame = match self.frame_note() {
             "" => None,
             note => Some(quote!(#[doc = #note])),
         };
+        let (zero, rest) = match self.has_rest_angles() {
+            true => (self.zero_of_potential(), " − ρ"),
+            false => (self.zero_of_potential(), ""),
+        };
+        let potential = doc_lines(&[format!(
+            "Potential energy U (in J) at angles `theta` (in rad), {zero}: Σ m g h + ½ κ (θ − θ_parent{rest})² over the links, h being the height of their centres of mass, κ the stiffness of torsion springs. NaN for a slice of another length than there are links. O(links)."
+        )]);
         quote! {
             /// Kinetic energy K (in J) at angles `theta` (in rad) and angular velocities
             /// `omega` (in rad/s): Σ ½ m **V**² + ½ I ω² over the links, **V** being the
@@ -24,16 +33,13 @@ impl Emission<'_> {
             #frame
             #[must_use]
             pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
-                self.bodies.kinetic_energy(theta, omega)
+                #energy::kinetic_energy_of(self, theta, omega)
             }
 
-            /// Potential energy U (in J) at angles `theta` (in rad), zero where all are
-            /// zero: Σ m g h + ½ κ (θ − θ_parent)² over the links, h being the height of
-            /// their centres of mass, κ the stiffness of torsion springs. NaN for a slice
-            /// of another length than there are links. O(links).
+            #potential
             #[must_use]
             pub fn potential_energy(&self, theta: &[T]) -> T {
-                self.bodies.potential_energy(theta)
+                #energy::potential_energy_of(self, theta)
             }
         }
     }
@@ -93,7 +99,8 @@ impl Emission<'_> {
             #power
             #[must_use]
             pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
-                self.bodies.drive_power(self.drive(time), theta, omega)
+                let mut workspace = #runtime::system::Workspace::new();
+                self.bodies.drive_power(&mut workspace, self.drive(time), theta, omega)
             }
 
             #friction
@@ -102,14 +109,35 @@ impl Emission<'_> {
 
     pub(super) fn strip_energy(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
+        let (energy, workspace) = (
+            quote!(#runtime::Energy),
+            quote!(#runtime::system::Workspace),
+        );
         quote! {
-            impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
+            impl<T: #runtime::Scalar> #energy<T> for #name<T> {
                 fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
-                    self.bodies.kinetic_energy(theta, omega)
+                    #energy::kinetic_energy_with(self, &mut #workspace::new(), theta, omega)
                 }
 
                 fn potential_energy_of(&self, theta: &[T]) -> T {
-                    self.bodies.potential_energy(theta)
+                    #energy::potential_energy_with(self, &mut #workspace::new(), theta)
+                }
+
+                fn kinetic_energy_with(
+                    &self,
+                    workspace: &mut #workspace<T>,
+                    theta: &[T],
+                    omega: &[T],
+                ) -> T {
+                    self.bodies.kinetic_energy(workspace, theta, omega)
+                }
+
+                fn potential_energy_with(
+                    &self,
+                    workspace: &mut #workspace<T>,
+                    theta: &[T],
+                ) -> T {
+                    self.bodies.potential_energy(workspace, theta)
                 }
             }
         }

@@ -21,6 +21,7 @@ impl Emission<'_> {
         let sectors = sectors.map(|sectors| self.sectors(sectors));
         let forms = self.transfer_forms();
         let positions = self.positions_trait();
+        let transverse = self.transverse_trait();
         let forced = self.scene.requests.forces.then(|| self.forced());
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
@@ -31,6 +32,7 @@ impl Emission<'_> {
             #sectors
             #forms
             #positions
+            #transverse
             #forced
             #taylor
         }
@@ -101,7 +103,12 @@ impl Emission<'_> {
             false => quote!(self.accelerations(&theta, &omega)),
         };
         let time = self.time_name();
-        let body = self.sunk().unwrap_or_else(|| {
+        let sunk = self.sunk();
+        // As for the functions, see `emit`.
+        let allow = sunk
+            .is_some()
+            .then(|| quote!(#[allow(clippy::possible_missing_comma)]));
+        let body = sunk.unwrap_or_else(|| {
             quote! {
                 let theta = ::core::array::from_fn(theta);
                 let omega = ::core::array::from_fn(omega);
@@ -135,6 +142,7 @@ impl Emission<'_> {
                 }
             }
 
+            #allow
             impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
                 type Of<#other: #runtime::Scalar> = #name<#other>;
 

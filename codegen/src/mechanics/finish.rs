@@ -35,12 +35,14 @@ impl Derivation<'_> {
             coordinates: Vec::new(),
             symmetric: None,
             sectors: None,
+            transverse: None,
             expansion: None,
             transfers: Vec::new(),
             observables: Observables::default(),
         };
         let requests = &self.scene.requests;
         let requests_positions = requests.positions;
+        let requests_transverse = requests.transverse;
         let nested = requests.symmetric && self.is_nested();
         if requests.budget.is_some() || nested {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
@@ -72,6 +74,9 @@ impl Derivation<'_> {
             .as_ref()
             .map(|frame| (frame, &*mechanics.coordinates));
         mechanics.observables = self.observables(&absolute, symmetric)?;
+        if requests_transverse {
+            mechanics.transverse = Some(self.transverse(&absolute));
+        }
         if requests_positions {
             mechanics.positions = Some(self.positions(&absolute));
         }
@@ -111,6 +116,7 @@ impl Derivation<'_> {
             coordinates: Vec::new(),
             symmetric: None,
             sectors: None,
+            transverse: None,
             expansion: None,
             transfers: Vec::new(),
             observables: Observables::default(),

@@ -28,6 +28,7 @@ mod series;
 mod show;
 mod symmetric;
 mod transfer;
+mod transverse;
 mod work_limit;
 
 use crate::scene::Coordinate;
@@ -45,6 +46,7 @@ pub use observables::{
 pub use positions::{LinkPositions, RelativePosition};
 pub use print::{latex, text};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
+pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 
 use crate::scene::Scene;
@@ -239,6 +241,8 @@ pub struct Mechanics {
     /// The mechanics by orbits and sectors, if a budget is asked for, or
     /// symmetric coordinates of a nested tree.
     pub sectors: Option<OrbitMechanics>,
+    /// Small differences beside an in-phase motion, if asked for.
+    pub transverse: Option<TransverseMechanics>,
     /// Expansion about the in-phase motion, if a transfer is asked for.
     pub expansion: Option<MassExpansion>,
     /// Energy transfers, one for each difference, if asked for.

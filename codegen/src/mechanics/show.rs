@@ -3,7 +3,8 @@
 use super::expression::{Expr, SymbolId};
 use super::{
     Counting, DriveTerms, Frame, LinkBalance, LinkPositions, MatrixEntry, Mechanics,
-    OrbitMechanics, RelativePosition, Temporal, TransferParts, text,
+    OrbitMechanics, RelativePosition, Temporal, TransferParts, TransverseFormulas,
+    TransverseMechanics, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
@@ -33,6 +34,9 @@ impl fmt::Display for Mechanics {
         }
         if let Some(links) = &self.positions {
             self.positions(f, links)?;
+        }
+        if let Some(transverse) = &self.transverse {
+            self.transverse(f, transverse)?;
         }
         if let Some(frame) = &self.symmetric {
             writeln!(f, "symmetric coordinates")?;
@@ -99,6 +103,33 @@ impl fmt::Display for Mechanics {
 }
 
 impl Mechanics {
+    /// The equations of each sector, M δ̈ + r = 0, and its energy.
+    fn transverse(&self, f: &mut fmt::Formatter<'_>, all: &TransverseMechanics) -> fmt::Result {
+        for formulas in &all.sectors {
+            let TransverseFormulas {
+                sector,
+                differences,
+                mass,
+                residual,
+                energy,
+                transfer,
+                friction,
+                ..
+            } = formulas;
+            writeln!(f, "small differences of {}", sector.name)?;
+            self.matrix(f, "M", mass)?;
+            for (&symbol, value) in differences.iter().zip(residual) {
+                self.line(f, &format!("r of {}", self.name(symbol)), value)?;
+            }
+            self.line(f, "energy", energy)?;
+            self.line(f, "transfer", transfer)?;
+            if !friction.is_zero() {
+                self.line(f, "power of friction", friction)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Each point from the pivot that it is measured from, with its rates.
     fn positions(&self, f: &mut fmt::Formatter<'_>, links: &[LinkPositions]) -> fmt::Result {
         writeln!(f, "positions from the pivot of the link that they are on")?;

@@ -19,7 +19,7 @@ pub(super) fn link_entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowere
     let strips = list.link_functions(scene, mechanics);
     let choice = Choice {
         solve: Solve::Recursion,
-        factorization: Operations::default(),
+        factorization: None,
         recursion: Operations::default(),
     };
     (list.entries, choice, Some(strips))
@@ -49,6 +49,9 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
         list.budgets(scene, sectors, request);
     }
     list.observables(scene, mechanics);
+    if let Some(transverse) = &mechanics.transverse {
+        list.transverse(mechanics, transverse);
+    }
     if let Some(positions) = &mechanics.positions {
         list.positions(scene, mechanics, positions);
     }

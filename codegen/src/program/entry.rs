@@ -22,6 +22,12 @@ pub enum Argument {
     Momenta,
     /// Forces on the links, x and y of each, N.
     Forces,
+    /// Angular accelerations, rad/s².
+    Alpha,
+    /// Small differences in the transverse sector with that number, rad.
+    Difference(usize),
+    /// Their rates, rad/s.
+    DifferenceRate(usize),
     /// Generalized torques from outside, one for each absolute angle, N m.
     Torques,
     /// Angles or angular velocities, absolute: the transform serves both.
@@ -172,6 +178,14 @@ pub enum Purpose {
     TotalFrictionPower,
     /// The observable with that number.
     Observable(usize, ObservableForm),
+    /// Accelerations of small differences in the transverse sector with that number.
+    Transverse(usize),
+    /// Their energy.
+    TransverseEnergy(usize),
+    /// Its rate without friction.
+    TransverseTransfer(usize),
+    /// The power of friction on it.
+    TransverseFriction(usize),
     /// Positions of these points of all links.
     Positions(PointKind),
     /// Their velocities.

@@ -68,6 +68,7 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
             gravity: series(&orbit.gravity),
             lateral_gravity: series(&orbit.lateral_gravity),
             spring: series(&orbit.spring),
+            rest: series(&orbit.rest),
             friction: series(&orbit.friction),
             drag: series(&orbit.drag),
             drive: [0, 1, 2].map(|part| series(&orbit.drive[part])),

@@ -62,6 +62,25 @@ impl<'a> Rebuilt<'a> {
             Argument::Coordinates | Argument::Symmetric => &symmetric?.coordinates,
             Argument::Rates => &symmetric?.velocities,
             Argument::Momenta => &symmetric?.momenta,
+            Argument::Alpha => &self.mechanics.transverse.as_ref()?.accelerations,
+            Argument::Difference(sector) => {
+                &self
+                    .mechanics
+                    .transverse
+                    .as_ref()?
+                    .sectors
+                    .get(sector)?
+                    .differences
+            }
+            Argument::DifferenceRate(sector) => {
+                &self
+                    .mechanics
+                    .transverse
+                    .as_ref()?
+                    .sectors
+                    .get(sector)?
+                    .rates
+            }
             // The reader knows the meaning of elements of rows.
             Argument::Forces
             | Argument::Torques

@@ -24,6 +24,8 @@ mod observables;
 mod probe;
 mod properties;
 mod quantity;
+mod reduced_body;
+mod reduction;
 mod requests;
 mod resolve;
 mod rule;
@@ -32,6 +34,7 @@ mod singular;
 mod symbols;
 mod template;
 mod text;
+mod transverse;
 mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
@@ -46,6 +49,9 @@ pub use observables::{
 pub use quantity::Quantity;
 pub use resolve::resolve;
 pub use sectors::{SectorVariables, sectors};
+pub use transverse::TransverseSector;
+
+use crate::exact::Rational;
 
 /// Index of a link in [`Scene::links`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -77,9 +83,9 @@ pub struct Scene {
     pub groups: Vec<Group>,
     /// The drive, if the tree has one.
     pub drive: Option<Drive>,
-    /// Named values that the model is given at run time: gravity's first, then
-    /// link by link in the order in which the description names them, then the
-    /// drive's.
+    /// Named values that the model is given at run time, in the order of their
+    /// declaration, or where there is none: gravity's first, then link by link in the
+    /// order in which the description names them, then the drive's.
     pub parameters: Vec<Parameter>,
     /// Conditions on values that depend on parameters, to be checked when the
     /// model is built.
@@ -89,6 +95,9 @@ pub struct Scene {
     /// Quantities of the user's own. One that is written in symmetric
     /// coordinates comes with `requests.symmetric`.
     pub observables: Vec<Observable>,
+    /// How the links stand for those of the whole tree, where the description makes it
+    /// smaller.
+    pub reduction: Option<Reduction>,
     /// How the code takes the equations through the tree. Over generations, `links`
     /// holds one link of each, below each other, and there are no groups.
     pub layout: Layout,
@@ -158,6 +167,8 @@ pub struct Link {
     /// Stiffness of a torsion spring in the link's pivot, N m, on the angle
     /// relative to the parent (to the vertical for the root); `None` without.
     pub spring: Option<Quantity>,
+    /// Relative angle at which the spring is at rest, rad; `None` for zero.
+    pub rest: Option<Quantity>,
 }
 
 /// A point of a link, from the link's pivot, m.
@@ -197,6 +208,59 @@ pub struct Group {
     pub parent: Option<LinkId>,
     /// The roots of the copies, two or more.
     pub copies: Vec<LinkId>,
+}
+
+/// Whole tree of a description whose scene is smaller than it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reduction {
+    /// Order in which the links of the whole tree stand.
+    pub order: WholeOrder,
+    /// Number of links of the whole tree.
+    pub links: usize,
+    /// The nodes of the whole tree, parents before children, depth first.
+    pub orbits: Vec<WholeOrbit>,
+}
+
+/// Order of the links of a whole tree: that of a scene without reductions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WholeOrder {
+    /// Each link before what hangs from it, and that before the next copy.
+    DepthFirst,
+    /// Generation by generation.
+    Generations,
+}
+
+/// Links of a whole tree that are copies of one node of the description.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WholeOrbit {
+    /// Name of the node: `child`, or `name_2` for a generation of a rule.
+    pub name: String,
+    /// Copies under each copy of the parent.
+    pub copies: usize,
+    /// True if the copies under one parent move alike.
+    pub in_phase: bool,
+    /// Index behind the last node of the subtree.
+    pub end: usize,
+    /// Motion of the copies.
+    pub motion: WholeMotion,
+}
+
+/// Motion of a link of a whole tree in terms of the scene's links.
+#[derive(Debug, Clone, PartialEq)]
+pub enum WholeMotion {
+    /// As a link of the scene: the first copy as the one `offset` places behind the link
+    /// that it hangs from, each further one that moves by itself `stride` places later.
+    Moving {
+        /// Places between the first copy and the link that it hangs from.
+        offset: usize,
+        /// Places from one copy to the next.
+        stride: usize,
+    },
+    /// As the link that it hangs from.
+    Locked {
+        /// Angle to that link, rad.
+        angle: Rational,
+    },
 }
 
 /// A value that the description names instead of stating.
@@ -277,6 +341,8 @@ pub struct Requests {
     pub taylor: bool,
     /// Positions and velocities of links, and the torques of forces on them.
     pub positions: bool,
+    /// Equations of small differences between copies in phase.
+    pub transverse: bool,
     /// Accelerations under torques that the caller hands over.
     pub forces: bool,
 }

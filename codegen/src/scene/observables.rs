@@ -160,6 +160,7 @@ const METHOD_FAMILIES: &[&str] = &[
     "friction_power",
     "sector_transfers",
     "symmetric_",
+    "transverse_",
     "transfer_amplitude_",
     "transfer_angle_",
     "transfer_exact",

@@ -22,6 +22,7 @@ const OUTPUTS: &[&str] = &[
     "budget",
     "taylor",
     "positions",
+    "transverse",
     "forces",
 ];
 
@@ -52,6 +53,8 @@ pub(super) struct Resolved {
     symmetric: Option<Span>,
     transfer: Option<Span>,
     budget: Option<Span>,
+    /// Place of `transverse`.
+    pub(super) transverse: Option<Span>,
     /// Names of the sectors whose differences are small.
     pub(super) small: Vec<Ident>,
 }
@@ -63,6 +66,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         symmetric: None,
         transfer: None,
         budget: None,
+        transverse: None,
         small: Vec::new(),
     };
     let mut seen: Vec<String> = Vec::new();
@@ -88,6 +92,10 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             "modes" => wanted.modes = true,
             "taylor" => wanted.taylor = true,
             "positions" => wanted.positions = true,
+            "transverse" => {
+                wanted.transverse = true;
+                resolved.transverse = Some(span);
+            }
             "forces" => wanted.forces = true,
             "symmetric" => {
                 wanted.symmetric = true;

@@ -1,6 +1,5 @@
 //! The methods of the runtime, for programs that compare them.
 
-pub mod arguments;
 pub mod scenes;
 
 use branched_pendulum::integrate::AnyIntegrator;
@@ -16,13 +15,4 @@ pub fn configured(method: Method, setting: f64) -> AnyIntegrator<f64> {
         }),
         other => other,
     }
-}
-
-/// The head of a CSV column that holds indices into `methods`.
-pub fn legend(methods: &[Method]) -> String {
-    let numbered = methods.iter().enumerate();
-    let names: Vec<_> = numbered
-        .map(|(index, method)| format!("{index} {}", method.title().replace(',', ".")))
-        .collect();
-    format!("method: {}", names.join("; "))
 }

@@ -1,13 +1,13 @@
-//! What became of a run.
+//! The fates of runs.
 
 use branched_pendulum::integrate::Solver;
 use branched_pendulum::prelude::*;
 
-use crate::branched_double::Failure;
+use crate::failure::Failure;
 use crate::solvers::configured;
 use crate::solvers::scenes::{Damped, DampedParameters, Ideal};
 
-/// What became of a run.
+/// The fate of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The energy is right within 0.1 % of the first; with friction, within
@@ -104,7 +104,7 @@ pub const DAMPED_ANGLE: f64 = 40.0;
 /// The pendulum with the friction `friction` (N m s) in every pivot.
 ///
 /// # Errors
-/// [`Failure::Friction`].
+/// [`Failure::Parameter`].
 pub fn damped_model(friction: f64) -> Result<Damped, Failure> {
     Ok(Damped::new(DampedParameters { friction })?)
 }

@@ -10,6 +10,7 @@ use crate::scalar::Scalar;
 /// For a second-order system the first half are positions (rad) and the second
 /// half velocities (rad/s).
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct State<T> {
     /// Time, in seconds.
     pub time: T,

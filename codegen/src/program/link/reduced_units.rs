@@ -25,6 +25,8 @@ pub(super) struct Unit {
     pub(super) place: Pair,
     /// Friction, drag and stiffness of the spring as they are.
     pub(super) forces: [ValueId; 3],
+    /// Angle at which the spring is at rest.
+    pub(super) rest: ValueId,
 }
 
 /// All constants of the recursion.
@@ -46,6 +48,8 @@ pub(super) struct Given {
     pub(super) pivot: Pair,
     /// Friction, drag and stiffness of the spring.
     pub(super) forces: [ValueId; 3],
+    /// Angle at which the spring is at rest.
+    pub(super) rest: ValueId,
 }
 
 impl Lowering<'_> {
@@ -60,6 +64,7 @@ impl Lowering<'_> {
                 moment: [at(&joint.moment[0]), at(&joint.moment[1])],
                 pivot: [at(&joint.pivot[0]), at(&joint.pivot[1])],
                 forces: [at(&joint.friction), at(&joint.drag), at(&joint.spring)],
+                rest: at(&joint.rest),
             });
         }
         let gravity = self.expr(environment, &mechanics.articulation.gravity);
@@ -115,6 +120,7 @@ impl Units {
                 per_torque: builder.div(one, torque),
                 place: given.pivot.map(|component| builder.div(component, carrier)),
                 forces: given.forces,
+                rest: given.rest,
             }
         });
         let links = links.collect();

@@ -6,8 +6,9 @@ use crate::program::lower::{Environment, Lowering};
 use crate::scene::Scene;
 
 impl Lowering<'_> {
-    /// Q of each link, in its unit of torque: what the caller hands over, −c (ω − ω_π) and −κ (θ − θ_π) of its
-    /// own joint less those of the joints on it, −k ω, and τ on the root.
+    /// Q of each link, in its unit of torque: what the caller hands over, −c (ω − ω_π) and
+    /// −κ (θ − θ_π − ρ) of its own joint less those of the joints on it, −k ω, and τ on the
+    /// root.
     pub(super) fn joint_torques(
         &mut self,
         scene: &Scene,
@@ -50,10 +51,14 @@ impl Lowering<'_> {
                     if builder.is(coefficient, 0) {
                         continue;
                     }
-                    let relative = match parent {
+                    let mut relative = match parent {
                         Some(parent) => builder.sub(state[link], state[parent]),
                         None => state[link],
                     };
+                    if what == "joint_angle" && !builder.is(unit.rest, 0) {
+                        builder.name(relative, &format!("{what}_{}", scene.links[link].name));
+                        relative = builder.sub(relative, unit.rest);
+                    }
                     builder.name(relative, &format!("{what}_{}", scene.links[link].name));
                     let reduced = builder.mul(coefficient, unit.per_torque);
                     let torque = builder.mul(reduced, relative);
