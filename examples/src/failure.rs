@@ -85,7 +85,7 @@ mod tests {
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
     use branched_pendulum::data::CsvError;
-    use branched_pendulum::integrate::IntegrationError;
+    use branched_pendulum::integrate::RunError;
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::OdeFn;
     use branched_pendulum_charts::ChartError;
@@ -124,6 +124,14 @@ mod tests {
         run.expect_err("one step does not reach the end")
     }
 
+    /// Of a run that is asked to end at no time.
+    fn request() -> IntegrationError<f64> {
+        let ode = OdeFn::new(1, |_: f64, _: &[f64], rates: &mut [f64]| rates[0] = 1.0);
+        let start = State::new(0.0, vec![0.0]);
+        let run = Rk4::new(0.1).integrate(&ode, &start, f64::NAN, |_| ControlFlow::Continue(()));
+        run.expect_err("NaN is no time")
+    }
+
     fn no_rows() -> ModesError {
         ModesError::Empty { matrix: "mass" }
     }
@@ -149,6 +157,13 @@ mod tests {
             Box::new(chart()),
             Box::new(ChartError::Encode(Box::new(refused()))),
             Box::new(csv()),
+            Box::new(request()),
+            Box::new(RunError::<f64, CsvError>::Integration(request())),
+            Box::new(RunError::Observer {
+                error: csv(),
+                last: State::new(0.0, vec![0.0]),
+                report: *integration().report().expect("it has begun"),
+            }),
             Box::new(truncation()),
             Box::new(LyapunovError::Integration(integration())),
             Box::new(SectorModesError::Matrices(no_rows())),

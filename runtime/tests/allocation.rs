@@ -44,6 +44,24 @@ fn in_steps<O: Ode<f64>>(ode: &O, method: &impl Integrator<f64, O>) -> u64 {
     after - before.unwrap()
 }
 
+/// Allocations of a million frames and steps, with changes of state and equations.
+fn in_frames<O: Ode<f64>>(ode: O, method: &impl Integrator<f64, O>) -> u64 {
+    let start = State::at_rest(0.0, &[1.0]);
+    let mut stepper = method.start(ode, &start).unwrap();
+    let before = allocations();
+    for number in 0..250_000 {
+        stepper.advance(0.7 * STEP).unwrap();
+        stepper.step().unwrap();
+        let end = stepper.time() + 1.5 * STEP;
+        while stepper.step_to(end).unwrap().is_some() {}
+        if number % 10 == 0 {
+            let _ = stepper.ode_mut();
+            stepper.set_state(0.0, &[1.0, 0.1]).unwrap();
+        }
+    }
+    allocations() - before
+}
+
 fn options() -> Options<f64> {
     Options {
         initial_step: Some(STEP),
@@ -68,6 +86,7 @@ fn explicit_pairs() {
     assert_eq!(in_steps(&ode, &Dopri5::new(options())), 0);
     assert_eq!(in_steps(&ode, &Dop853::new(options())), 0);
     assert_eq!(in_steps(&ode, &Verner98::new(options())), 0);
+    assert_eq!(in_frames(&ode, &Dop853::new(options())), 0);
 }
 
 #[test]
@@ -80,7 +99,9 @@ fn methods_with_fixed_steps() {
             ..Gauss::new(GaussOrder::Four, STEP)
         };
         assert_eq!(in_steps(&ode, &method), 0);
+        assert_eq!(in_frames(&ode, &method), 0);
     }
+    assert_eq!(in_frames(&ode, &Gauss::for_animation(STEP)), 0);
 }
 
 #[test]
@@ -149,7 +170,9 @@ fn taylor_series() {
         beta: 0.0,
         ..options()
     };
-    assert_eq!(in_steps(&Series, &Taylor::new(options)), 0);
+    let method = Taylor::new(options);
+    assert_eq!(in_steps(&Series, &method), 0);
+    assert_eq!(in_frames(Series, &method), 0);
 }
 
 /// y'' = −k y, which holds k.

@@ -7,19 +7,34 @@ use crate::mechanics;
 use crate::mechanics::Counting;
 use crate::mechanics::expression::Expr;
 use crate::program::{Argument, Entry, LinkFunction, Purpose};
-use crate::scene::CoordinateKind;
 use crate::scene::Solve;
+use crate::scene::{CoordinateKind, Reduction};
 use proc_macro2::TokenStream;
 
 /// Formulas of more rows than this are shown up to here.
 const ROWS: usize = 8;
-/// A formula longer than this is left to `expand --stage mechanics`.
+/// A formula longer than this is left to `branched-pendulum --stage mechanics`.
 const LONGEST_FORMULA: usize = 600;
 
 /// Meaning of w in formulas of transfers.
 const IN_PHASE: &str = "In the formulas w are the angular velocities (in rad/s) of the in-phase motion: those that belong to the in-phase momenta where all differences vanish.";
 
 impl Emission<'_> {
+    /// Returns true if a spring is at rest beside its parent's line.
+    pub(super) fn has_rest_angles(&self) -> bool {
+        self.scene.links.iter().any(|link| link.rest.is_some())
+    }
+
+    /// The state of potential energy zero, for docs.
+    pub(super) fn zero_of_potential(&self) -> &'static str {
+        match self.has_rest_angles() {
+            true => {
+                "that of gravity zero where all are zero, that of springs where they are at rest"
+            }
+            false => "zero where all are zero",
+        }
+    }
+
     pub(super) fn text(&self, expr: &Expr) -> String {
         mechanics::text(expr, &self.mechanics.symbols)
     }
@@ -53,6 +68,10 @@ impl Emission<'_> {
             lines.push(String::new());
             lines.push("Transfers follow Y. Toda and T. Ooshida, *Experimental detection of energy transfer into the anti-phase mode in a branched double pendulum*.".into());
         }
+        if let Some(Reduction { links, .. }) = &scene.reduction {
+            lines.push(String::new());
+            lines.push(format!("A motion of a tree of {links} links: `WHOLE` has which of them move alike, and their angles."));
+        }
         if self.mechanics.drive.is_some() {
             lines.extend(self.drive_docs());
             self.show(&self.drive_formulas(), &mut lines);
@@ -76,8 +95,10 @@ impl Emission<'_> {
         if !untold.is_empty() {
             lines.push(String::new());
             let untold = match untold.as_slice() {
-                [first, second, third] => format!("{first}, {second} and {third}"),
-                untold => untold.join(" and "),
+                [others @ .., last] if !others.is_empty() => {
+                    format!("{} and {last}", others.join(", "))
+                }
+                untold => untold.concat(),
             };
             lines.push(format!("At {untold}."));
         }
@@ -146,7 +167,8 @@ impl Emission<'_> {
             ],
             Purpose::KineticEnergy => vec![format!("Kinetic energy K = ½ ωᵀ M(θ) ω (in J) at angles `theta` (in rad) and angular velocities `omega` (in rad/s).{}", self.frame_note())],
             Purpose::PotentialEnergy => {
-                vec!["Potential energy U (in J) at angles `theta` (in rad), zero where all are zero.".into()]
+                let zero = self.zero_of_potential();
+                vec![format!("Potential energy U (in J) at angles `theta` (in rad), {zero}.")]
             }
             Purpose::AbsoluteMomenta => {
                 vec!["Generalized momenta p = M(θ) ω (in kg m²/s) of the absolute angles `theta` (in rad), at angular velocities `omega` (in rad/s).".into()]
@@ -219,7 +241,7 @@ impl Emission<'_> {
                 vec![
                     format!("Energy transfer W (in W) into `{}` through order {order} in {what}. {remainder}", difference(n)),
                     String::new(),
-                    "`expand --stage mechanics` shows the formulas.".into(),
+                    "`branched-pendulum --stage mechanics` shows the formulas.".into(),
                 ]
             }
             Purpose::QuadraticForm(n) => vec![
@@ -252,6 +274,14 @@ impl Emission<'_> {
             Purpose::TotalFrictionPower => vec![
                 "Power −2 R (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.".into(),
             ],
+            Purpose::Transverse(_)
+            | Purpose::TransverseEnergy(_)
+            | Purpose::TransverseTransfer(_)
+            | Purpose::TransverseFriction(_) => self.transverse_meaning(purpose),
+            Purpose::Positions(_)
+            | Purpose::PointVelocities(_)
+            | Purpose::PointTorques(_)
+            | Purpose::LinkProperties => self.positions_meaning(purpose),
             Purpose::Link(function) => vec![link_meaning(function).into()],
             Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
             Purpose::RootDrive => vec![
@@ -305,6 +335,9 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::Omega => Some("angular velocities `omega` (in rad/s)"),
         Argument::Coordinates => Some("symmetric `coordinates` (in rad)"),
         Argument::Rates => Some("their `rates` (in rad/s)"),
+        Argument::Alpha => Some("angular accelerations `alpha` (in rad/s²)"),
+        Argument::Difference(_) => Some("differences `difference` (in rad)"),
+        Argument::DifferenceRate(_) => Some("their rates `difference_rate` (in rad/s)"),
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
         _ => None,
     }

@@ -20,6 +20,8 @@ impl Emission<'_> {
         let sectors = self.mechanics.sectors.as_ref();
         let sectors = sectors.map(|sectors| self.sectors(sectors));
         let forms = self.transfer_forms();
+        let positions = self.positions_trait();
+        let transverse = self.transverse_trait();
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
             #pendulum
@@ -28,6 +30,8 @@ impl Emission<'_> {
             #canonical
             #sectors
             #forms
+            #positions
+            #transverse
             #taylor
         }
     }
@@ -97,7 +101,12 @@ impl Emission<'_> {
             false => quote!(self.accelerations(&theta, &omega)),
         };
         let time = self.time_name();
-        let body = self.sunk().unwrap_or_else(|| {
+        let sunk = self.sunk();
+        // As for the functions, see `emit`.
+        let allow = sunk
+            .is_some()
+            .then(|| quote!(#[allow(clippy::possible_missing_comma)]));
+        let body = sunk.unwrap_or_else(|| {
             quote! {
                 let theta = ::core::array::from_fn(theta);
                 let omega = ::core::array::from_fn(omega);
@@ -131,6 +140,7 @@ impl Emission<'_> {
                 }
             }
 
+            #allow
             impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
                 type Of<#other: #runtime::Scalar> = #name<#other>;
 

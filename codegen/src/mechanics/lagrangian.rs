@@ -46,13 +46,8 @@ impl Derivation<'_> {
     /// Row of `∂(x, y)/∂θ_i` of the point `offset` on link `i`:
     /// x = a sin θ + b cos θ, y = −a cos θ + b sin θ.
     fn lever(&self, offset: &Offset, angle: SymbolId) -> (Formula, Formula) {
-        let (cos, sin) = (
-            Formula::symbol(self.cos(angle)),
-            Formula::symbol(self.sin(angle)),
-        );
         let (along, lateral) = (self.quantity(&offset.along), self.quantity(&offset.lateral));
-        let x = &(&along * &sin) + &(&lateral * &cos);
-        let y = &(&lateral * &sin) - &(&along * &cos);
+        let [x, y] = self.point_at(&along, &lateral, angle);
         (self.partial(&x, angle), self.partial(&y, angle))
     }
 
@@ -257,7 +252,7 @@ impl Derivation<'_> {
         terms
     }
 
-    /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i))².
+    /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i) − ρ_i)².
     fn springs(&mut self, angles: &[SymbolId]) -> Formula {
         let mut terms = Vec::new();
         for index in 0..angles.len() {
@@ -271,8 +266,20 @@ impl Derivation<'_> {
                 meaning: format!("stiffness of the torsion spring in the pivot of `{orbit}`"),
                 unit: "N m",
             };
-            let relative = self.relative(index, angles);
-            terms.push(self.half_square(letter, &orbit, &spring, &relative));
+            let mut strain = self.relative(index, angles);
+            if let Some(rest) = self.scene.links[index].rest.clone() {
+                let value = self.quantity(&rest);
+                let rest = self.constant(
+                    &format!("rest_{orbit}"),
+                    &format!("ρ_{orbit}"),
+                    &format!("\\rho_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
+                    &format!("angle at which the torsion spring of `{orbit}` is at rest"),
+                    "rad",
+                    value,
+                );
+                strain = &strain - &rest;
+            }
+            terms.push(self.half_square(letter, &orbit, &spring, &strain));
         }
         terms.into_iter().sum::<Formula>()
     }

@@ -2,7 +2,7 @@
 //! cheaper one stays.
 
 use super::count::{Operations, operations};
-use super::lower::{Door, Lowering};
+use super::lower::{Environment, Lowering};
 use super::{Pass, ValueId};
 use crate::scene::{Scene, Solve};
 
@@ -34,12 +34,12 @@ impl Lowering<'_> {
     pub(super) fn accelerations(
         &mut self,
         scene: &Scene,
-        door: &mut Door<'_>,
+        environment: &mut Environment<'_>,
     ) -> (Vec<ValueId>, Choice) {
-        let (mut other, mut other_door) = (self.clone(), door.clone());
-        let recursion = other.recursion(scene, &mut other_door);
+        let (mut other, mut other_environment) = (self.clone(), environment.clone());
+        let recursion = other.recursion(scene, &mut other_environment);
         let recursion_cost = operations(&other.builder.definitions, &recursion);
-        let factorization = self.factorization(door);
+        let factorization = self.factorization(environment);
         let factorization_cost = operations(&self.builder.definitions, &factorization);
         let cheaper = self.builder.off != Some(Pass::Choice)
             && cost(&recursion_cost) < cost(&factorization_cost)
@@ -57,20 +57,20 @@ impl Lowering<'_> {
             Solve::Factorization => (factorization, choice),
             Solve::Recursion => {
                 *self = other;
-                *door = other_door;
+                *environment = other_environment;
                 (recursion, choice)
             }
         }
     }
 
     /// q̈ with M q̈ = −bias, by elimination.
-    pub(super) fn factorization(&mut self, door: &mut Door<'_>) -> Vec<ValueId> {
-        let frame = door.frame;
+    pub(super) fn factorization(&mut self, environment: &mut Environment<'_>) -> Vec<ValueId> {
+        let frame = environment.frame;
         let names = self.coordinate_names(frame);
-        let mass = self.mass_matrix(door);
+        let mass = self.mass_matrix(environment);
         let mut right = Vec::new();
         for (bias, name) in frame.bias.iter().zip(&names) {
-            let value = self.expr(door, bias);
+            let value = self.expr(environment, bias);
             self.builder.name(value, &format!("bias_{name}"));
             let torque = self.builder.neg(value);
             right.push(self.builder.name(torque, &format!("torque_{name}")));

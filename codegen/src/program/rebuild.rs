@@ -62,8 +62,28 @@ impl<'a> Rebuilt<'a> {
             Argument::Coordinates | Argument::Symmetric => &symmetric?.coordinates,
             Argument::Rates => &symmetric?.velocities,
             Argument::Momenta => &symmetric?.momenta,
+            Argument::Alpha => &self.mechanics.transverse.as_ref()?.accelerations,
+            Argument::Difference(sector) => {
+                &self
+                    .mechanics
+                    .transverse
+                    .as_ref()?
+                    .sectors
+                    .get(sector)?
+                    .differences
+            }
+            Argument::DifferenceRate(sector) => {
+                &self
+                    .mechanics
+                    .transverse
+                    .as_ref()?
+                    .sectors
+                    .get(sector)?
+                    .rates
+            }
             // What the elements of rows stand for is known to their reader.
-            Argument::Constants
+            Argument::Forces
+            | Argument::Constants
             | Argument::Motion
             | Argument::Response
             | Argument::Sums

@@ -101,6 +101,7 @@ fn link(template: &Template, pending: &Pending) -> Link {
         friction,
         drag,
         spring,
+        rest,
         ..
     } = template;
     Link {
@@ -111,9 +112,11 @@ fn link(template: &Template, pending: &Pending) -> Link {
         inertia: body.inertia.clone(),
         com: body.com.clone(),
         pivot: pivot.clone(),
+        end: body.joint.as_ref().unwrap_or(&body.com).clone(),
         friction: friction.clone(),
         drag: drag.clone(),
         spring: spring.clone(),
+        rest: rest.clone(),
     }
 }
 

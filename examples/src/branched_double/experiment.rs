@@ -75,10 +75,11 @@ fn run<T: Real>(
         integrate(&ode, angle_deg, arguments, apparatus, progress)
     } else {
         let friction = arguments.friction.parameters();
-        let model = DampedBranchedDouble::<T>::from_parameters(DampedBranchedDoubleParameters {
-            friction_root: T::from_f64(friction.friction_root),
-            friction_children: T::from_f64(friction.friction_children),
-        });
+        let model =
+            DampedBranchedDouble::<T>::from_parameters_unchecked(DampedBranchedDoubleParameters {
+                friction_root: T::from_f64(friction.friction_root),
+                friction_children: T::from_f64(friction.friction_children),
+            });
         let ode = SymmetricCoordinates(&model);
         integrate(&ode, angle_deg, arguments, apparatus, progress)
     };

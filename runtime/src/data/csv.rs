@@ -235,7 +235,7 @@ pub enum CsvError {
         path: PathBuf,
         /// `"create"` or `"write"`.
         action: &'static str,
-        /// The system's error.
+        /// Message of the system.
         source: io::Error,
     },
     /// A table without columns.

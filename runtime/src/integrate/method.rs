@@ -3,16 +3,16 @@
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
-use core::ops::ControlFlow;
 use core::str::FromStr;
 
-use super::dense::DenseStep;
-use super::error::IntegrationError;
+use super::error::InputError;
+use super::evaluator::{Evaluator, NonFinite};
 use super::explicit::{Dop853, Dopri5, Verner98};
 use super::fixed::{Gauss, GaussOrder, Rk4};
 use super::integrator::Integrator;
 use super::options::Options;
-use super::report::Solution;
+use super::piece::Piece;
+use super::steps::{Failure, Goal, Steps};
 use super::taylor::Taylor;
 use crate::scalar::Real;
 use crate::system::{State, TaylorOde};
@@ -41,6 +41,7 @@ use crate::system::{State, TaylorOde};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Method {
     /// [`Rk4`].
@@ -266,21 +267,69 @@ impl<T: Real> AnyIntegrator<T> {
 }
 
 impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for AnyIntegrator<T> {
-    fn integrate(
-        &self,
-        ode: &O,
-        start: &State<T>,
-        end: T,
-        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        match self {
-            Self::Rk4(method) => method.integrate(ode, start, end, observer),
-            Self::Dopri5(method) => method.integrate(ode, start, end, observer),
-            Self::Dop853(method) => method.integrate(ode, start, end, observer),
-            Self::Verner98(method) => method.integrate(ode, start, end, observer),
-            Self::Taylor(method) => method.integrate(ode, start, end, observer),
-            Self::Gauss(method) => method.integrate(ode, start, end, observer),
+    type Steps = AnySteps<T, O>;
+
+    fn steps(&self, ode: &O, start: &State<T>) -> Result<AnySteps<T, O>, InputError<T>> {
+        Ok(match self {
+            Self::Rk4(method) => AnySteps::Rk4(method.steps(ode, start)?),
+            Self::Dopri5(method) => AnySteps::Dopri5(method.steps(ode, start)?),
+            Self::Dop853(method) => AnySteps::Dop853(method.steps(ode, start)?),
+            Self::Verner98(method) => AnySteps::Verner98(method.steps(ode, start)?),
+            Self::Taylor(method) => AnySteps::Taylor(method.steps(ode, start)?),
+            Self::Gauss(method) => AnySteps::Gauss(method.steps(ode, start)?),
+        })
+    }
+}
+
+/// The method at work.
+#[allow(unreachable_pub)]
+pub enum AnySteps<T: Real, O: TaylorOde<T> + ?Sized> {
+    Rk4(<Rk4<T> as Integrator<T, O>>::Steps),
+    Dopri5(<Dopri5<T> as Integrator<T, O>>::Steps),
+    Dop853(<Dop853<T> as Integrator<T, O>>::Steps),
+    Verner98(<Verner98<T> as Integrator<T, O>>::Steps),
+    Taylor(<Taylor<T> as Integrator<T, O>>::Steps),
+    Gauss(<Gauss<T> as Integrator<T, O>>::Steps),
+}
+
+/// Asks the method at work.
+macro_rules! of_any {
+    ($any:expr, $steps:ident => $answer:expr) => {
+        match $any {
+            AnySteps::Rk4($steps) => $answer,
+            AnySteps::Dopri5($steps) => $answer,
+            AnySteps::Dop853($steps) => $answer,
+            AnySteps::Verner98($steps) => $answer,
+            AnySteps::Taylor($steps) => $answer,
+            AnySteps::Gauss($steps) => $answer,
         }
+    };
+}
+
+impl<T: Real, O: TaylorOde<T> + ?Sized> Steps<T, O> for AnySteps<T, O> {
+    fn step(
+        &mut self,
+        system: &mut Evaluator<'_, T, O>,
+        time: T,
+        goal: Goal<T>,
+    ) -> Result<T, Failure<T>> {
+        of_any!(self, steps => steps.step(system, time, goal))
+    }
+
+    fn prepare(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
+        of_any!(self, steps => steps.prepare(system, time))
+    }
+
+    fn piece(&self) -> Piece<'_, T> {
+        of_any!(self, steps => Steps::<T, O>::piece(steps))
+    }
+
+    fn advance(&mut self) {
+        of_any!(self, steps => Steps::<T, O>::advance(steps));
+    }
+
+    fn restart(&mut self, values: &[T]) {
+        of_any!(self, steps => Steps::<T, O>::restart(steps, values));
     }
 }
 

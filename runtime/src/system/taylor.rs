@@ -4,8 +4,12 @@ use super::{AbsoluteAngles, Cast, Ode, Workspace};
 use crate::scalar::Scalar;
 use crate::simd::Quad;
 
-/// A pendulum whose motion is expanded in powers of the time: what emitted code
-/// implements where `emit(taylor)` asks for it.
+/// A pendulum whose motion is expanded in powers of the time. Emitted code
+/// implements it where `emit(taylor)` asks for it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know the Taylor coefficients of its motion",
+    note = "a model knows them with `emit(taylor)` in its attribute"
+)]
 pub trait TaylorPendulum<T: Scalar>: Cast<T> {
     /// Groups of four numbers that an expansion to order `order` works in.
     fn taylor_workspace(order: usize) -> usize;
@@ -45,8 +49,42 @@ pub trait TaylorPendulum<T: Scalar>: Cast<T> {
     );
 }
 
+impl<T: Scalar, P: TaylorPendulum<T>> TaylorPendulum<T> for &P {
+    fn taylor_workspace(order: usize) -> usize {
+        P::taylor_workspace(order)
+    }
+
+    #[inline]
+    fn taylor_coefficients_into(
+        &self,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        coefficients: &mut [T],
+        work: &mut [Quad<T>],
+    ) {
+        (**self).taylor_coefficients_into(time, theta, omega, coefficients, work);
+    }
+
+    #[inline(always)]
+    fn taylor_coefficients_of<S: Scalar>(
+        pendulum: &Self::Of<S>,
+        time: S,
+        theta: &[S],
+        omega: &[S],
+        coefficients: &mut [S],
+        work: &mut [Quad<S>],
+    ) {
+        P::taylor_coefficients_of(pendulum, time, theta, omega, coefficients, work);
+    }
+}
+
 /// A first-order system y' = f(t, y) whose solution is expanded in powers of the
 /// time.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know the Taylor coefficients of its solution",
+    note = "the method `Taylor` takes `AbsoluteAngles(&model)` of a model with `emit(taylor)` in its attribute, or a `TaylorOde` of your own"
+)]
 ///
 /// # Examples
 ///
@@ -124,7 +162,7 @@ impl<T, O: TaylorOde<T> + ?Sized> TaylorOde<T> for &O {
     }
 }
 
-impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<'_, P> {
+impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<P> {
     fn workspace(&self, order: usize) -> usize {
         P::taylor_workspace(order)
     }

@@ -11,6 +11,7 @@
 
 mod bias;
 mod dense;
+mod eliminated_link;
 mod elimination;
 mod expand;
 mod linear;

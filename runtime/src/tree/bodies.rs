@@ -17,7 +17,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    fn links(self) -> usize {
+    pub(super) fn links(self) -> usize {
         match self {
             Self::Parents(parents) => parents.len(),
             Self::Generations(copies) => {
@@ -34,7 +34,7 @@ impl Shape {
     /// Goes from the root to the leaves: the link, its parent but for the root,
     /// and the number of its row.
     #[inline(always)]
-    fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
+    pub(super) fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
         match self {
             Self::Parents(parents) => {
                 for (link, &parent) in parents.iter().enumerate() {
@@ -61,7 +61,7 @@ impl Shape {
 }
 
 /// Numbers of a body.
-const ROW: usize = 12;
+const ROW: usize = 13;
 
 /// The links of a tree in loops as bodies. Emitted models hold them where there is
 /// a drive or a lateral offset, and energies are asked for.
@@ -79,7 +79,7 @@ impl<T: Scalar> Bodies<T> {
     /// half of the mass; first moments m d and m e about the pivot along and across
     /// the link, half of the moment of inertia I + m (d² + e²); the pivot's place ℓ,
     /// w on the parent along and across it; weight m g; g m d and g m e; half of the
-    /// stiffness of the torsion spring; friction in the pivot, drag.
+    /// stiffness of the torsion spring, its rest angle; friction in the pivot, drag.
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<[T; ROW]>) -> Self {
         Self { shape, rows }
@@ -153,8 +153,8 @@ impl<T: Scalar> Bodies<T> {
         Self::or_nan(whole, -sum.total())
     }
 
-    /// Potential energy, J, zero where all angles are zero: Σ m g H + m g d
-    /// (1 − cos θ) + m g e sin θ + ½ κ (θ − θ_parent)², the height of a link's pivot
+    /// Potential energy, J, zero where all angles are zero and springs at rest: Σ m g H
+    /// + m g d (1 − cos θ) + m g e sin θ + ½ κ (θ − θ_parent − ρ)², the height of a link's pivot
     /// H = H_parent + ℓ (1 − cos θ_parent) + w sin θ_parent. NaN for a slice of
     /// another length than there are links.
     #[must_use]
@@ -184,6 +184,7 @@ impl<T: Scalar> Bodies<T> {
                     gravity,
                     lateral,
                     spring,
+                    rest,
                     ..,
                 ] = row;
                 let angle = at(theta, link);
@@ -200,7 +201,8 @@ impl<T: Scalar> Bodies<T> {
                 let (shift, cosine) = angle.sin_cos();
                 let rise = one - cosine;
                 let own = gravity * rise + lateral * shift;
-                sum.add(weight * height + own + spring * bend * bend);
+                let strain = bend - rest;
+                sum.add(weight * height + own + spring * strain * strain);
                 put(heights, link, height);
                 put(rises, link, rise);
                 put(shifts, link, shift);

@@ -1,5 +1,6 @@
 //! Emitted code as its users meet it: compiled, called, built in parallel.
 
+mod any_number;
 mod bits;
 mod fused;
 mod generations;
@@ -7,6 +8,7 @@ mod hygiene;
 mod loop_states;
 mod loops;
 mod machine_code;
+mod positions;
 mod scalars;
 mod sectors;
 mod table;

@@ -180,6 +180,7 @@ fn both_are_as_good_as_their_conditioning() {
         friction: 0.0,
         drag: 0.0,
         spring: 0.0,
+        rest: 0.0,
     };
     let rod = |parent, mass: f64, length: f64, lever| {
         link(

@@ -77,7 +77,7 @@ pub enum InputError<T> {
         /// Index of the coordinate whose rate, or whose momentum's rate, depends
         /// on what it must not.
         coordinate: usize,
-        /// Which of the two.
+        /// The one of the two.
         rate: Inseparable,
         /// By how much it does, relative to its size.
         change: T,

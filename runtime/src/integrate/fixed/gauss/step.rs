@@ -1,23 +1,29 @@
-//! The vectors that a run works on, and its steps.
+//! The vectors that a step works on, and what is done with them.
+
+// A sealed trait names the type.
+#![allow(unreachable_pub)]
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::tables::Table;
-use super::{Gauss, Solver};
-use crate::integrate::dense::Interpolant;
+use super::tables::GaussTable;
+use super::{Gauss, GaussOrder, Solver};
 use crate::integrate::evaluator::{Evaluator, NonFinite};
-use crate::integrate::fixed::driver::{Failure, FixedStepper};
+use crate::integrate::fixed::grid::FixedStep;
 use crate::integrate::fixed::linear::Factored;
 use crate::integrate::fixed::projected::Corrected;
+use crate::integrate::piece::{Form, Piece};
 use crate::integrate::request::all_finite;
+use crate::integrate::steps::Failure;
 use crate::integrate::sum::two_sum;
 use crate::scalar::Real;
 use crate::system::Ode;
 
-/// Workspace of a run.
-pub(in crate::integrate::fixed) struct GaussStepper<T> {
-    pub(super) table: &'static Table,
+/// A Gauss method at work.
+#[derive(Clone, Debug)]
+pub struct GaussStep<T> {
+    order: GaussOrder,
+    pub(super) table: &'static GaussTable,
     pub(super) solver: Solver,
     pub(super) tolerance: T,
     pub(super) iteration_limit: u32,
@@ -49,7 +55,7 @@ pub(in crate::integrate::fixed) struct GaussStepper<T> {
     pub(super) derivatives: Vec<T>,
 }
 
-impl<T: Real> GaussStepper<T> {
+impl<T: Real> GaussStep<T> {
     pub(in crate::integrate::fixed) fn new(method: &Gauss<T>, start: &[T]) -> Self {
         let table = method.order.table();
         let (n, s) = (start.len(), table.nodes.len());
@@ -58,6 +64,7 @@ impl<T: Real> GaussStepper<T> {
             Solver::Newton => n,
         };
         Self {
+            order: method.order,
             table,
             solver: method.solver,
             tolerance: method.tolerance,
@@ -101,7 +108,7 @@ impl<T: Real> GaussStepper<T> {
             let place = T::ONE + ratio * T::from_f64(node);
             for j in 0..s {
                 let weight =
-                    self.step * (integral(self.table, j, place) - integral(self.table, j, T::ONE));
+                    self.step * (self.order.integral(j, place) - self.order.integral(j, T::ONE));
                 for (value, &rate) in own.iter_mut().zip(&self.rates[j * n..(j + 1) * n]) {
                     *value += weight * rate;
                 }
@@ -125,18 +132,9 @@ impl<T: Real> GaussStepper<T> {
     }
 }
 
-/// Integral from 0 to x of the Lagrange polynomial of node j.
-fn integral<T: Real>(table: &Table, j: usize, x: T) -> T {
-    let s = table.nodes.len();
-    let row = &table.integrals[j * s..(j + 1) * s];
-    row.iter()
-        .rev()
-        .fold(T::ZERO, |sum, &c| (sum + T::from_f64(c)) * x)
-}
-
-impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for GaussStepper<T> {
-    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), Failure<T>> {
-        Ok(system.evaluate(time, &self.start, &mut self.other)?)
+impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for GaussStep<T> {
+    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
+        system.evaluate(time, &self.start, &mut self.other)
     }
 
     fn make(
@@ -149,7 +147,7 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for GaussStepper<T> {
         if let Err(failure) = self.solve(system, time, step) {
             // The rates of a failed step say nothing: begin anew.
             self.step = T::ZERO;
-            FixedStepper::<T, O>::begin(self, system, time)?;
+            FixedStep::<T, O>::begin(self, system, time)?;
             return Err(failure);
         }
         self.step = step;
@@ -160,15 +158,34 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for GaussStepper<T> {
         Err(NonFinite::new(time + step, &self.end).into())
     }
 
+    fn piece(&self) -> Piece<'_, T> {
+        Piece {
+            form: Form::Collocation(self.order),
+            start: &self.start,
+            end: &self.end,
+            terms: [&self.rates, &[]],
+            length: self.step,
+        }
+    }
+
     fn advance(&mut self) {
         core::mem::swap(&mut self.start, &mut self.end);
         core::mem::swap(&mut self.residue, &mut self.end_residue);
     }
+
+    /// The matrix of Newton's method stays: it decides how fast a step is solved, and
+    /// is made anew where it does not serve.
+    fn set_start(&mut self, values: &[T]) {
+        self.start.copy_from_slice(values);
+        self.residue.fill(T::ZERO);
+        self.step = T::ZERO;
+        for (size, value) in self.sizes.iter_mut().zip(values) {
+            *size = size.max(value.abs());
+        }
+    }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for GaussStepper<T> {
-    const FOLLOWS: bool = false;
-
+impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for GaussStep<T> {
     fn correct(
         &mut self,
         _system: &mut Evaluator<'_, T, O>,
@@ -180,27 +197,5 @@ impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for GaussStepper<T> {
             (*end, *residue) = two_sum(*end, *residue + correction);
         }
         Ok(())
-    }
-}
-
-impl<T: Real> Interpolant<T> for GaussStepper<T> {
-    fn start(&self) -> &[T] {
-        &self.start
-    }
-
-    fn end(&self) -> &[T] {
-        &self.end
-    }
-
-    /// The collocation polynomial.
-    fn value(&self, fraction: T, out: &mut [T]) {
-        let n = self.start.len();
-        out.copy_from_slice(&self.start);
-        for j in 0..self.table.nodes.len() {
-            let weight = self.step * integral(self.table, j, fraction);
-            for (value, &rate) in out.iter_mut().zip(&self.rates[j * n..(j + 1) * n]) {
-                *value += weight * rate;
-            }
-        }
     }
 }
