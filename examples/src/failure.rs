@@ -85,7 +85,7 @@ mod tests {
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
     use branched_pendulum::data::CsvError;
-    use branched_pendulum::integrate::RunError;
+    use branched_pendulum::integrate::IntegrationError;
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::OdeFn;
     use branched_pendulum_charts::ChartError;
@@ -128,7 +128,8 @@ mod tests {
     fn request() -> IntegrationError<f64> {
         let ode = OdeFn::new(1, |_: f64, _: &[f64], rates: &mut [f64]| rates[0] = 1.0);
         let start = State::new(0.0, vec![0.0]);
-        let run = Rk4::new(0.1).integrate(&ode, &start, f64::NAN, |_| ControlFlow::Continue(()));
+        let go_on = |_: &mut DenseStep<'_, f64>| std::ops::ControlFlow::Continue(());
+        let run = Rk4::new(0.1).integrate(&ode, &start, f64::NAN, go_on);
         run.expect_err("NaN is no time")
     }
 

@@ -16,6 +16,6 @@ pub use crate::integrate::{
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
 pub use crate::system::{
-    AbsoluteAngles, Canonical, CanonicalVariables, Energy, FirstIntegral, Ode, Pendulum, Positions,
-    State, SymmetricCoordinates, SymmetricPendulum,
+    AbsoluteAngles, Canonical, CanonicalVariables, Energy, FirstIntegral, Forced, Ode, Pendulum,
+    Positions, State, SymmetricCoordinates, SymmetricPendulum,
 };

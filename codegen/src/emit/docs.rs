@@ -112,8 +112,11 @@ impl Emission<'_> {
         let operations = self.program.operations(&entry.outputs);
         let mut cost = format!("Cost: {operations}{fused}.");
         let choice = &self.program.choice;
-        if entry.purpose == Purpose::Accelerations && choice.solve == Solve::Recursion {
-            cost += &format!(" By elimination: {}.", choice.factorization);
+        if entry.purpose == Purpose::Accelerations
+            && choice.solve == Solve::Recursion
+            && let Some(factorization) = choice.factorization
+        {
+            cost += &format!(" By elimination: {factorization}.");
         }
         lines.push(cost);
         doc_lines(&lines)
@@ -139,6 +142,11 @@ impl Emission<'_> {
             self.mechanics.coordinates[coordinate].name.clone()
         };
         let lines: Vec<String> = match purpose {
+            Purpose::AccelerationsUnder => vec![
+                format!("Angular accelerations (in rad/s²) as [`accelerations`](Self::accelerations), with generalized `torques` Q (in N m) from outside: M(θ) θ̈ + b(θ, ω{}) = Q. Q_i is a couple on link i; forces have those of `centre_torques` and its like (`emit(positions)`).", self.and_time()),
+                String::new(),
+                "The power of the torques is Q·ω. In canonical variables they add to the rates of the momenta.".into(),
+            ],
             Purpose::Accelerations => vec![
                 format!("Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s).", self.at_time()),
                 String::new(),
@@ -177,7 +185,7 @@ impl Emission<'_> {
                 vec!["Angular velocities ω (in rad/s) at angles `theta` (in rad) and `momenta` p (in kg m²/s): solves M(θ) ω = p with M of [`accelerations`](Self::accelerations).".into()]
             }
             Purpose::CanonicalRates => vec![
-                "Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta ∂L/∂θ + Q (in N m), friction, drag and drive included, at angles `theta` (in rad) and `momenta` (in kg m²/s).".into(),
+                format!("Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta {} (in N m), at {}angles `theta` (in rad) and `momenta` (in kg m²/s).", self.momentum_rates_in_words(), self.at_time()),
                 String::new(),
                 "For methods in canonical variables, as `integrate::Gauss` with `system::CanonicalVariables`.".into(),
             ],
@@ -291,19 +299,40 @@ impl Emission<'_> {
         lines
     }
 
-    /// Formulas as a text block and, folded away, as LaTeX.
-    pub(super) fn show(&self, formulas: &[DocFormula], lines: &mut Vec<String>) {
-        self.show_rows(formulas, ROWS, lines);
+    /// The rates of the momenta, with the torques that the scene has.
+    fn momentum_rates_in_words(&self) -> String {
+        let links = &self.scene.links;
+        let present = [
+            (links.iter().any(|link| link.friction.is_some()), "friction"),
+            (links.iter().any(|link| link.drag.is_some()), "drag"),
+            (self.mechanics.drive.is_some(), "drive"),
+        ];
+        let present = present.into_iter().filter(|(present, _)| *present);
+        let torques: Vec<&str> = present.map(|(_, name)| name).collect();
+        match torques.split_last() {
+            None => "∂L/∂θ".to_owned(),
+            Some((last, [])) => format!("∂L/∂θ + Q with the torques Q of {last}"),
+            Some((last, others)) => format!(
+                "∂L/∂θ + Q with the torques Q of {} and {last}",
+                others.join(", ")
+            ),
+        }
     }
 
-    /// Formulas with at most so many rows.
-    pub(super) fn show_rows(&self, formulas: &[DocFormula], most: usize, lines: &mut Vec<String>) {
+    /// Formulas as a text block; returns the number of those shown, none if one of all
+    /// is too long.
+    pub(super) fn show_text(
+        &self,
+        formulas: &[DocFormula],
+        most: usize,
+        lines: &mut Vec<String>,
+    ) -> usize {
         let texts: Vec<String> = formulas
             .iter()
             .map(|f| format!("{} = {}", f.left, self.text(&f.right)))
             .collect();
         if texts.is_empty() || texts.iter().any(|text| text.len() > LONGEST_FORMULA) {
-            return;
+            return 0;
         }
         let shown = texts.len().min(most);
         lines.push(String::new());
@@ -313,6 +342,15 @@ impl Emission<'_> {
             lines.push(format!("… and {} more", texts.len() - shown));
         }
         lines.push("```".into());
+        shown
+    }
+
+    /// Formulas as a text block and, folded away, as LaTeX.
+    pub(super) fn show(&self, formulas: &[DocFormula], lines: &mut Vec<String>) {
+        let shown = self.show_text(formulas, ROWS, lines);
+        if shown == 0 {
+            return;
+        }
         lines.push(String::new());
         lines.push("<details><summary>LaTeX</summary>".into());
         lines.push(String::new());
@@ -339,6 +377,7 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::Difference(_) => Some("differences `difference` (in rad)"),
         Argument::DifferenceRate(_) => Some("their rates `difference_rate` (in rad/s)"),
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
+        Argument::Torques => Some("`torques` (in N m)"),
         _ => None,
     }
 }

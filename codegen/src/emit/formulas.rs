@@ -88,6 +88,7 @@ impl Emission<'_> {
             | Purpose::TransverseTransfer(_)
             | Purpose::TransverseFriction(_) => self.transverse_formulas(purpose),
             Purpose::AbsoluteVelocities
+            | Purpose::AccelerationsUnder
             | Purpose::TaylorCoefficients
             | Purpose::MassMatrix
             | Purpose::Budget(_)

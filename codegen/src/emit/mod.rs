@@ -87,8 +87,9 @@ pub fn emit(
         #values
 
         // All tokens stand where the attribute does, of many lines: clippy
-        // takes that for arrays whose elements were broken across lines.
-        #[allow(clippy::possible_missing_comma)]
+        // takes that for arrays whose elements were broken across lines. A binary
+        // may call a few of the functions.
+        #[allow(dead_code, clippy::possible_missing_comma)]
         impl<T: #runtime::Scalar> #name<T> {
             #(#functions)*
             #accessors

@@ -163,7 +163,7 @@ impl Emission<'_> {
         let parameters = format_ident!("{}Parameters", name);
         quote! {
             // As for the functions, see `emit`.
-            #[allow(clippy::possible_missing_comma)]
+            #[allow(dead_code, clippy::possible_missing_comma)]
             impl<T: #runtime::Scalar> #name<T> {
                 /// The model for the given parameters, taken as they are: for
                 /// scalars without an order by which masses could be checked,
@@ -179,6 +179,7 @@ impl Emission<'_> {
     fn literal_constructor(&self) -> TokenStream {
         let name = &self.item.ident;
         quote! {
+            #[allow(dead_code)]
             impl #name<f64> {
                 /// The model in double precision, its constants rounded once
                 /// from their exact values. `Default` builds it for other
@@ -237,7 +238,7 @@ impl Emission<'_> {
             }
 
             // As for the functions below.
-            #[allow(clippy::possible_missing_comma)]
+            #[allow(dead_code, clippy::possible_missing_comma)]
             impl<T: #runtime::scalar::Real> #name<T> {
                 /// The model for the given parameters, which are checked in
                 /// double precision.

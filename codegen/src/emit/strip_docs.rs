@@ -54,7 +54,7 @@ impl Emission<'_> {
                 right: line.right,
             });
             let formulas: Vec<_> = formulas.collect();
-            self.show_rows(&formulas, formulas.len(), &mut lines);
+            self.show_text(&formulas, formulas.len(), &mut lines);
         }
         lines
     }

@@ -184,6 +184,7 @@ impl Emission<'_> {
         let allow = allow.then(|| quote!(#[allow(clippy::possible_missing_comma)]));
         quote! {
             #allow
+            #[allow(dead_code)]
             impl<T: #runtime::Scalar> #name<T> {
                 #own
 

@@ -145,6 +145,11 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             ) -> [T; N] {
                 ::core::unimplemented!()
             })*
+            pub fn accelerations_under<const N: usize>(
+                &self, #time theta: &[T; N], omega: &[T; N], torques: &[T; N],
+            ) -> [T; N] {
+                ::core::unimplemented!()
+            }
             pub fn link_properties<const N: usize>(&self) -> [[T; 8]; N] {
                 ::core::unimplemented!()
             }
@@ -191,6 +196,10 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             const SMALL_SECTORS: &'static [#runtime::transfer_forms::SmallSector] = &[];
             fn transfers_into(&self, _: usize, _: &[T], _: &[T], _: &mut [#runtime::Transfer<T>]) {}
             fn symmetric_momenta_into(&self, _: &[T], _: &[T], _: &mut [T]) {}
+        }
+
+        impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
+            fn accelerations_under_into(&self, _: T, _: &[T], _: &[T], _: &[T], _: &mut [T]) {}
         }
 
         impl<T: #runtime::Scalar> #runtime::Positions<T> for #name<T> {

@@ -22,6 +22,7 @@ impl Emission<'_> {
         let forms = self.transfer_forms();
         let positions = self.positions_trait();
         let transverse = self.transverse_trait();
+        let forced = self.scene.requests.forces.then(|| self.forced());
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
             #pendulum
@@ -32,6 +33,7 @@ impl Emission<'_> {
             #forms
             #positions
             #transverse
+            #forced
             #taylor
         }
     }
@@ -159,6 +161,31 @@ impl Emission<'_> {
                     theta: impl ::core::ops::Fn(usize) -> T,
                     omega: impl ::core::ops::Fn(usize) -> T,
                     mut alpha: impl ::core::ops::FnMut(usize, T),
+                ) {
+                    #body
+                }
+            }
+        }
+    }
+
+    fn forced(&self) -> TokenStream {
+        let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
+        let output = Ident::new("alpha", Span::call_site());
+        let call = match self.mechanics.drive.is_some() {
+            true => quote!(self.accelerations_under(time, theta, omega, torques)),
+            false => quote!(self.accelerations_under(theta, omega, torques)),
+        };
+        let body = self.fill(&output, &["theta", "omega", "torques"], call);
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
+                #[inline]
+                fn accelerations_under_into(
+                    &self,
+                    #time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    torques: &[T],
+                    alpha: &mut [T],
                 ) {
                     #body
                 }

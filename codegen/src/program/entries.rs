@@ -19,7 +19,7 @@ pub(super) fn link_entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowere
     let strips = list.link_functions(scene, mechanics);
     let choice = Choice {
         solve: Solve::Recursion,
-        factorization: Operations::default(),
+        factorization: None,
         recursion: Operations::default(),
     };
     (list.entries, choice, Some(strips))
@@ -108,6 +108,18 @@ impl EntryList<'_, '_> {
             alpha,
             Shape::Vector,
         );
+        if scene.requests.forces {
+            let mut pushed = motion.clone();
+            let lowering = &mut self.lowering;
+            let alpha = lowering.accelerations_under(scene, &mut pushed, choice.solve);
+            self.push(
+                "accelerations_under",
+                Purpose::AccelerationsUnder,
+                &self.timed(&[Theta, Omega, Argument::Torques]),
+                alpha,
+                Shape::Vector,
+            );
+        }
         if let Some(energies) = &frame.energies {
             let kinetic = self.lowering.expr(&mut motion, &energies.kinetic);
             let potential = self.lowering.expr(&mut motion, &energies.potential);

@@ -28,6 +28,8 @@ pub enum Argument {
     Difference(usize),
     /// Their rates, rad/s.
     DifferenceRate(usize),
+    /// Generalized torques from outside, one for each absolute angle, N m.
+    Torques,
     /// Angles or angular velocities, absolute: the transform serves both.
     Absolute,
     /// Angles or angular velocities, symmetric.
@@ -36,10 +38,10 @@ pub enum Argument {
     Constants,
     /// Its motion: sine, cosine, angular velocity, joint angle, joint rate.
     Motion,
-    /// What a subtree answers: deficit xx, xy, yy of the articulated inertia, bias
+    /// Response of a subtree: deficit xx, xy, yy of the articulated inertia, bias
     /// force, torque of its joint on the parent.
     Response,
-    /// What all subtrees on a link answer.
+    /// Sum of the responses of all subtrees on a link.
     Sums,
     /// Kept of a link for the way down: gain and offset of its acceleration.
     Elimination,
@@ -112,6 +114,8 @@ impl PointKind {
 pub enum Purpose {
     /// θ̈ from θ, ω.
     Accelerations,
+    /// θ̈ from θ, ω and torques from outside.
+    AccelerationsUnder,
     /// The coefficients of θ and ω in powers of the time: order 0 of the
     /// recurrences, which is θ̈ and the sines and cosines that it goes without.
     TaylorCoefficients,
@@ -194,7 +198,7 @@ pub enum Purpose {
     Link(LinkFunction),
     /// Apparent gravity at the root's pivot of a tree in loops, in reduced units.
     RootGravity,
-    /// What the drive adds to that, and its torque on the root, in reduced units.
+    /// Contribution of the drive to that, and its torque on the root, in reduced units.
     RootDrive,
 }
 

@@ -31,6 +31,8 @@ pub(super) struct Environment<'a> {
     pub(super) velocities: Option<Argument>,
     /// Argument that holds the momenta; formed from the velocities if none.
     pub(super) momenta: Option<Argument>,
+    /// Argument that holds torques from outside, if there are any.
+    pub(super) torques: Option<Argument>,
     /// Quantities that observables refer to beside the frame.
     pub(super) observed: Option<&'a ObservableFrame>,
     values: BTreeMap<SymbolId, ValueId>,
@@ -48,6 +50,7 @@ impl<'a> Environment<'a> {
             coordinates,
             velocities,
             momenta,
+            torques: None,
             observed: None,
             values: BTreeMap::new(),
         }

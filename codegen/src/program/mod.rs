@@ -130,7 +130,7 @@ pub struct TooManyValues;
 
 /// Most values of a program before its passes: twice as many as all exact forms of the
 /// budget of 31 links have.
-pub const MOST_VALUES: usize = 150_000;
+pub const MOST_VALUES: usize = 120_000;
 
 impl Program {
     /// The definition of a value.

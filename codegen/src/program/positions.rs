@@ -51,7 +51,7 @@ impl EntryList<'_, '_> {
         for kind in PointKind::ALL {
             let points = Points { scene, links, kind };
             let of = kind.name();
-            let positions = self.along_tree(&mut environment, points, "", |of| &of.position);
+            let positions = self.along_tree(&mut environment, points, "pivot", |of| &of.position);
             self.push(
                 &format!("{of}s"),
                 Purpose::Positions(kind),
@@ -60,7 +60,7 @@ impl EntryList<'_, '_> {
                 Shape::Rows(2),
             );
             let velocities =
-                self.along_tree(&mut environment, points, "velocity_", |of| &of.velocity);
+                self.along_tree(&mut environment, points, "velocity", |of| &of.velocity);
             self.push(
                 &format!("{of}_velocities"),
                 Purpose::PointVelocities(kind),
@@ -158,7 +158,7 @@ impl EntryList<'_, '_> {
             let Some((parent, pivot)) = points.pivot(link) else {
                 continue;
             };
-            builder.name_pair(sum, &format!("force_@_from_{}", points.name(link)));
+            builder.name_pair(sum, &format!("force@_from_{}", points.name(link)));
             let lever = self.pair(environment, &pivot.lever);
             let builder = &mut self.lowering.builder;
             match hanging[parent]

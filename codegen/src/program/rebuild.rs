@@ -23,7 +23,7 @@ impl<'a> Rebuilt<'a> {
         }
     }
 
-    /// The same with symbols for elements of the arguments of link functions.
+    /// A reader with symbols for elements of the arguments of link functions.
     pub fn with_symbols(self, given: BTreeMap<(Argument, usize), SymbolId>) -> Self {
         Self { given, ..self }
     }
@@ -81,8 +81,9 @@ impl<'a> Rebuilt<'a> {
                     .get(sector)?
                     .rates
             }
-            // What the elements of rows stand for is known to their reader.
+            // The reader knows the meaning of elements of rows.
             Argument::Forces
+            | Argument::Torques
             | Argument::Constants
             | Argument::Motion
             | Argument::Response

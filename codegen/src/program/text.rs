@@ -17,6 +17,7 @@ impl Argument {
             Self::Alpha => "alpha",
             Self::Difference(_) => "difference",
             Self::DifferenceRate(_) => "difference_rate",
+            Self::Torques => "torques",
             Self::Absolute => "absolute",
             Self::Symmetric => "symmetric",
             Self::Constants => "constants",

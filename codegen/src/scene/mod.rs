@@ -343,6 +343,8 @@ pub struct Requests {
     pub positions: bool,
     /// Equations of small differences between copies in phase.
     pub transverse: bool,
+    /// Accelerations under torques that the caller hands over.
+    pub forces: bool,
 }
 
 /// Forms of the sectors' budget that are asked for; at least one. The forms

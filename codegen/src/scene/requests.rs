@@ -23,6 +23,7 @@ const OUTPUTS: &[&str] = &[
     "taylor",
     "positions",
     "transverse",
+    "forces",
 ];
 
 /// All forms of the budget.
@@ -95,6 +96,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
                 wanted.transverse = true;
                 resolved.transverse = Some(span);
             }
+            "forces" => wanted.forces = true,
             "symmetric" => {
                 wanted.symmetric = true;
                 resolved.symmetric = Some(span);

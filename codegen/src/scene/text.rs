@@ -198,6 +198,7 @@ impl Display for Requests {
             taylor,
             positions,
             transverse,
+            forces,
         } = self;
         write!(f, "accelerations")?;
         if let Some(solve) = solve {
@@ -211,6 +212,7 @@ impl Display for Requests {
             (taylor, "taylor"),
             (positions, "positions"),
             (transverse, "transverse"),
+            (forces, "forces"),
         ];
         for (wanted, name) in named {
             if *wanted {

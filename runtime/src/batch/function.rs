@@ -127,8 +127,8 @@ macro_rules! state_function {
         const LINKS: usize = <$kind as $crate::Pendulum<f64>>::LINKS;
         const ARGUMENTS: usize = [$(::core::stringify!($arguments)),+].len();
         type On<T> = <$kind as $crate::Cast<f64>>::Of<T>;
-        struct Function;
-        impl<T: $crate::Scalar> $crate::batch::StateFunction<On<T>, T, ARGUMENTS> for Function {
+        struct NamedFunction;
+        impl<T: $crate::Scalar> $crate::batch::StateFunction<On<T>, T, ARGUMENTS> for NamedFunction {
             #[inline(always)]
             fn call<S: $crate::Scalar>(
                 $model: &On<S>,
@@ -140,7 +140,7 @@ macro_rules! state_function {
                 ::core::option::Option::Some($value)
             }
         }
-        Function
+        NamedFunction
     }};
     (|$model:ident: $kind:ty, $($arguments:ident),+| $value:expr) => {
         $crate::state_function!(|$model: $kind, _time; $($arguments),+| $value)
@@ -187,7 +187,7 @@ impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
         let found = values.len();
         let lengths = values.iter_mut().map(|s| s.as_mut().len());
         super::check(found, count, "values", found, lengths)?;
-        let states = States {
+        let states = FunctionOfStates {
             function: PhantomData::<F>,
             pendulum: self.pendulum,
             time,
@@ -207,7 +207,7 @@ fn number_of_values<'a, M: 'a, S: 'a, V: StateValues<S>>(
 }
 
 /// All states; lengths checked.
-struct States<'a, F, P, T, In, Out, const A: usize> {
+struct FunctionOfStates<'a, F, P, T, In, Out, const A: usize> {
     function: PhantomData<F>,
     pendulum: &'a P,
     time: T,
@@ -216,7 +216,8 @@ struct States<'a, F, P, T, In, Out, const A: usize> {
     values: &'a mut [Out],
 }
 
-impl<F, P, T, In, Out, const A: usize> RegisterKernel<T> for States<'_, F, P, T, In, Out, A>
+impl<F, P, T, In, Out, const A: usize> RegisterKernel<T>
+    for FunctionOfStates<'_, F, P, T, In, Out, A>
 where
     F: StateFunction<P, T, A>,
     P: Cast<T>,

@@ -235,7 +235,7 @@ pub enum CsvError {
         path: PathBuf,
         /// `"create"` or `"write"`.
         action: &'static str,
-        /// Message of the system.
+        /// The system's error.
         source: io::Error,
     },
     /// A table without columns.

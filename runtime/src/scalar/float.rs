@@ -2,19 +2,18 @@
 
 #[cfg(not(target_arch = "x86_64"))]
 use super::Lanes;
+use super::kind::{ByKind, Compiled};
 use super::lanes::{Lane, Sealed};
 use super::{InstructionSet, Real, Scalar, sincos};
 #[cfg(target_arch = "x86_64")]
 use crate::simd as register;
-use crate::simd::{Kernel, dispatch};
-use crate::simd::{PackKernel, StateKernel, run_f64};
+use crate::simd::{Kernel, PackKernel, StateKernel, dispatch, run_f64};
 
 macro_rules! implement_scalar {
     ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
-     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident $(, $packs:path)?) => {
+     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident, $compiled:ident
+     $(, $packs:path)?) => {
         impl Scalar for $float {
-            const PLAIN: bool = true;
-
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
             fn from_f64(value: f64) -> Self {
@@ -38,6 +37,11 @@ macro_rules! implement_scalar {
                 return $float::sqrt(self);
                 #[cfg(all(feature = "libm", not(feature = "std")))]
                 return libm::$sqrt(self);
+            }
+
+            #[inline(always)]
+            fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
+                question.of_plain()
             }
 
             #[inline]
@@ -80,6 +84,11 @@ macro_rules! implement_scalar {
             type Avx512 = register::$avx512;
             #[cfg(not(target_arch = "x86_64"))]
             type Build = Lanes<$float, $lanes>;
+
+            #[inline(always)]
+            fn compiled<C: Compiled>() -> C::Function<Self> {
+                C::$compiled()
+            }
         }
 
         impl Real for $float {
@@ -124,6 +133,7 @@ implement_scalar!(
     F64x2,
     F64x4,
     F64x8,
+    of_f64,
     run_f64
 );
 implement_scalar!(
@@ -135,7 +145,8 @@ implement_scalar!(
     8,
     F32x4,
     F32x8,
-    F32x16
+    F32x16,
+    of_f32
 );
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::kind::Compiled;
 use super::register::Register;
 use super::{Real, Scalar};
 
@@ -15,7 +16,7 @@ pub trait Lane: Real + Sealed {
 
 /// Keeps other crates from implementing [`Lane`]; the registers of each
 /// instruction set.
-pub trait Sealed: Sized {
+pub trait Sealed: Scalar {
     /// Those of the build.
     type Build: Register<Lane = Self>;
     /// Those of AVX2.
@@ -24,6 +25,9 @@ pub trait Sealed: Sized {
     /// Those of AVX-512.
     #[cfg(target_arch = "x86_64")]
     type Avx512: Register<Lane = Self>;
+
+    /// Returns a function that is compiled with this crate.
+    fn compiled<C: Compiled>() -> C::Function<Self>;
 }
 
 /// `N` numbers that go through the same operations, each in its lane: one

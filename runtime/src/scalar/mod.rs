@@ -39,6 +39,7 @@
 
 mod dual;
 mod float;
+pub(crate) mod kind;
 mod lanes;
 #[cfg(test)]
 mod reference;
@@ -62,9 +63,8 @@ pub(crate) use lanes::Sealed;
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-use crate::simd::Kernel;
-use crate::simd::Part;
-use crate::simd::{PackKernel, Quad, StateKernel};
+use crate::simd::{Kernel, PackKernel, Part, Quad, StateKernel};
+use kind::ByKind;
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
@@ -105,11 +105,6 @@ pub trait Scalar:
     /// need not put them side by side then.
     #[doc(hidden)]
     const SEVERAL: bool = false;
-
-    /// This is `f64` or `f32`: what is long and generic is compiled for them with this
-    /// crate.
-    #[doc(hidden)]
-    const PLAIN: bool = false;
 
     /// The value of this type nearest to `value`; for lanes, the same value in
     /// each. Used for constants, and for them only.
@@ -166,6 +161,13 @@ pub trait Scalar:
 
     /// Square root.
     fn sqrt(self) -> Self;
+
+    /// Answers a question of this crate that depends on the kind of number.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
+        question.of_any()
+    }
 
     /// Runs a computation with the widest registers of the machine that hold such
     /// numbers; with plain numbers where there are none.

@@ -178,11 +178,14 @@ impl<K: RegisterKernel<R::Lane>, R: Register> Kernel for Chosen<K, R> {
     }
 }
 
-/// Runs `kernel` with the registers of `set`, or with the widest that the machine
+/// Runs `kernel` with the wide numbers of `set`, or with the widest that the machine
 /// has, if these are narrower.
+///
+/// For SSE2 these are single numbers: every model would be compiled once more for
+/// registers of two, and hardly a machine runs them.
 #[inline(always)]
 pub(crate) fn run_wide<T: Lane, K: super::Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
-    run_in_registers(set, Wide(kernel))
+    machine::run_wide(set.min(InstructionSet::widest()), kernel)
 }
 
 /// A kernel of any wide numbers as one of registers.

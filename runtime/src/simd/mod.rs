@@ -71,6 +71,16 @@ pub trait Simd<T>: Scalar {
     /// elsewhere.
     fn choose(self, other: Self, mask: Self::Mask) -> Self;
 
+    /// Returns this register's numbers in the first `count` lanes, those of `other` in
+    /// the lanes behind, if there are any.
+    #[inline(always)]
+    fn in_first_lanes(self, count: usize, other: Self) -> Self {
+        match count < Self::LANES {
+            true => self.choose(other, Self::mask(|lane| lane < count)),
+            false => self,
+        }
+    }
+
     /// Returns the larger size, lane by lane; any of the two, or either, where one is
     /// no number.
     fn larger_size(self, other: Self) -> Self

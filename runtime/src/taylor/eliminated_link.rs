@@ -5,7 +5,7 @@ use crate::simd::Pack;
 
 /// A link during the elimination: what it feels of itself and of its children.
 #[derive(Clone, Copy)]
-pub(super) struct Link<P> {
+pub(super) struct EliminatedLink<P> {
     /// J
     pub(super) inertia: P,
     /// K
@@ -20,7 +20,7 @@ pub(super) struct Link<P> {
     pub(super) deficit: [P; 3],
 }
 
-impl<P: Copy> Link<P> {
+impl<P: Copy> EliminatedLink<P> {
     #[inline(always)]
     pub(super) fn none<T: Scalar>() -> Self
     where

@@ -20,7 +20,7 @@
 //! τ = X − q C + T, f = F − g C + n τ, t = −r·f, e = −r × f,
 //! S = τ/J − n·a, Y = K C + q τ/J − (g + q n)·a + Σ e_c.
 //!
-//! What a link hands up without its children, and all that comes after the passes, is
+//! The share of a link alone in what it hands up, and all that comes after the passes, is
 //! computed for several links at once; what goes from link to link is no more than the
 //! sums of what they hand up, and a. A single state waits for that: it is written so that
 //! few operations follow each other.
@@ -28,7 +28,7 @@
 // One index into all arrays at once.
 #![allow(clippy::needless_range_loop)]
 
-use super::eliminated_link::Link;
+use super::eliminated_link::EliminatedLink;
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::linear::LinearSystem;
 use crate::scalar::Scalar;
@@ -41,7 +41,7 @@ pub(super) type Column<T, const Q: usize> = [Quad<T>; Q];
 type Vectors<T, const Q: usize> = [Column<T, Q>; 2];
 
 /// The factors at a start.
-pub(super) struct Elimination<T, const Q: usize> {
+pub(super) struct TaylorElimination<T, const Q: usize> {
     /// 1/J
     inverse_inertia: Column<T, Q>,
     /// K
@@ -62,7 +62,7 @@ pub(super) struct Elimination<T, const Q: usize> {
     of_cosine: Vectors<T, Q>,
 }
 
-impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Elimination<T, Q> {
+impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for TaylorElimination<T, Q> {
     /// Eliminates from the leaves to the root, link by link.
     #[inline(always)]
     fn new<C: Connectivity<N>, W: Pack<T>>(
@@ -81,12 +81,12 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Eliminati
             of_force: [empty; 2],
             of_cosine: [empty; 2],
         };
-        let mut links = [Link::<W::Single>::none(); N];
+        let mut links = [EliminatedLink::<W::Single>::none(); N];
         for i in 0..N {
             let inertia = W::Single::splat(constants.inertias[i]);
             let turn = [start.cosines[i], start.sines[i]].map(W::Single::splat);
             let moment = turned::<T, W::Single>(constants.moments[i], turn, C::LATERAL);
-            links[i] = Link::alone::<T>(inertia, moment);
+            links[i] = EliminatedLink::alone::<T>(inertia, moment);
         }
         for i in (0..N).rev() {
             let mut link = links[i];
@@ -178,7 +178,7 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Eliminati
     }
 }
 
-impl<T: Scalar, const Q: usize> Elimination<T, Q> {
+impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
     /// From the leaves to the root: the sums of what the children of each link hand up,
     /// from what each would hand up without children.
     #[inline(always)]
@@ -256,7 +256,7 @@ impl<T: Scalar, const Q: usize> Elimination<T, Q> {
     }
 }
 
-/// What links hand to their parents, or the sums of what they get.
+/// Numbers that links hand to their parents, or the sums of those that they get.
 struct Handed<T, const Q: usize> {
     /// t
     torque: Column<T, Q>,

@@ -16,9 +16,9 @@
 //! formed once and serves all orders. From order 28 on, which is that of tolerances near rounding,
 //! the S of order 0 is refined once more.
 
-use super::bias::{Bias, Constant, Moving};
+use super::bias::{Bias, ConstantBias, MovingBias};
 use super::dense::Matrices;
-use super::elimination::Elimination;
+use super::elimination::TaylorElimination;
 use super::orders::Orders;
 use super::series::SERIES;
 use crate::scalar::Scalar;
@@ -68,7 +68,7 @@ pub struct Start<'a, T, const N: usize> {
     pub sines: [T; N],
     /// cos θ.
     pub cosines: [T; N],
-    /// What else stands in the equation of motion, Σ M_ij α_j + … + bias_i = 0.
+    /// Bias of the equation of motion, Σ M_ij α_j + … + bias_i = 0.
     pub bias: [T; N],
 }
 
@@ -151,8 +151,8 @@ pub fn expand<T: Scalar, C: Connectivity<N>, const N: usize, const Q: usize, F>(
         *row = [*angles, *start.omega];
     }
     match bias {
-        Some(bias) => run::<T, C, _, N, Q>(start, constants, coefficients, work, Moving(bias)),
-        None => run::<T, C, _, N, Q>(start, constants, coefficients, work, Constant),
+        Some(bias) => run::<T, C, _, N, Q>(start, constants, coefficients, work, MovingBias(bias)),
+        None => run::<T, C, _, N, Q>(start, constants, coefficients, work, ConstantBias),
     }
 }
 
@@ -176,7 +176,7 @@ fn run<T: Scalar, C: Connectivity<N>, B: Bias<T, N>, const N: usize, const Q: us
     let (rows, _) = vectors.as_chunks_mut::<SERIES>();
     if T::SEVERAL {
         type Lanes<'a, T, C, B, const N: usize, const Q: usize> =
-            Orders<'a, T, C, B, Elimination<T, Q>, N, Q, N>;
+            Orders<'a, T, C, B, TaylorElimination<T, Q>, N, Q, N>;
         Lanes::<T, C, B, N, Q>::new(start, constants, coefficients, rows, bias)
             .form::<OneLink<T>>();
     } else if N <= MATRICES {
@@ -191,7 +191,7 @@ fn run<T: Scalar, C: Connectivity<N>, B: Bias<T, N>, const N: usize, const Q: us
         ));
     } else {
         type Large<'a, T, C, B, const N: usize, const Q: usize> =
-            Orders<'a, T, C, B, Elimination<T, Q>, N, Q, Q>;
+            Orders<'a, T, C, B, TaylorElimination<T, Q>, N, Q, Q>;
         T::run_packs(Large::<T, C, B, N, Q>::new(
             start,
             constants,

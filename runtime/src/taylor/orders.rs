@@ -225,7 +225,7 @@ impl<P, const M: usize> Weight<P, M> {
     }
 }
 
-/// What a torque may depend on, in order k; `row` has γ and σ of that order.
+/// State that a torque may depend on, in order k; `row` has γ and σ of that order.
 #[inline(always)]
 fn known<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
     k: usize,

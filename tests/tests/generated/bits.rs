@@ -69,7 +69,7 @@ impl<const S: usize> Values for Budget<f64, S> {
 macro_rules! agree {
     ($scene:literal, $model:expr, $parameters:expr, $n:literal,
      $(timed: [$($timed:ident),*], rates: [$($rates:ident),*],)?
-     $(forces: [$($forces:ident),*], none: [$($none:ident),*],)?
+     $(forces: [$($forces:ident),*], under: [$($under:ident),*], none: [$($none:ident),*],)?
      two: [$($two:ident),*], one: [$($one:ident),*]) => {{
         let stages = scene($scene);
         let model = $model;
@@ -80,6 +80,7 @@ macro_rules! agree {
             let first: [f64; $n] = random.array(-4.0, 4.0);
             let second: [f64; $n] = random.array(-9.0, 9.0);
             let time = random.between(-5.0, 50.0);
+            let third: [f64; $n] = random.array(-2.0, 2.0);
             let pushes: [[f64; 2]; $n] = std::array::from_fn(|_| random.array(-3.0, 3.0));
             let input = |argument: Argument, index: usize| match argument {
                 Argument::Omega
@@ -87,6 +88,7 @@ macro_rules! agree {
                 | Argument::AbsoluteMomenta
                 | Argument::Momenta => second[index],
                 Argument::Time => time,
+                Argument::Torques => third[index],
                 Argument::Forces => pushes[index / 2][index % 2],
                 _ => first[index],
             };
@@ -98,6 +100,8 @@ macro_rules! agree {
                 assert_eq!(bits(&compiled), bits(&interpreted), "{name} at {first:?}, {second:?}");
             };
             $($(compare(stringify!($forces), model.$forces(&first, &pushes).values());
+                checked += 1;)*
+            $(compare(stringify!($under), model.$under(&first, &second, &third).values());
                 checked += 1;)*
             $(compare(stringify!($none), model.$none().values()); checked += 1;)*)?
             $($(compare(stringify!($timed), model.$timed(time, &first, &second).values());
@@ -118,7 +122,8 @@ fn branch() {
         twig_length: 0.2,
     };
     agree!("branch", Branch::new(parameters).unwrap(), [0.03, 0.2], 5,
-        forces: [pivot_torques, centre_torques, end_torques], none: [link_properties],
+        forces: [pivot_torques, centre_torques, end_torques], under: [accelerations_under],
+        none: [link_properties],
         two: [accelerations, kinetic_energy, momenta, velocities, canonical_rates,
               pivot_velocities, centre_velocities, end_velocities],
         one: [potential_energy, pivots, centres, ends]);

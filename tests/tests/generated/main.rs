@@ -4,6 +4,7 @@ mod any_number;
 mod bits;
 mod fused;
 mod generations;
+mod hints;
 mod hygiene;
 mod loop_states;
 mod loops;

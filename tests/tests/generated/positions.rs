@@ -3,7 +3,7 @@
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum::system::{LinkPoint, OdeFn};
+use branched_pendulum::system::{LinkPoint, OdeFn, UnderTorques};
 use branched_pendulum_codegen::scene::{Offset, Quantity};
 use branched_pendulum_tests::oracle::points::Place;
 use branched_pendulum_tests::oracle::{Link, Tree};
@@ -286,6 +286,22 @@ fn wind_on_all_links_balances_the_energy() {
     let brought = end[10];
     assert!(energy(&end) > 0.05);
     assert!((energy(&end) - energy(&start.values) - brought).abs() < 1e-10);
+
+    // The same motion in angles and angular velocities.
+    let blown = UnderTorques::new(
+        &model,
+        |time: f64, theta: &[f64], omega: &[f64], out: &mut [f64]| {
+            let (theta, omega) = (theta.try_into().unwrap(), omega.try_into().unwrap());
+            out.copy_from_slice(&torques(time, theta, omega));
+        },
+    );
+    let start = State::at_rest(0.0, &[0.0; 5]);
+    let found = method.integrate(&blown, &start, 10.0, |_| ControlFlow::Continue(()));
+    let found = found.unwrap().state.values;
+    let omega = model.velocities(end[..5].try_into().unwrap(), end[5..10].try_into().unwrap());
+    for (found, expected) in found.iter().zip(end[..5].iter().chain(&omega)) {
+        assert!((found - expected).abs() < 1e-8, "{found} {expected}");
+    }
 }
 
 /// −c ω² of the limb's pivot, −k ω² of the twigs.

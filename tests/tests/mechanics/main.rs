@@ -9,6 +9,7 @@ mod letters;
 mod nested_observables;
 mod observables;
 mod orders;
+mod outside;
 mod paper;
 mod parameters;
 mod random_trees;

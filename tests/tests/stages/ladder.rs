@@ -18,7 +18,7 @@ struct Step {
     changes: &'static [&'static str],
 }
 
-const LADDER: [Step; 7] = [
+const LADDER: [Step; 8] = [
     Step {
         name: "accelerations",
         friction: false,
@@ -44,21 +44,27 @@ const LADDER: [Step; 7] = [
         changes: &[],
     },
     Step {
+        name: "outside forces",
+        friction: true,
+        requests: "energies, positions, forces",
+        changes: &[],
+    },
+    Step {
         name: "symmetric coordinates",
         friction: true,
-        requests: "energies, positions, symmetric",
+        requests: "energies, positions, forces, symmetric",
         changes: &[],
     },
     Step {
         name: "one W",
         friction: true,
-        requests: "energies, positions, symmetric, transfer(amplitude = 2)",
+        requests: "energies, positions, forces, symmetric, transfer(amplitude = 2)",
         changes: &[],
     },
     Step {
         name: "all W",
         friction: true,
-        requests: "energies, positions, symmetric, transfer(angle = 1, amplitude = 2, amplitude = 4, exact)",
+        requests: "energies, positions, forces, symmetric, transfer(angle = 1, amplitude = 2, amplitude = 4, exact)",
         changes: &[],
     },
 ];

@@ -83,6 +83,7 @@ fn branch() {
             "end_torques",
             "link_properties",
             "points_into",
+            "accelerations_under",
         ],
     );
     operations("branch");

@@ -1,4 +1,4 @@
-//! What the root of a tree in loops takes from above.
+//! Apparent gravity and torque at the root of a tree in loops.
 
 use super::strips::Table;
 use crate::mechanics::{DriveTerms, Mechanics};

@@ -50,7 +50,7 @@ pub struct Strips {
     pub has_several_places: bool,
     /// True if joints have torques.
     pub has_joint_torques: bool,
-    /// Whether a torque acts on the root.
+    /// True if a torque acts on the root.
     pub has_drive_torque: bool,
 }
 
@@ -81,7 +81,7 @@ impl Table {
         shared(builder, rows.map(|(row, _)| row[column as usize]))
     }
 
-    /// The same of all that hang from a parent.
+    /// Number that all links but the root have in a column, if it is one.
     pub(super) fn common_of_children(&self, builder: &Builder, column: Column) -> Option<Rational> {
         shared(
             builder,

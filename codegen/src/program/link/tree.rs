@@ -20,7 +20,7 @@ struct Sweep<'s> {
     responses: Vec<Option<Response>>,
 }
 
-/// What the way down needs of a link.
+/// Factors of a link for the way down.
 struct Solved {
     elimination: Elimination,
     /// The pivots on the link and what hangs from each.

@@ -56,11 +56,11 @@ impl<T: Scalar> Tangent<T> for Dual<T, 1> {
 pub struct ByTangents<O, D, Q = O> {
     ode: O,
     tangents: Q,
-    memory: RefCell<Memory<D>>,
+    memory: RefCell<TangentMemory<D>>,
 }
 
-/// Memory for one evaluation.
-struct Memory<D> {
+/// TangentMemory for one evaluation.
+struct TangentMemory<D> {
     state: Vec<D>,
     rates: Vec<D>,
     workspace: Workspace<D>,
@@ -123,7 +123,7 @@ impl<O, D: Scalar, Q> ByTangents<O, D, Q> {
         Self {
             ode,
             tangents,
-            memory: RefCell::new(Memory {
+            memory: RefCell::new(TangentMemory {
                 state: Vec::new(),
                 rates: Vec::new(),
                 workspace: Workspace::new(),

@@ -2,8 +2,9 @@
 
 use core::marker::PhantomData;
 
-use super::super::{Fused, Simd};
-use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel};
+use super::super::{Fused, Kernel as WideKernel, Simd};
+use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel, Wide};
+use crate::scalar::Lane;
 
 #[inline(always)]
 pub(super) fn widest() -> InstructionSet {
@@ -35,6 +36,11 @@ pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
     kernel: K,
 ) -> K::Output {
     Chosen::<K, T::Build>(kernel, PhantomData).run()
+}
+
+#[inline(always)]
+pub(super) fn run_wide<T: Lane, K: WideKernel<T>>(_set: InstructionSet, kernel: K) -> K::Output {
+    Chosen::<Wide<K>, T::Build>(Wide(kernel), PhantomData).run()
 }
 
 #[inline(always)]

@@ -6,8 +6,9 @@ use core::marker::PhantomData;
 use core::slice;
 use core::sync::atomic::{AtomicU8, Ordering};
 
-use super::super::{Fused, Simd};
-use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel};
+use super::super::{Fused, Kernel as WideKernel, Simd};
+use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel, Wide};
+use crate::scalar::Lane;
 
 /// 0 before the first question, then 1 + the answer.
 static WIDEST: AtomicU8 = AtomicU8::new(0);
@@ -183,6 +184,25 @@ pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
         // SAFETY: likewise.
         InstructionSet::Avx512 => unsafe { avx512(Chosen::<K, T::Avx512>(kernel, PhantomData)) },
     }
+}
+
+#[inline(always)]
+pub(super) fn run_wide<T: Lane, K: WideKernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
+    match set {
+        InstructionSet::Build => one_by_one(kernel),
+        // SAFETY: `set` is no wider than what `widest` has found.
+        InstructionSet::Avx2 => unsafe { avx2(Chosen::<_, T::Avx2>(Wide(kernel), PhantomData)) },
+        // SAFETY: `set` is no wider than what `widest` has found.
+        InstructionSet::Avx512 => unsafe {
+            avx512(Chosen::<_, T::Avx512>(Wide(kernel), PhantomData))
+        },
+    }
+}
+
+/// In single numbers.
+#[inline(never)]
+fn one_by_one<T: Lane, K: WideKernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<T>()
 }
 
 #[inline(never)]

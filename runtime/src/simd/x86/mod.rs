@@ -13,7 +13,7 @@ use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 use core::slice::from_raw_parts_mut;
 
-use super::permutation::{rotated, tiled};
+use super::permutation::{first_lanes, rotated, tiled};
 use super::{Fused, Register, Simd};
 use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, words_of_sse2};
 
@@ -139,6 +139,21 @@ macro_rules! register {
             fn choose(self, other: Self, mask: Self) -> Self {
                 // SAFETY: see the top.
                 Self(unsafe { $or($and(mask.0, self.0), $andnot(mask.0, other.0)) })
+            }
+
+            #[inline(always)]
+            fn in_first_lanes(self, count: usize, other: Self) -> Self {
+                static MASKS: [[u32; $count]; $lanes] = first_lanes();
+                match MASKS.get(count) {
+                    Some(mask) => {
+                        // SAFETY: as many bits, any of which are numbers.
+                        let mask = Self(unsafe {
+                            core::mem::transmute::<[u32; $count], $vector>(*mask)
+                        });
+                        Simd::<$lane>::choose(self, other, mask)
+                    }
+                    None => self,
+                }
             }
 
             #[inline(always)]
