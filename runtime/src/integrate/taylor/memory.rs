@@ -10,6 +10,7 @@ use crate::integrate::options::Options;
 use crate::integrate::request::all_finite;
 use crate::scalar::Real;
 use crate::simd::Quad;
+use crate::simd::run_packs;
 
 /// Workspace for a state of fixed dimension and polynomials of fixed order.
 #[derive(Clone, Debug)]
@@ -62,7 +63,7 @@ impl<T: Real> Memory<T> {
     pub(super) fn step_length(&self) -> T {
         let n = self.start.len();
         let mut ratios = [T::ZERO; 2];
-        T::run_packs(LastTerms {
+        run_packs::<T, _>(LastTerms {
             coefficients: &self.coefficients[(self.order - 1) * n..],
             start: &self.start,
             relative: &self.relative,
@@ -85,7 +86,7 @@ impl<T: Real> Memory<T> {
     pub(super) fn make(&mut self, step: T, compensated: bool) {
         self.step = step;
         let residues = (&self.start_residue[..], &mut self.end_residue[..]);
-        T::run_packs(Ahead {
+        run_packs::<T, _>(Ahead {
             coefficients: &self.coefficients,
             tau: step,
             start: &self.start,
@@ -115,7 +116,7 @@ impl<T: Real> Interpolant<T> for Memory<T> {
     }
 
     fn value(&self, fraction: T, out: &mut [T]) {
-        T::run_packs(Ahead {
+        run_packs::<T, _>(Ahead {
             coefficients: &self.coefficients,
             tau: fraction * self.step,
             start: &self.start,
