@@ -98,7 +98,10 @@ where
     /// read what is behind a reference again after everything that is written.
     #[inline(always)]
     pub(super) fn links(&self) -> LinkCells<T> {
-        self.view.cells(Self::SIZES, Self::IN_ROWS)
+        match Self::IN_ROWS {
+            true => self.view.rows(Self::SIZES),
+            false => self.view.columns(),
+        }
     }
 
     /// The constants of a generation; zeros if it has none.
