@@ -256,7 +256,7 @@ mod machine {
             // SAFETY: the machine has what the functions are compiled for, since
             // `widest` has asked for it.
             InstructionSet::Avx2 => unsafe { fused(kernel) },
-            // SAFETY: likewise.
+            // SAFETY: `widest` has asked for AVX-512.
             InstructionSet::Avx512 => unsafe { in_more_registers(kernel) },
         }
     }
@@ -280,70 +280,68 @@ mod machine {
     #[derive(Clone, Copy)]
     struct Register(__m256d);
 
-    // SAFETY, of all calls below: `Register` is named in `fused`, which runs on
-    // machines with AVX2 and FMA, and in `in_more_registers`, whose features
-    // include these, alone. Loads and stores go through
-    // references to 32 bytes that are aligned to 32 bytes, `Quad<f64>`.
     impl Pack<f64> for Register {
         type Single = FusedNumber;
 
         #[inline(always)]
         fn splat(value: f64) -> Self {
-            // SAFETY: see above.
+            // SAFETY: AVX2 and FMA are there where this type is named.
             Self(unsafe { _mm256_set1_pd(value) })
         }
 
         #[inline(always)]
         fn load(numbers: &[Quad<f64>], index: usize) -> Self {
-            // SAFETY: see above.
+            // SAFETY: AVX2 is there where this type is named; a `Quad<f64>` is 32 bytes,
+            // aligned to 32 bytes.
             Self(unsafe { _mm256_load_pd(numbers[index].0.as_ptr()) })
         }
 
         #[inline(always)]
         fn store(self, numbers: &mut [Quad<f64>], index: usize) {
-            // SAFETY: see above.
+            // SAFETY: AVX2 is there where this type is named; a `Quad<f64>` is 32 bytes,
+            // aligned to 32 bytes.
             unsafe { _mm256_store_pd(numbers[index].0.as_mut_ptr(), self.0) }
         }
 
         #[inline(always)]
         fn plus(self, other: Self) -> Self {
-            // SAFETY: see above.
+            // SAFETY: AVX2 and FMA are there where this type is named.
             Self(unsafe { _mm256_add_pd(self.0, other.0) })
         }
 
         #[inline(always)]
         fn minus(self, other: Self) -> Self {
-            // SAFETY: see above.
+            // SAFETY: AVX2 and FMA are there where this type is named.
             Self(unsafe { _mm256_sub_pd(self.0, other.0) })
         }
 
         #[inline(always)]
         fn times(self, other: Self) -> Self {
-            // SAFETY: see above.
+            // SAFETY: AVX2 and FMA are there where this type is named.
             Self(unsafe { _mm256_mul_pd(self.0, other.0) })
         }
 
         #[inline(always)]
         fn plus_product(self, a: Self, b: Self) -> Self {
-            // SAFETY: see above.
+            // SAFETY: AVX2 and FMA are there where this type is named.
             Self(unsafe { _mm256_fmadd_pd(a.0, b.0, self.0) })
         }
 
         #[inline(always)]
         fn minus_product(self, a: Self, b: Self) -> Self {
-            // SAFETY: see above.
+            // SAFETY: AVX2 and FMA are there where this type is named.
             Self(unsafe { _mm256_fnmadd_pd(a.0, b.0, self.0) })
         }
 
         #[inline(always)]
         fn reciprocal(self) -> Self {
-            // SAFETY: see above.
+            // SAFETY: AVX2 and FMA are there where this type is named.
             Self(unsafe { _mm256_div_pd(_mm256_set1_pd(1.0), self.0) })
         }
 
         #[inline(always)]
         fn broadcast<const INDEX: usize>(self) -> Self {
-            // SAFETY: see above.
+            // SAFETY: AVX2 and FMA are there where this type is named.
             Self(unsafe {
                 match INDEX {
                     0 => _mm256_permute4x64_pd::<0b00_00_00_00>(self.0),
