@@ -8,11 +8,13 @@
 //! tokens -> Description -> Scene -> Mechanics -> Program -> tokens
 //! ```
 //!
-//! [`expand`] is the whole pipeline, [`stages`] gives what it passes through, and
-//! [`layout`] writes the tokens as text. The derivation uses
+//! [`expand`] is the whole pipeline, [`stages`] gives what it passes through,
+//! [`ExpansionCache`] keeps its results between builds, and [`layout`] writes the
+//! tokens as text. The derivation uses
 //! [Symbolica](https://symbolica.io) behind one door, `mechanics::algebra`;
 //! what is emitted is free of it.
 
+mod cache;
 pub mod description;
 pub mod emit;
 pub mod exact;
@@ -22,6 +24,7 @@ pub mod program;
 pub mod report;
 pub mod scene;
 
+pub use cache::ExpansionCache;
 pub use layout::layout;
 
 use description::Description;

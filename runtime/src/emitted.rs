@@ -6,6 +6,8 @@ pub use crate::requirements::{
 };
 pub use crate::scalar::Turns;
 pub use crate::simd::{Part, outlined};
+pub use crate::system::positions::{fill, properties};
+pub use crate::system::{WholeMotion, WholeOrbit};
 
 /// The recurrences of Taylor coefficients.
 pub mod taylor {

@@ -8,8 +8,11 @@
 //!             | "solve" "=" name
 //!             | "code" "=" name
 //!             | "emit" "(" [ request { "," request } [ "," ] ] ")"
+//!             | "parameters" "(" [ name { "," name } [ "," ] ] ")"
 //!             | "drive" "(" [ property { "," property } [ "," ] ] ")"
 //!             | "observe" "(" [ observable { "," observable } [ "," ] ] ")"
+//!             | "in_phase" "(" [ name { "," name } [ "," ] ] ")"
+//!             | "locked" "(" name "," expression ")"
 //!             | link
 //! link        = name [ ":" shape ] "(" [ property { "," property } [ "," ] ] ")"
 //!               [ "[" [ link { "," link } [ "," ] ] "]" ] [ "*" integer ]
@@ -29,7 +32,8 @@
 //!
 //! Unlike in Rust, `^` is a power and binds tightest: `-a^2` is `-(a^2)`. A
 //! `decimal` is read exactly; a `name` is a parameter of the model, the same
-//! name being the same parameter everywhere. In observables a `name` is a symbol
+//! name being the same parameter everywhere; where `parameters(...)` declares them, no
+//! other name is one. In observables a `name` is a symbol
 //! of the scene (an angle, a velocity, a momentum, a parameter, a constant of the
 //! model), and only they and drives have functions. A pair is a point of a link,
 //! `(along, lateral)`; a single value there means `(along, 0)`. Which properties,
@@ -62,6 +66,8 @@ pub struct Description {
     pub solve: Option<(Ident, Ident)>,
     /// `code = ...`: the two names.
     pub code: Option<(Ident, Ident)>,
+    /// `parameters(...)`.
+    pub parameters: Option<ParameterClause>,
     /// `drive(...)`.
     pub drive: Option<DriveClause>,
     /// The links at the top level; a right description has one.
@@ -70,9 +76,36 @@ pub struct Description {
     pub requests: Vec<Request>,
     /// Members of `observe(...)`.
     pub observables: Vec<ObservableClause>,
+    /// `in_phase(...)` and `locked(...)`.
+    pub reductions: Reductions,
     /// True if part of it was unreadable, which is reported already: anything
     /// that is missing may have stood there.
     pub damaged: bool,
+}
+
+/// Links that get no coordinate of their own.
+#[derive(Debug, Clone, Default)]
+pub struct Reductions {
+    /// Nodes whose copies move alike.
+    pub in_phase: Vec<Ident>,
+    /// Links whose joint does not move.
+    pub locked: Vec<LockedClause>,
+}
+
+impl Reductions {
+    /// Returns true if every link keeps its coordinate.
+    pub fn is_empty(&self) -> bool {
+        self.in_phase.is_empty() && self.locked.is_empty()
+    }
+}
+
+/// A joint that does not move.
+#[derive(Debug, Clone)]
+pub struct LockedClause {
+    /// The link.
+    pub link: Ident,
+    /// Its angle to the link that it hangs from, rad.
+    pub angle: Expression,
 }
 
 impl Description {
@@ -116,6 +149,15 @@ pub struct StructItem {
     /// The item as it was given, to be repeated where nothing else can be
     /// emitted.
     pub tokens: TokenStream,
+}
+
+/// The declaration of all parameters.
+#[derive(Debug, Clone)]
+pub struct ParameterClause {
+    /// The declared names.
+    pub names: Vec<Ident>,
+    /// True if part of it was unreadable, which is reported already.
+    pub damaged: bool,
 }
 
 /// The motion and the torque that are imposed from outside.

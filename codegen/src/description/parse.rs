@@ -12,8 +12,8 @@ use super::list::{
     List, ListFault, brackets, colon, expected, group, identifier, list, parse_all, take,
 };
 use super::{
-    Description, DriveClause, Expression, Multiplicity, Node, ObservableClause, Property, Request,
-    RequestForm, StructItem, Value,
+    Description, DriveClause, Expression, LockedClause, Multiplicity, Node, ObservableClause,
+    ParameterClause, Property, Reductions, Request, RequestForm, StructItem, Value,
 };
 use crate::report::{Diagnostic, Message, Report};
 
@@ -50,10 +50,12 @@ pub fn parse(
         gravity: None,
         solve: None,
         code: None,
+        parameters: None,
         drive: None,
         roots: Vec::new(),
         requests: Vec::new(),
         observables: Vec::new(),
+        reductions: Reductions::default(),
         damaged: entries.damaged,
     };
     let (mut emits, mut observes) = (0, 0);
@@ -83,6 +85,11 @@ pub fn parse(
                     report.error(span, message);
                 }
             }
+            Member::Parameters(name, clause) => {
+                if description.parameters.replace(clause).is_some() {
+                    report.error(name.span(), Message::duplicate_property(&name));
+                }
+            }
             Member::Drive(drive) => {
                 let span = drive.name.span();
                 let message = Message::duplicate_property(&drive.name);
@@ -109,6 +116,8 @@ pub fn parse(
                 }
                 description.observables.extend(observables);
             }
+            Member::InPhase(nodes) => description.reductions.in_phase.extend(nodes),
+            Member::Locked(clause) => description.reductions.locked.push(clause),
             Member::Link(node) => description.roots.push(node),
         }
     }
@@ -184,9 +193,12 @@ enum Member {
     Gravity(Property),
     Solve(Ident, Ident),
     Code(Ident, Ident),
+    Parameters(Ident, ParameterClause),
     Drive(DriveClause),
     Emit(Ident, Vec<Request>),
     Observe(Ident, Vec<ObservableClause>),
+    InPhase(Vec<Ident>),
+    Locked(LockedClause),
     Link(Node),
 }
 
@@ -208,6 +220,15 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFaul
         let requests = group(input, Delimiter::Parenthesis, "`(` and what to emit")?;
         return Ok(Member::Emit(name, list(requests, report, request).members));
     }
+    if name == "parameters" && declares(input) {
+        let names = group(input, Delimiter::Parenthesis, "`(` and names")?;
+        let names = list(names, report, |input, _| identifier(input, "a name"));
+        let clause = ParameterClause {
+            names: names.members,
+            damaged: names.damaged,
+        };
+        return Ok(Member::Parameters(name, clause));
+    }
     if name == "drive" && !input.peek(Token![:]) {
         let parts = group(
             input,
@@ -226,10 +247,39 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFaul
         let observables = list(observables, report, observable);
         return Ok(Member::Observe(name, observables.members));
     }
+    if name == "in_phase" {
+        let nodes = group(input, Delimiter::Parenthesis, "`(` and links")?;
+        let node = |input: ParseStream<'_>, _: &mut Report| {
+            identifier(input, "a link with copies, or `all`")
+        };
+        return Ok(Member::InPhase(list(nodes, report, node).members));
+    }
+    if name == "locked" {
+        let inside = group(input, Delimiter::Parenthesis, "`(`, a link and an angle")?;
+        let clause = parse_all(inside, |input| {
+            let link = identifier(input, "a link, as in `locked(arm, 0.3)`")?;
+            take::<Token![,]>(input, "`,` and an angle in rad, as in `locked(arm, 0.3)`")?;
+            let angle = Expression::parse(input)?;
+            Ok(LockedClause { link, angle })
+        })?;
+        return Ok(Member::Locked(clause));
+    }
     if name == "gravity" || name == "crate" {
         return Err(expected(input, "`=` and a value"));
     }
     node(name, input, report).map(Member::Link)
+}
+
+/// Returns true if parentheses without values follow: a link may be called
+/// `parameters` too.
+fn declares(input: ParseStream<'_>) -> bool {
+    match input.cursor().group(Delimiter::Parenthesis) {
+        Some((inside, ..)) => {
+            let value = inside.ident().and_then(|(_, rest)| rest.punct());
+            value.is_none_or(|(mark, _)| mark.as_char() != '=')
+        }
+        None => false,
+    }
 }
 
 /// `crate = path`, `gravity = value`, `solve = name` or `code = name`, after the

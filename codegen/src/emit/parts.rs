@@ -166,8 +166,18 @@ impl Emission<'_> {
         let values = entry.outputs.iter().map(|&id| match *self.op(id) {
             Op::Input(Argument::Time, _) => self.bound(id, locals, Binding::Sum),
             Op::Input(argument, index) => {
-                let (name, index) = (ident(argument.name()), Literal::usize_unsuffixed(index));
-                quote!(#name[#index])
+                let name = ident(argument.name());
+                let place = |index| Literal::usize_unsuffixed(index);
+                match argument {
+                    Argument::Forces => {
+                        let (link, axis) = (place(index / 2), place(index % 2));
+                        quote!(#name[#link][#axis])
+                    }
+                    _ => {
+                        let index = place(index);
+                        quote!(#name[#index])
+                    }
+                }
             }
             Op::Number(ref number) => number_tokens(number),
             Op::Constant(_) => self.bound(id, locals, Binding::Sum),

@@ -18,6 +18,13 @@ impl Emission<'_> {
             "" => None,
             note => Some(quote!(#[doc = #note])),
         };
+        let (zero, rest) = match self.has_rest_angles() {
+            true => (self.zero_of_potential(), " − ρ"),
+            false => (self.zero_of_potential(), ""),
+        };
+        let potential = doc_lines(&[format!(
+            "Potential energy U (in J) at angles `theta` (in rad), {zero}: Σ m g h + ½ κ (θ − θ_parent{rest})² over the links, h being the height of their centres of mass, κ the stiffness of torsion springs. NaN for a slice of another length than there are links. O(links)."
+        )]);
         quote! {
             /// Kinetic energy K (in J) at angles `theta` (in rad) and angular velocities
             /// `omega` (in rad/s): Σ ½ m **V**² + ½ I ω² over the links, **V** being the
@@ -29,10 +36,7 @@ impl Emission<'_> {
                 #energy::kinetic_energy_of(self, theta, omega)
             }
 
-            /// Potential energy U (in J) at angles `theta` (in rad), zero where all are
-            /// zero: Σ m g h + ½ κ (θ − θ_parent)² over the links, h being the height of
-            /// their centres of mass, κ the stiffness of torsion springs. NaN for a slice
-            /// of another length than there are links. O(links).
+            #potential
             #[must_use]
             pub fn potential_energy(&self, theta: &[T]) -> T {
                 #energy::potential_energy_of(self, theta)

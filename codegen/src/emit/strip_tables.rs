@@ -4,14 +4,14 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{number_tokens, part_tokens};
-use crate::program::{ConstantId, ConstantOp, Op, Purpose, Strips, ValueId};
-use crate::scene::Layout;
+use crate::program::{ConstantId, ConstantOp, Op, Purpose, Strip, Strips, ValueId};
+use crate::scene::{LINK_PROPERTIES, Layout};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Columns of bodies, d along and e across the link.
-const BODIES: [&str; 12] = [
+const BODIES: [&str; 13] = [
     "half of the mass m (kg)",
     "first moment m d about the pivot (kg m)",
     "first moment m e across the link (kg m)",
@@ -22,6 +22,7 @@ const BODIES: [&str; 12] = [
     "g m d (J)",
     "g m e (J)",
     "half of the torsion spring's stiffness (N m)",
+    "angle at which the torsion spring is at rest (rad)",
     "friction c in the pivot (N m s)",
     "drag k against the ground (N m s)",
 ];
@@ -71,17 +72,34 @@ impl Emission<'_> {
                 (table, Some(value))
             }
         };
+        let properties = strips.strips.iter();
+        let properties = properties.filter_map(|strip| strip.properties.as_ref());
+        let properties: Vec<&[ConstantId]> = properties.map(|row| row.as_slice()).collect();
+        let (property_table, property_field) = match properties.is_empty() {
+            true => (TokenStream::new(), None),
+            false => {
+                let columns = LINK_PROPERTIES.map(str::to_owned);
+                let name = format_ident!("properties");
+                let [table, rows] = self.table(&name, "positions", &columns, properties, &known);
+                let value = quote! {
+                    properties:
+                        #runtime::tree::PropertyTable::new(#runtime::tree::Shape::#shape, #rows)
+                };
+                (table, Some(value))
+            }
+        };
         let stored = self.stored_constants();
         let stored = stored.iter().map(|&id| {
             let field = self.field(id);
             let value = self.known_value(id, &known);
             quote!(#field: #value)
         });
-        let fields = body_field.into_iter().chain(stored);
+        let fields = body_field.into_iter().chain(property_field).chain(stored);
         quote! {
             #parents
             #table
             #body_table
+            #property_table
             #(#lines)*
             Self {
                 tree: #runtime::tree::Tree::#tree,
@@ -94,8 +112,8 @@ impl Emission<'_> {
     /// of the drive, and their names.
     fn formed_constants(&self, strips: &Strips) -> (Vec<TokenStream>, BTreeMap<ConstantId, Ident>) {
         let rows = strips.strips.iter();
-        let rows = rows.flat_map(|strip| strip.constants.iter().chain(strip.body.iter().flatten()));
-        let mut wanted: Vec<ConstantId> = rows.copied().collect();
+        let rows = rows.flat_map(Strip::all_constants);
+        let mut wanted: Vec<ConstantId> = rows.collect();
         wanted.extend(self.stored_constants());
         wanted.extend(self.root_constants());
         let setup = &self.program.setup;

@@ -10,6 +10,7 @@ use super::expression::{Expr, SymbolId, Symbols};
 use super::lock::{DerivationLock, LockError};
 use super::work_limit::{MOST_TERMS, TooManyTerms, spend};
 use crate::exact::Rational;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 use symbolica::atom::{Atom, AtomCore, AtomView, Symbol as AlgebraSymbol};
@@ -116,8 +117,16 @@ impl fmt::Debug for Formula {
     }
 }
 
+thread_local! {
+    /// Symbols of the derivation on this thread, by number: to find one by its name
+    /// takes as long as a product.
+    static SYMBOLS: RefCell<BTreeMap<SymbolId, AlgebraSymbol>> =
+        const { RefCell::new(BTreeMap::new()) };
+}
+
 fn algebra_symbol(id: SymbolId) -> AlgebraSymbol {
-    symbol!(format!("branched_pendulum::x{}", id.0).as_str())
+    let named = || symbol!(format!("branched_pendulum::x{}", id.0).as_str());
+    SYMBOLS.with_borrow_mut(|known| *known.entry(id).or_insert_with(named))
 }
 
 impl Formula {

@@ -24,6 +24,8 @@ pub struct Joint {
     pub drag: Expr,
     /// Stiffness of the torsion spring in the pivot.
     pub spring: Expr,
+    /// Relative angle at which the spring is at rest.
+    pub rest: Expr,
 }
 
 /// The quantities from which the articulated recursion is formed.
@@ -68,6 +70,7 @@ impl Derivation<'_> {
                 friction: optional(&link.friction, "c"),
                 drag: optional(&link.drag, "k"),
                 spring: optional(&link.spring, "κ"),
+                rest: optional(&link.rest, "ρ"),
             }
         });
         Articulation {

@@ -46,46 +46,66 @@ impl Derivation<'_> {
     /// Row of `∂(x, y)/∂θ_i` of the point `offset` on link `i`:
     /// x = a sin θ + b cos θ, y = −a cos θ + b sin θ.
     fn lever(&self, offset: &Offset, angle: SymbolId) -> (Formula, Formula) {
-        let (cos, sin) = (
-            Formula::symbol(self.cos(angle)),
-            Formula::symbol(self.sin(angle)),
-        );
         let (along, lateral) = (self.quantity(&offset.along), self.quantity(&offset.lateral));
-        let x = &(&along * &sin) + &(&lateral * &cos);
-        let y = &(&lateral * &sin) - &(&along * &cos);
+        let [x, y] = self.point_at(&along, &lateral, angle);
         (self.partial(&x, angle), self.partial(&y, angle))
+    }
+
+    /// Points of each link at which it carries weight, with that weight: its centre of
+    /// mass, and the pivots of its children with all that hangs from them.
+    fn carried(&self, weight: impl Fn(&Self, &Link) -> Formula) -> Vec<Vec<(Formula, &Offset)>> {
+        let links = &self.scene.links;
+        let mut carried: Vec<Vec<(Formula, &Offset)>> = links
+            .iter()
+            .map(|link| vec![(weight(self, link), &link.com)])
+            .collect();
+        // Parents come before their children.
+        for (index, link) in links.iter().enumerate().rev() {
+            if let Some(LinkId(parent)) = link.parent {
+                let weights = carried[index].iter().map(|(weight, _)| weight.clone());
+                let whole = weights.sum::<Formula>().expand();
+                carried[parent].push((whole, &link.pivot));
+            }
+        }
+        carried
     }
 
     /// Second derivatives of K in the angular velocities. The velocity of a
     /// centre of mass is linear in them, so that
     /// ∂²K/∂ω_i∂ω_j = Σ_l m_l ∂ṙ_l/∂ω_i · ∂ṙ_l/∂ω_j (+ I_l for i = j = l),
-    /// summed over the links l that both i and j carry.
+    /// summed over the links l that both i and j carry. All of them hang from one point
+    /// of an ancestor j of i, whose ∂ṙ/∂ω_j stands before the sum.
     fn mass_matrix(&mut self, angles: &[SymbolId]) -> MassMatrix {
         let mut sums: MassMatrix = MassMatrix::default();
-        for index in 0..angles.len() {
-            let path = self.path(LinkId(index));
-            let link = &self.scene.links[index];
-            let mass = self.quantity(&link.mass);
-            let levers: Vec<(Formula, Formula)> = path
-                .iter()
-                .enumerate()
-                .map(|(step, &on_path)| {
-                    let offset = match path.get(step + 1) {
-                        Some(&next) => &self.scene.links[next].pivot,
-                        None => &link.com,
-                    };
-                    self.lever(offset, angles[on_path])
-                })
-                .collect();
-            for (a, &row) in path.iter().enumerate() {
-                for (b, &column) in path[..=a].iter().enumerate() {
-                    let (xa, ya) = &levers[a];
-                    let (xb, yb) = &levers[b];
-                    let dot = &(xa * xb) + &(ya * yb);
-                    sums.add(row, column, &mass * &dot);
-                }
+        let carried = self.carried(|derivation, link| derivation.quantity(&link.mass));
+        let pivots: Vec<Option<(Formula, Formula)>> = self
+            .scene
+            .links
+            .iter()
+            .map(|link| {
+                let LinkId(parent) = link.parent?;
+                Some(self.lever(&link.pivot, angles[parent]))
+            })
+            .collect();
+        for (index, points) in carried.iter().enumerate() {
+            let (mut moments_x, mut moments_y) = (Vec::new(), Vec::new());
+            for (mass, offset) in points {
+                let (x, y) = self.lever(offset, angles[index]);
+                sums.add(index, index, mass * &(&(&x * &x) + &(&y * &y)));
+                moments_x.push(mass * &x);
+                moments_y.push(mass * &y);
             }
-            sums.add(index, index, self.quantity(&link.inertia));
+            let inertia = self.quantity(&self.scene.links[index].inertia);
+            sums.add(index, index, inertia);
+            let moment_x: Formula = moments_x.into_iter().sum();
+            let moment_y: Formula = moments_y.into_iter().sum();
+            let mut below = index;
+            while let (Some(LinkId(above)), Some((x, y))) =
+                (self.scene.links[below].parent, &pivots[below])
+            {
+                sums.add(index, above, &(&moment_x * x) + &(&moment_y * y));
+                below = above;
+            }
         }
         sums.map(|row, column, sum| self.named_entry(angles, row, column, &sum))
     }
@@ -173,20 +193,13 @@ impl Derivation<'_> {
         weight: impl Fn(&Self, &Link) -> Formula,
     ) -> Formula {
         let mut heights = Vec::new();
-        for index in 0..angles.len() {
-            let path = self.path(LinkId(index));
-            let link = &self.scene.links[index];
-            let weight = weight(self, link);
-            for (step, &on_path) in path.iter().enumerate() {
-                let offset = match path.get(step + 1) {
-                    Some(&next) => &self.scene.links[next].pivot,
-                    None => &link.com,
-                };
-                let cos = Formula::symbol(self.cos(angles[on_path]));
-                let sin = Formula::symbol(self.sin(angles[on_path]));
+        for (points, &angle) in self.carried(weight).iter().zip(angles) {
+            let cos = Formula::symbol(self.cos(angle));
+            let sin = Formula::symbol(self.sin(angle));
+            for (weight, offset) in points {
                 let height = &(&self.quantity(&offset.lateral) * &sin)
                     - &(&self.quantity(&offset.along) * &cos);
-                heights.push(&weight * &height);
+                heights.push(weight * &height);
             }
         }
         heights.into_iter().sum::<Formula>().expand()
@@ -257,7 +270,7 @@ impl Derivation<'_> {
         terms
     }
 
-    /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i))².
+    /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i) − ρ_i)².
     fn springs(&mut self, angles: &[SymbolId]) -> Formula {
         let mut terms = Vec::new();
         for index in 0..angles.len() {
@@ -271,8 +284,20 @@ impl Derivation<'_> {
                 meaning: format!("stiffness of the torsion spring in the pivot of `{orbit}`"),
                 unit: "N m",
             };
-            let relative = self.relative(index, angles);
-            terms.push(self.half_square(letter, &orbit, &spring, &relative));
+            let mut strain = self.relative(index, angles);
+            if let Some(rest) = self.scene.links[index].rest.clone() {
+                let value = self.quantity(&rest);
+                let rest = self.constant(
+                    &format!("rest_{orbit}"),
+                    &format!("ρ_{orbit}"),
+                    &format!("\\rho_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
+                    &format!("angle at which the torsion spring of `{orbit}` is at rest"),
+                    "rad",
+                    value,
+                );
+                strain = &strain - &rest;
+            }
+            terms.push(self.half_square(letter, &orbit, &spring, &strain));
         }
         terms.into_iter().sum::<Formula>()
     }
@@ -307,18 +332,6 @@ impl Derivation<'_> {
         let constant = self.constant(&code, &text, &latex, &meaning, unit, value);
         let half = Formula::integer(2).pow(-1);
         &(&half * &constant) * &x.pow(2)
-    }
-
-    /// The links from the root to `link`, both included.
-    fn path(&self, link: LinkId) -> Vec<usize> {
-        let mut path = vec![link.0];
-        let mut at = &self.scene.links[link.0];
-        while let Some(LinkId(parent)) = at.parent {
-            path.push(parent);
-            at = &self.scene.links[parent];
-        }
-        path.reverse();
-        path
     }
 
     pub(super) fn orbit_name(&self, link: usize) -> String {

@@ -31,6 +31,8 @@ pub struct OrbitConstants {
     pub lateral_gravity: Expr,
     /// Stiffness of the torsion spring in the pivot.
     pub spring: Expr,
+    /// Relative angle at which the spring is at rest.
+    pub rest: Expr,
     /// Viscous friction in the pivot.
     pub friction: Expr,
     /// Viscous drag against the ground.
@@ -105,6 +107,7 @@ impl Derivation<'_> {
                 gravity: expr(-slope(self.cos(angle))),
                 lateral_gravity: expr(slope(self.sin(angle))),
                 spring: optional(&link.spring, "κ"),
+                rest: optional(&link.rest, "ρ"),
                 friction: optional(&link.friction, "c"),
                 drag: optional(&link.drag, "k"),
                 drive: [self.cos(angle), self.sin(angle), angle]

@@ -83,6 +83,7 @@ pub(super) const COMMON: &[Dimension] = &[
     optional("friction", "N m s", Sign::NonNegative),
     optional("drag", "N m s", Sign::NonNegative),
     optional("spring", "N m", Sign::NonNegative),
+    optional("rest", "rad", Sign::Any),
 ];
 
 /// Properties that a link without a shape must have.

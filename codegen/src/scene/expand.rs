@@ -8,9 +8,9 @@ use super::template::{MAX_LINKS, Template};
 use super::{Group, Link, LinkId, Orbit, OrbitId};
 use crate::report::{Message, Report};
 
-/// Most pairs of a link and one above it in a tree that is written out. The derivation
-/// of a chain of 100 links, 4,950 pairs, takes 10 s in an unoptimised build.
-const MAX_PAIRS: usize = 6000;
+/// Most pairs of a link and one above it in a tree that is written out. A chain of 100
+/// links, 4,950 pairs, takes 2 s in an unoptimised build, with its energies 5 s.
+const MAX_PAIRS: usize = 5000;
 
 /// The tree with all its copies.
 pub(super) struct ExpandedTree {
@@ -101,6 +101,7 @@ fn link(template: &Template, pending: &Pending) -> Link {
         friction,
         drag,
         spring,
+        rest,
         ..
     } = template;
     Link {
@@ -111,9 +112,11 @@ fn link(template: &Template, pending: &Pending) -> Link {
         inertia: body.inertia.clone(),
         com: body.com.clone(),
         pivot: pivot.clone(),
+        end: body.joint.as_ref().unwrap_or(&body.com).clone(),
         friction: friction.clone(),
         drag: drag.clone(),
         spring: spring.clone(),
+        rest: rest.clone(),
     }
 }
 

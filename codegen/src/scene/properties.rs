@@ -5,7 +5,7 @@ use super::bodies::{
     Body, BodyShape, COMMON, Condition, Dimension, GivenProperties, PLAIN, SHAPES,
 };
 use super::names::motion;
-use super::rule::{COUNTS, Counts, GenerationRule, RATIOS};
+use super::rule::{COUNTS, Counts, GenerationRule, changes_shape, ratios, scaled};
 use super::template::accept_body;
 use super::values::{Usage, Values, message_for};
 use super::{Offset, Quantity, Sign};
@@ -20,6 +20,7 @@ pub(super) struct Properties {
     pub(super) rule: Option<GenerationRule>,
     /// All properties that are given, the body's included.
     pub(super) given: GivenProperties,
+    kind: LinkKind,
 }
 
 /// Properties that can be a pair.
@@ -62,21 +63,42 @@ impl Properties {
         };
         let body = given
             .as_ref()
-            .and_then(|given| kind.body(given, node, values, report));
+            .and_then(|given| kind.checked_body(given, node, values, report));
         let given = given.unwrap_or_default();
-        let ratio = |name| given.value(name).cloned().unwrap_or(Quantity::integer(1));
         let rule = is_rule.then(|| GenerationRule {
             count: counts.count.unwrap_or(1),
             branching: counts.branching.unwrap_or(1),
             code: counts.code,
-            mass_ratio: ratio("mass_ratio"),
-            length_ratio: ratio("length_ratio"),
         });
         Self {
             body: body.unwrap_or_else(stand_in),
             rule,
             given,
+            kind,
         }
+    }
+
+    /// Those of a generation of the rule, counted from 0; `None` after reporting what
+    /// is wrong.
+    pub(super) fn of_generation(
+        &self,
+        generation: usize,
+        node: &Node,
+        values: &mut Values,
+        report: &mut Report,
+    ) -> Option<(Body, GivenProperties)> {
+        let given = match scaled(&self.given, generation) {
+            Ok(given) => given,
+            Err(error) => {
+                report.error(node.name.span(), message_for(error));
+                return None;
+            }
+        };
+        let body = match changes_shape(&self.given) {
+            true => self.kind.checked_body(&given, node, values, report),
+            false => self.kind.body(&given, node, values, report),
+        };
+        Some((body?, given))
     }
 }
 
@@ -142,8 +164,8 @@ impl LinkKind {
     /// All quantities that there are, required ones first.
     fn dimensions(&self) -> impl Iterator<Item = &'static Dimension> {
         let own = self.shape.map_or(PLAIN, |shape| shape.dimensions);
-        let ratios = if self.is_rule { RATIOS } else { &[] };
-        own.iter().chain(COMMON).chain(ratios)
+        let ratios = self.is_rule.then(|| ratios(own));
+        own.iter().chain(COMMON).chain(ratios.into_iter().flatten())
     }
 
     /// The names of all properties.
@@ -224,7 +246,26 @@ impl LinkKind {
         }
     }
 
-    /// The body: what the shape says, unless the link says otherwise.
+    /// The body, and its shape possible.
+    fn checked_body(
+        &self,
+        given: &GivenProperties,
+        node: &Node,
+        values: &mut Values,
+        report: &mut Report,
+    ) -> Option<Body> {
+        if let Some(Condition { what, value }) = self.shape.and_then(|shape| shape.condition) {
+            let usage = Usage {
+                what: format!("{what} of `{}`", node.name),
+                unit: "m",
+                sign: Sign::Positive,
+            };
+            values.accept(value(given), &usage, node.name.span(), report)?;
+        }
+        self.body(given, node, values, report)
+    }
+
+    /// The body: that of the shape, unless the link says otherwise.
     fn body(
         &self,
         given: &GivenProperties,
@@ -232,22 +273,13 @@ impl LinkKind {
         values: &mut Values,
         report: &mut Report,
     ) -> Option<Body> {
-        let span = node.name.span();
-        if let Some(Condition { what, value }) = self.shape.and_then(|shape| shape.condition) {
-            let usage = Usage {
-                what: format!("{what} of `{}`", node.name),
-                unit: "m",
-                sign: Sign::Positive,
-            };
-            values.accept(value(given), &usage, span, report)?;
-        }
         let mut body = match self
             .shape
             .map_or_else(|| Ok(stand_in()), |shape| (shape.body)(given))
         {
             Ok(body) => body,
             Err(error) => {
-                report.error(span, message_for(error));
+                report.error(node.name.span(), message_for(error));
                 return None;
             }
         };

@@ -167,6 +167,11 @@ impl Quantity {
                 Some(product) => base.power(product),
                 None => Err(ExactError::TooLong),
             },
+            // Numbers among the factors become one.
+            (Self::Product(factors), _) => {
+                let powers = factors.into_iter().map(|factor| factor.power(exponent));
+                Ok(Self::product(powers.collect::<Result<Vec<_>, _>>()?))
+            }
             (value, _) => Ok(Self::Power(Box::new(value), exponent)),
         }
     }
@@ -189,7 +194,7 @@ impl Quantity {
         }
     }
 
-    /// Whether every number in the value rounds to a finite `f64`.
+    /// Returns true if every number in the value rounds to a finite `f64`.
     pub fn is_finite(&self) -> bool {
         let mut finite = true;
         self.for_each_leaf(&mut |leaf| {

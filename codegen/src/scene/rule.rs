@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, Span};
 
-use super::bodies::{Body, BodyShape, Dimension};
+use super::bodies::{BodyShape, COMMON, Dimension, GivenProperties};
 use super::properties::{LinkKind, find_shape};
 use super::{Offset, Quantity, Sign};
 use crate::description::{Expression, ExpressionKind, Node, Property, Value};
@@ -17,10 +17,6 @@ pub(super) struct GenerationRule {
     pub(super) branching: usize,
     /// Form of its code, where the description gives one.
     pub(super) code: Option<Code>,
-    /// A link's mass over its parent's.
-    pub(super) mass_ratio: Quantity,
-    /// A link's lengths over its parent's.
-    pub(super) length_ratio: Quantity,
 }
 
 /// Form of the code of a rule.
@@ -56,49 +52,97 @@ pub(super) fn resolve_code(
     found.map(|code| (code, value.span()))
 }
 
+/// A ratio of a rule, and the property whose value over the parent's it is.
+pub(super) struct Ratio {
+    property: &'static str,
+    pub(super) dimension: Dimension,
+}
+
+const fn ratio(property: &'static str, name: &'static str, sign: Sign) -> Ratio {
+    Ratio {
+        property,
+        dimension: Dimension {
+            name,
+            unit: "",
+            sign,
+            required: false,
+        },
+    }
+}
+
+/// The ratio of all masses, and that of all lengths, that have none of their own.
+const MASS: Ratio = ratio("mass", "mass_ratio", Sign::Positive);
+const LENGTH: Ratio = ratio("length", "length_ratio", Sign::Positive);
+
 /// Quantities of a generation rule beside those of its body.
-pub(super) const RATIOS: &[Dimension] = &[
-    Dimension {
-        name: "mass_ratio",
-        unit: "",
-        sign: Sign::Positive,
-        required: false,
-    },
-    Dimension {
-        name: "length_ratio",
-        unit: "",
-        sign: Sign::Positive,
-        required: false,
-    },
+const RATIOS: &[Ratio] = &[
+    MASS,
+    LENGTH,
+    ratio("bob_mass", "bob_mass_ratio", Sign::NonNegative),
+    ratio("radius", "radius_ratio", Sign::Positive),
+    ratio("width", "width_ratio", Sign::Positive),
+    ratio("margin", "margin_ratio", Sign::NonNegative),
+    ratio("com", "com_ratio", Sign::Any),
+    ratio("inertia", "inertia_ratio", Sign::NonNegative),
+    ratio("joint", "joint_ratio", Sign::Any),
+    ratio("friction", "friction_ratio", Sign::NonNegative),
+    ratio("drag", "drag_ratio", Sign::NonNegative),
+    ratio("spring", "spring_ratio", Sign::NonNegative),
+    ratio("rest", "rest_ratio", Sign::Any),
 ];
+
+/// The ratios of a rule whose links have these dimensions beside the common ones.
+pub(super) fn ratios(own: &[Dimension]) -> impl Iterator<Item = &'static Dimension> {
+    let is_known = |ratio: &&Ratio| {
+        let mut properties = own.iter().chain(COMMON);
+        let always = [MASS.property, LENGTH.property].contains(&ratio.property);
+        always || properties.any(|property| property.name == ratio.property)
+    };
+    RATIOS.iter().filter(is_known).map(|ratio| &ratio.dimension)
+}
 
 /// Properties of a generation rule that are no quantities.
 pub(super) const COUNTS: &[&str] = &["count", "branching", "shape", "code"];
 
-impl GenerationRule {
-    /// The body of a generation, counted from 0.
-    pub(super) fn body(&self, first: &Body, generation: usize) -> Result<Body, ExactError> {
-        let exponent = i32::try_from(generation).map_err(|_| ExactError::TooLong)?;
-        let mass = self.mass_ratio.clone().power(exponent)?;
-        let length = self.length_ratio.clone().power(exponent)?;
-        scaled(first, &mass, &length)
-    }
+/// Returns true if a ratio changes the proportions of a shape, so that later
+/// generations are no scaled copies of the first.
+pub(super) fn changes_shape(first: &GivenProperties) -> bool {
+    ["radius_ratio", "width_ratio", "margin_ratio"]
+        .iter()
+        .any(|name| first.value(name).is_some())
 }
 
-/// A body with its mass and its lengths multiplied; its inertia follows.
-fn scaled(body: &Body, mass: &Quantity, length: &Quantity) -> Result<Body, ExactError> {
-    let times =
-        |value: &Quantity, factor: &Quantity| Quantity::product([value.clone(), factor.clone()]);
-    let point = |Offset { along, lateral }: &Offset| Offset {
-        along: times(along, length),
-        lateral: times(lateral, length),
+/// Properties of the links of a generation, counted from 0: those of the first, each
+/// times its ratio, or times the ratio of masses or lengths by its dimension.
+pub(super) fn scaled(
+    first: &GivenProperties,
+    generation: usize,
+) -> Result<GivenProperties, ExactError> {
+    let exponent = i32::try_from(generation).map_err(|_| ExactError::TooLong)?;
+    let power = |name: &str| match first.value(name) {
+        Some(ratio) => ratio.clone().power(exponent),
+        None => Ok(Quantity::integer(1)),
     };
-    Ok(Body {
-        mass: times(&body.mass, mass),
-        inertia: times(&times(&body.inertia, mass), &length.clone().power(2)?),
-        com: point(&body.com),
-        joint: body.joint.as_ref().map(point),
-    })
+    let (mass, length) = (power(MASS.dimension.name)?, power(LENGTH.dimension.name)?);
+    let mut scaled = GivenProperties::default();
+    for (name, Offset { along, lateral }) in &first.0 {
+        if RATIOS.iter().any(|ratio| ratio.dimension.name == *name) {
+            continue;
+        }
+        let own = RATIOS.iter().find(|ratio| ratio.property == *name);
+        let own = own.map(|ratio| ratio.dimension.name);
+        let factor = match (own.filter(|own| first.value(own).is_some()), *name) {
+            (Some(own), _) => power(own)?,
+            (None, "mass" | "bob_mass") => mass.clone(),
+            (None, "inertia") => Quantity::product([mass.clone(), length.clone().power(2)?]),
+            (None, "friction" | "drag" | "spring" | "rest") => Quantity::integer(1),
+            (None, _) => length.clone(),
+        };
+        let times = |value: &Quantity| Quantity::product([value.clone(), factor.clone()]);
+        let (along, lateral) = (times(along), times(lateral));
+        scaled.0.push((*name, Offset { along, lateral }));
+    }
+    Ok(scaled)
 }
 
 /// The properties of a rule that are no quantities.

@@ -138,6 +138,7 @@ fn constants(scene: &Scene) -> Vec<String> {
             ("friction", &link.friction),
             ("drag", &link.drag),
             ("spring", &link.spring),
+            ("rest", &link.rest),
         ] {
             if value.is_some() {
                 names.push(format!("{word}_{name}"));

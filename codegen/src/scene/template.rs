@@ -18,6 +18,8 @@ pub(super) const MAX_LINKS: usize = 4096;
 #[derive(Debug)]
 pub(super) struct Template {
     pub(super) name: String,
+    /// The node of the description: one for all generations of a rule.
+    pub(super) node: String,
     pub(super) span: Span,
     /// An earlier template.
     pub(super) parent: Option<usize>,
@@ -29,6 +31,7 @@ pub(super) struct Template {
     pub(super) friction: Option<Quantity>,
     pub(super) drag: Option<Quantity>,
     pub(super) spring: Option<Quantity>,
+    pub(super) rest: Option<Quantity>,
 }
 
 /// The templates and values that are built up on the way through the
@@ -77,22 +80,24 @@ impl TreeBuilder {
             .shape
             .as_ref()
             .is_some_and(|shape| shape == "generations");
-        let Properties { body, rule, given } =
-            Properties::read(node, is_rule, &mut self.values, report);
-        let pivot = self.pivot(node, parent.as_ref(), &given, report);
-        let force = |name: &str| given.value(name).filter(|value| !value.is_zero()).cloned();
+        let properties = Properties::read(node, is_rule, &mut self.values, report);
+        let pivot = self.pivot(node, parent.as_ref(), &properties.given, report);
+        let [friction, drag, spring, rest] = forces(&properties.given);
+        check_rest(node, report);
         let first = Template {
             name: node.name.to_string(),
+            node: node.name.to_string(),
             span: node.name.span(),
             parent: parent.map(|parent| parent.index),
             copies: node.copies.map_or(1, |copies| copies.count as usize),
-            body,
+            body: properties.body.clone(),
             pivot,
-            friction: force("friction"),
-            drag: force("drag"),
-            spring: force("spring"),
+            friction,
+            drag,
+            spring,
+            rest,
         };
-        if let Some(rule) = rule {
+        if let Some(rule) = &properties.rule {
             match first.parent {
                 None => {
                     self.whole = Some(WholeRule {
@@ -110,7 +115,7 @@ impl TreeBuilder {
             if let Some(child) = node.children.first() {
                 report.error(child.name.span(), Message::RuleChildren);
             }
-            self.add_generations(node, first, &rule, report);
+            self.add_generations(node, first, &properties, rule, report);
             return;
         }
         let joint = first.body.joint.clone();
@@ -154,6 +159,7 @@ impl TreeBuilder {
         &mut self,
         node: &Node,
         first: Template,
+        properties: &Properties,
         rule: &GenerationRule,
         report: &mut Report,
     ) {
@@ -167,17 +173,17 @@ impl TreeBuilder {
             missing_joint(node, report);
         }
         for generation in 0..rule.count {
-            let Ok(body) = rule.body(&first.body, generation) else {
-                report.error(span, Message::NumberLength);
+            let values = &mut self.values;
+            let found = properties.of_generation(generation, node, values, report);
+            let Some((body, given)) = found else {
                 return;
             };
-            if !accept_body(&body, node, &mut self.values, report) {
-                return;
-            }
+            let [friction, drag, spring, rest] = forces(&given);
             let above = generation.checked_sub(1).map(|_| self.templates.len() - 1);
             let hanging = above.and_then(|above| self.templates.get(above)?.body.joint.clone());
             self.templates.push(Template {
                 name: format!("{}_{}", first.name, generation + 1),
+                node: first.node.clone(),
                 span,
                 parent: above.or(first.parent),
                 copies: if above.is_some() {
@@ -187,9 +193,10 @@ impl TreeBuilder {
                 },
                 body,
                 pivot: hanging.unwrap_or_else(|| first.pivot.clone()),
-                friction: first.friction.clone(),
-                drag: first.drag.clone(),
-                spring: first.spring.clone(),
+                friction,
+                drag,
+                spring,
+                rest,
             });
         }
     }
@@ -220,6 +227,23 @@ pub(super) fn accept_body(
         let span = node.name.span();
         values.accept(part.clone(), &usage, span, report).is_some()
     })
+}
+
+/// Friction, drag, stiffness of the spring and its rest angle, where they are.
+fn forces(given: &GivenProperties) -> [Option<Quantity>; 4] {
+    let force = |name: &str| given.value(name).filter(|value| !value.is_zero()).cloned();
+    let spring = force("spring");
+    let rest = spring.as_ref().and_then(|_| force("rest"));
+    [force("friction"), force("drag"), spring, rest]
+}
+
+/// Checks that a rest angle is that of a spring.
+fn check_rest(node: &Node, report: &mut Report) {
+    let find = |name: &str| node.properties.iter().find(|p| p.name == name);
+    if let (Some(rest), None, false) = (find("rest"), find("spring"), node.damaged) {
+        let link = node.name.to_string();
+        report.error(rest.name.span(), Message::RestWithoutSpring { link });
+    }
 }
 
 fn missing_joint(node: &Node, report: &mut Report) {

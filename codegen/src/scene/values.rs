@@ -4,9 +4,9 @@ use proc_macro2::{Ident, Span};
 
 use super::names::check_parameter;
 use super::{Parameter, ParameterId, Quantity, Requirement, Sign};
-use crate::description::{Expression, ExpressionKind};
+use crate::description::{Expression, ExpressionKind, ParameterClause};
 use crate::exact::{ExactError, Rational};
-use crate::report::{Message, Report};
+use crate::report::{Message, Report, nearest};
 
 /// Use of a value.
 pub(super) struct Usage<'a> {
@@ -25,9 +25,46 @@ pub(super) struct Values {
     /// The first place of each parameter.
     pub(super) spans: Vec<Span>,
     pub(super) requirements: Vec<Requirement>,
+    /// True if all parameters are declared, and so known from the start.
+    declared: bool,
 }
 
 impl Values {
+    /// Starts with the parameters that the description declares, if it does.
+    pub(super) fn declared(clause: Option<&ParameterClause>, report: &mut Report) -> Self {
+        let mut values = Self::default();
+        for name in clause.iter().flat_map(|clause| &clause.names) {
+            let text = name.to_string();
+            if check_parameter(&text, name.span(), report).is_none() {
+                continue;
+            }
+            if values.parameters.iter().any(|known| known.name == text) {
+                let message = Message::duplicate_property(name);
+                report.error(name.span(), message);
+                continue;
+            }
+            values.add(name);
+        }
+        // What is unreadable may have declared more.
+        values.declared = clause.is_some_and(|clause| !clause.damaged);
+        values
+    }
+
+    fn add(&mut self, name: &Ident) {
+        self.spans.push(name.span());
+        self.parameters.push(Parameter {
+            name: name.to_string(),
+            doc: String::new(),
+            sign: Sign::Any,
+        });
+    }
+
+    fn undeclared(&self, name: String) -> Message {
+        let known: Vec<&str> = self.parameters.iter().map(|p| p.name.as_str()).collect();
+        let nearest = nearest(&name, &known).map(str::to_owned);
+        Message::UndeclaredParameter { name, nearest }
+    }
+
     /// The value of an expression; `None` after reporting what is wrong.
     pub(super) fn evaluate(
         &mut self,
@@ -154,12 +191,11 @@ impl Values {
         let known = self.parameters.iter().position(|known| known.name == text);
         let index = known.unwrap_or(self.parameters.len());
         if known.is_none() {
-            self.spans.push(name.span());
-            self.parameters.push(Parameter {
-                name: text,
-                doc: String::new(),
-                sign: Sign::Any,
-            });
+            if self.declared {
+                report.error(name.span(), self.undeclared(text));
+                return None;
+            }
+            self.add(name);
         }
         let role = match (alone, usage.unit) {
             (false, _) => format!("part of the {}", usage.what),
@@ -178,6 +214,16 @@ impl Values {
             }
         }
         Some(Quantity::Parameter(ParameterId(index)))
+    }
+}
+
+/// Reports the declared parameters that no value names.
+pub(super) fn check_used(parameters: &[Parameter], spans: &[Span], report: &mut Report) {
+    for (parameter, &span) in parameters.iter().zip(spans) {
+        if parameter.doc.is_empty() {
+            let name = parameter.name.clone();
+            report.error(span, Message::UnusedParameter { name });
+        }
     }
 }
 

@@ -2,12 +2,14 @@
 //! sector by sector, spectra, the growth of deviations, and how far truncated
 //! transfers reach.
 
+pub mod equilibrium;
 pub mod modes;
 pub mod sector_modes;
 pub mod spectrum;
 pub mod truncation;
 pub mod variational;
 
+pub use equilibrium::{AtRest, EquilibriumError, equilibrium};
 pub use modes::{Modes, ModesError};
 pub use sector_modes::{SectorBlock, SectorModes, SectorModesError};
 pub use spectrum::{Peak, Spectrum, SpectrumError, SpectrumOptions, Window};

@@ -16,9 +16,9 @@
 //! formed once and serves all orders. From order 28 on, which is that of tolerances near rounding,
 //! the S of order 0 is refined once more.
 
-use super::bias::{Bias, Constant, Moving};
+use super::bias::{Bias, ConstantBias, MovingBias};
 use super::dense::Matrices;
-use super::elimination::Elimination;
+use super::elimination::TaylorElimination;
 use super::linear::LinearSystem;
 use super::orders::Orders;
 use super::series::{Row, SERIES};
@@ -71,7 +71,7 @@ pub struct Start<'a, T, const N: usize> {
     pub sines: [T; N],
     /// cos θ.
     pub cosines: [T; N],
-    /// What else stands in the equation of motion, Σ M_ij α_j + … + bias_i = 0.
+    /// Bias of the equation of motion, Σ M_ij α_j + … + bias_i = 0.
     pub bias: [T; N],
 }
 
@@ -154,8 +154,8 @@ pub fn expand<T: Scalar, C: Connectivity<N>, const N: usize, const Q: usize, F>(
         *row = [*angles, *start.omega];
     }
     match bias {
-        Some(bias) => run::<T, C, _, N, Q>(start, constants, coefficients, work, Moving(bias)),
-        None => run::<T, C, _, N, Q>(start, constants, coefficients, work, Constant),
+        Some(bias) => run::<T, C, _, N, Q>(start, constants, coefficients, work, MovingBias(bias)),
+        None => run::<T, C, _, N, Q>(start, constants, coefficients, work, ConstantBias),
     }
 }
 
@@ -229,7 +229,7 @@ where
         if N <= MATRICES {
             run_packs::<T, _>(self.by::<Matrices<T, N, Q>, Q>());
         } else {
-            run_packs::<T, _>(self.by::<Elimination<T, Q>, Q>());
+            run_packs::<T, _>(self.by::<TaylorElimination<T, Q>, Q>());
         }
     }
 
@@ -238,6 +238,7 @@ where
     where
         T: Simd<L>,
     {
-        self.by::<Elimination<T, Q>, N>().form::<OneLink<T>, true>();
+        self.by::<TaylorElimination<T, Q>, N>()
+            .form::<OneLink<T>, true>();
     }
 }

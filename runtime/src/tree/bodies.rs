@@ -19,7 +19,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    fn links(self) -> usize {
+    pub(super) fn links(self) -> usize {
         match self {
             Self::Parents(parents) => parents.len(),
             Self::Generations(copies) => super::links(copies),
@@ -29,7 +29,7 @@ impl Shape {
     /// Goes from the root to the leaves: the link, its parent but for the root,
     /// and the number of its row.
     #[inline(always)]
-    fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
+    pub(super) fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
         match self {
             Self::Parents(parents) => {
                 for (link, &parent) in parents.iter().enumerate() {
@@ -56,7 +56,7 @@ impl Shape {
 }
 
 /// Numbers of a body.
-const ROW: usize = 12;
+const ROW: usize = 13;
 
 /// The links of a tree in loops as bodies. Emitted models hold them where there is
 /// a drive or a lateral offset, and energies are asked for.
@@ -77,7 +77,7 @@ impl<T: Scalar> Bodies<T> {
     /// half of the mass; first moments m d and m e about the pivot along and across
     /// the link, half of the moment of inertia I + m (d² + e²); the pivot's place ℓ,
     /// w on the parent along and across it; weight m g; g m d and g m e; half of the
-    /// stiffness of the torsion spring; friction in the pivot, drag.
+    /// stiffness of the torsion spring, its rest angle; friction in the pivot, drag.
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<T>) -> Self {
         Self { shape, rows }
@@ -131,10 +131,10 @@ impl<T: Scalar> Bodies<T> {
         compiled::<FrictionPower, T>()(self, omega)
     }
 
-    /// Potential energy, J, zero where all angles are zero: Σ m g H + m g d
-    /// (1 − cos θ) + m g e sin θ + ½ κ (θ − θ_parent)², the height of a link's pivot
-    /// H = H_parent + ℓ (1 − cos θ_parent) + w sin θ_parent. NaN for a slice of
-    /// another length than there are links.
+    /// Potential energy, J, zero where all angles are zero and springs at rest: Σ m g H
+    /// + m g d (1 − cos θ) + m g e sin θ + ½ κ (θ − θ_parent − ρ)², the height of a
+    /// link's pivot H = H_parent + ℓ (1 − cos θ_parent) + w sin θ_parent. NaN for a
+    /// slice of another length than there are links.
     #[must_use]
     pub fn potential_energy(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
         compiled::<PotentialEnergy, T>()(self, workspace, theta)
@@ -211,6 +211,7 @@ impl<T: Scalar> Bodies<T> {
                 gravity,
                 lateral,
                 spring,
+                rest,
                 ..,
             ] = row;
             let angle = at(theta, link);
@@ -227,7 +228,8 @@ impl<T: Scalar> Bodies<T> {
             let (shift, cosine) = angle.sin_cos();
             let rise = one - cosine;
             let own = gravity * rise + lateral * shift;
-            sum.add(weight * height + own + spring * joint_angle * joint_angle);
+            let strain = joint_angle - rest;
+            sum.add(weight * height + own + spring * strain * strain);
             put(heights, link, height);
             put(rises, link, rise);
             put(shifts, link, shift);

@@ -41,6 +41,7 @@ mod motion;
 mod partition;
 mod plan;
 mod prefetch;
+mod properties;
 mod root;
 mod shared;
 mod skeleton;
@@ -57,6 +58,7 @@ use core::num::NonZeroUsize;
 pub use crate::system::LinkName;
 pub use bodies::{Bodies, Shape};
 pub use equations::{LinkEquations, LinkMotion, Row};
+pub use properties::PropertyTable;
 pub use root::RootDrive;
 
 use crate::scalar::kind::{compiled, compiled_once};

@@ -103,7 +103,7 @@ impl Motion {
                 motion.bias[parent] += torque;
                 motion.bias_terms[parent] += terms;
             }
-            let turn = theta[index] - link.parent.map_or(0.0, |parent| theta[parent]);
+            let turn = theta[index] - link.parent.map_or(0.0, |parent| theta[parent]) - link.rest;
             motion.potential += 0.5 * link.spring * turn * turn;
             motion.potential_terms += 0.5 * link.spring * turn * turn;
         }

@@ -147,6 +147,14 @@ fn node(random: &mut Random, parent: Option<(usize, &Node)>, copies: usize) -> N
     }
     if properties.random.below(4) == 0 {
         link.spring = properties.number("spring", 1e-3, 5.0);
+        // Half of the springs have a rest angle, told by the stiffness: another draw
+        // would make other trees of all that follow.
+        let digits = (link.spring * 1e6).round();
+        if digits % 2.0 == 0.0 {
+            let rest = (digits % 401.0 - 200.0) / 100.0;
+            let _ = write!(properties.text, "rest = {rest}, ");
+            link.rest = rest;
+        }
     }
     Node {
         parent: parent.map(|(index, _)| index),
@@ -171,6 +179,7 @@ fn body(properties: &mut Properties<'_>, shape: usize) -> (&'static str, Link, [
         friction: 0.0,
         drag: 0.0,
         spring: 0.0,
+        rest: 0.0,
     };
     if shape == 0 {
         let mut plain = link(mass, 0.0, 0.0);

@@ -13,6 +13,7 @@ pub mod constrained;
 pub mod drive;
 pub mod generator;
 pub mod observable;
+pub mod points;
 
 /// A vector in the plane of motion: x to the side, y upwards, m.
 pub type Vector = [f64; 2];
@@ -38,6 +39,8 @@ pub struct Link {
     pub drag: f64,
     /// Stiffness of a torsion spring in the pivot, N m.
     pub spring: f64,
+    /// Relative angle at which the spring is at rest, rad.
+    pub rest: f64,
 }
 
 impl Link {
@@ -50,10 +53,10 @@ impl Link {
     /// pivot, N m, and the sum of its absolute terms.
     pub(crate) fn pivot_torque(&self, index: usize, theta: &[f64], omega: &[f64]) -> (f64, f64) {
         let torque = self.friction * self.relative(omega[index], omega)
-            + self.spring * self.relative(theta[index], theta);
+            + self.spring * (self.relative(theta[index], theta) - self.rest);
         let size = |own: f64, all: &[f64]| own.abs() + self.parent.map_or(0.0, |p| all[p].abs());
-        let terms =
-            self.friction * size(omega[index], omega) + self.spring * size(theta[index], theta);
+        let terms = self.friction * size(omega[index], omega)
+            + self.spring * (size(theta[index], theta) + self.rest.abs());
         (-torque, terms)
     }
 }

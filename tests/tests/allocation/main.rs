@@ -154,3 +154,43 @@ fn few_states_of_a_large_tree() {
     assert!(first > 0);
     assert_eq!(second, 0);
 }
+
+#[branched_pendulum(
+    gravity = 9.80665,
+    branch: generations(count = 5, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7),
+    emit(taylor),
+)]
+struct Branch;
+
+/// Frames of an animation, with a push at each of them.
+#[test]
+fn frames() {
+    let model = Branch::<f32>::default();
+    let start = State::at_rest(0.0, &[0.3; 31]);
+    for &method in Method::ALL {
+        let setting = if method.is_adaptive() {
+            1e-4
+        } else {
+            1.0 / 240.0
+        };
+        let mut stepper = method
+            .with(setting)
+            .start(AbsoluteAngles(&model), &start)
+            .unwrap();
+        let mut pushed = start.values.clone();
+        let allocations = of_two(|| {
+            for _ in 0..30 {
+                stepper.advance(1.0 / 60.0).unwrap();
+                pushed.copy_from_slice(stepper.state());
+                pushed[61] += 0.1;
+                stepper.set_state(stepper.time(), &pushed).unwrap();
+            }
+            for _ in 0..30 {
+                stepper.advance(1.0 / 60.0).unwrap();
+            }
+        });
+        assert_eq!(allocations, [0, 0], "{method}");
+        assert!(stepper.state().iter().all(|value| value.is_finite()));
+    }
+}

@@ -370,3 +370,57 @@ fn large_rules_get_loops_unless_something_stands_against_it() {
     assert_eq!(links("count = 7), drive(y = sin(t))"), Some(127));
     assert_eq!(links("count = 20)"), Some((1 << 20) - 1));
 }
+
+#[test]
+fn every_property_of_a_rule_has_a_ratio() {
+    let by_rule = scene(
+        "#[branched_pendulum(gravity = 9.8,
+            a: generations(count = 3, branching = 1, shape = plate, mass = 0.4, length = 0.3,
+                width = 0.1, margin = 0.02, mass_ratio = 0.5, length_ratio = 0.8,
+                width_ratio = 0.9, margin_ratio = 0.5, joint = (0.2, 0.01), joint_ratio = 0.7,
+                friction = 1e-3, friction_ratio = 0.6, drag = 2e-3, drag_ratio = 3,
+                spring = 0.1, spring_ratio = 0.25, rest = 0.2, rest_ratio = -1),
+        )] struct Chain;",
+    );
+    let link = |n: i32, children: &str| {
+        format!(
+            "a_{n}: plate(mass = 0.4 * 0.5^{n}, length = 0.3 * 0.8^{n}, width = 0.1 * 0.9^{n},
+                margin = 0.02 * 0.5^{n}, joint = (0.2 * 0.7^{n}, 0.01 * 0.7^{n}),
+                friction = 1e-3 * 0.6^{n}, drag = 2e-3 * 3^{n}, spring = 0.1 * 0.25^{n},
+                rest = 0.2 * (-1)^{n}) [{children}]"
+        )
+    };
+    let links = link(0, &link(1, &link(2, "")));
+    let source = format!("#[branched_pendulum(gravity = 9.8, {links})] struct Chain;");
+    let written = scene(&source);
+    for (by_rule, written) in by_rule.links.iter().zip(&written.links) {
+        let named = branched_pendulum_codegen::scene::Link {
+            name: written.name.clone(),
+            ..by_rule.clone()
+        };
+        assert_eq!(named, *written);
+    }
+    assert_eq!(by_rule.links.len(), 3);
+}
+
+#[test]
+fn declared_parameters_stand_in_their_order() {
+    let scene = scene(
+        "#[branched_pendulum(gravity = g, parameters(m, l, g,),
+            parameters: rod(mass = m, length = l) [b: rod(mass = 2 * m, length = l)],
+        )] struct Pendulum;",
+    );
+    let names: Vec<&str> = scene.parameters.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["m", "l", "g"]);
+    assert_eq!(scene.links[0].name, "parameters");
+    assert_eq!(scene.parameters[2].doc, "gravity, m/s²");
+}
+
+#[test]
+fn gravity_may_point_up() {
+    let scene = scene(
+        "#[branched_pendulum(gravity = -9.8,
+            a: rod(mass = 1, length = 1, spring = 10, rest = 0.1))] struct Upright;",
+    );
+    assert!(matches!(&scene.gravity, Quantity::Exact(g) if g.is_negative()));
+}

@@ -160,6 +160,7 @@ fn link(mass: f64, com: f64, inertia: f64, [friction, drag, spring]: [f64; 3]) -
         friction,
         drag,
         spring,
+        rest: 0.0,
     }
 }
 

@@ -76,6 +76,7 @@ fn oracle_of(scene: &Scene) -> Tree {
         friction: force(&link.friction),
         drag: force(&link.drag),
         spring: force(&link.spring),
+        rest: force(&link.rest),
     });
     Tree {
         gravity: number(&scene.gravity),

@@ -12,7 +12,13 @@ fn dependencies() -> PathBuf {
     test.parent().expect("a file has a folder").to_owned()
 }
 
-fn rustc(folder: &Path, name: &str, source: &str, external: &str, emit: &str) -> Command {
+pub(super) fn rustc(
+    folder: &Path,
+    name: &str,
+    source: &str,
+    external: &str,
+    emit: &str,
+) -> Command {
     let file = folder.join(format!("{name}.rs"));
     std::fs::write(&file, source).expect("the temporary folder is writable");
     let mut search = std::ffi::OsString::from("dependency=");
@@ -34,6 +40,8 @@ fn rustc(folder: &Path, name: &str, source: &str, external: &str, emit: &str) ->
         .arg("--out-dir")
         .arg(folder)
         .arg(&file)
+        // Each derives, as if it were the first.
+        .env("BRANCHED_PENDULUM_CACHE", "off")
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
@@ -41,7 +49,7 @@ fn rustc(folder: &Path, name: &str, source: &str, external: &str, emit: &str) ->
 }
 
 /// The newest build of the runtime that has the macro.
-fn runtime(folder: &Path) -> PathBuf {
+pub(super) fn runtime(folder: &Path) -> PathBuf {
     let mut candidates: Vec<(SystemTime, PathBuf)> = std::fs::read_dir(dependencies())
         .expect("the folder of the test exists")
         .filter_map(|entry| {
@@ -138,6 +146,66 @@ fn two_crates_and_an_editor_at_once() {
     for child in running {
         finish("a crate", child);
     }
+    std::fs::remove_dir_all(&folder).expect("the folder is ours");
+}
+
+/// A derive that does not exist.
+const WRONG_DERIVE: &str = r#"
+use branched_pendulum::prelude::*;
+
+#[branched_pendulum(gravity = 9.80665, rod: rod(mass = 1, length = 1))]
+#[derive(Nonexistent)]
+pub struct Rod;
+"#;
+
+#[test]
+fn an_unchanged_attribute_derives_nothing() {
+    let folder = std::env::temp_dir().join(format!("branched-pendulum-k{}", std::process::id()));
+    let kept = folder.join("kept");
+    std::fs::create_dir_all(&folder).expect("the temporary folder is writable");
+    let external = format!("branched_pendulum={}", runtime(&folder).display());
+    // A file where the home should be: whoever derives cannot take the lock.
+    let homeless = folder.join("home");
+    std::fs::write(&homeless, "").expect("the folder is ours");
+    let compile = |source: &str, derives: bool| {
+        let mut command = rustc(&folder, "kept", source, &external, "metadata");
+        command.env("BRANCHED_PENDULUM_CACHE", &kept);
+        if !derives {
+            command.env("HOME", &homeless).env_remove("XDG_CACHE_HOME");
+        }
+        let output = command.output().expect("the compiler runs");
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        let file = folder.join("libkept.rmeta");
+        (errors, std::fs::read(&file).unwrap_or_default())
+    };
+    let (errors, _) = compile(FIRST, false);
+    assert!(errors.contains("cannot write and lock"), "{errors}");
+    let (errors, first) = compile(FIRST, true);
+    assert_eq!(errors, "");
+    let (errors, again) = compile(FIRST, false);
+    assert_eq!(errors, "");
+    assert!(
+        first == again,
+        "a kept expansion compiles to something else"
+    );
+
+    // Errors about the struct's own tokens stand where these are written.
+    for derives in [true, false] {
+        let (errors, _) = compile(WRONG_DERIVE, derives);
+        assert!(errors.contains("kept.rs:5:10"), "{errors}");
+    }
+
+    // Damaged files answer nothing.
+    for file in std::fs::read_dir(&kept).expect("it was made") {
+        let path = file.expect("the folder is ours").path();
+        let text = std::fs::read_to_string(&path).expect("it is text");
+        std::fs::write(&path, text.replace("sin", "cos")).expect("the folder is ours");
+    }
+    let (errors, _) = compile(FIRST, false);
+    assert!(errors.contains("cannot write and lock"), "{errors}");
+    let (errors, anew) = compile(FIRST, true);
+    assert_eq!(errors, "");
+    assert!(first == anew, "a damaged file was an answer");
     std::fs::remove_dir_all(&folder).expect("the folder is ours");
 }
 

@@ -126,7 +126,7 @@ fn the_cheaper_solve_is_emitted() {
             let entry = program.entry("accelerations").expect("always there");
             (program.operations(&entry.outputs), program.choice)
         });
-        assert_eq!(factorization.0, chosen.choice.factorization);
+        assert_eq!(Some(factorization.0), chosen.choice.factorization);
         assert_eq!(recursion.0, chosen.choice.recursion);
         let cheaper = match cost(&recursion.0) < cost(&factorization.0) {
             true => Solve::Recursion,
@@ -180,6 +180,7 @@ fn both_are_as_good_as_their_conditioning() {
         friction: 0.0,
         drag: 0.0,
         spring: 0.0,
+        rest: 0.0,
     };
     let rod = |parent, mass: f64, length: f64, lever| {
         link(

@@ -3,7 +3,7 @@
 use crate::mechanics::Mechanics;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, Setup, ValueId};
-use crate::scene::{Link, Offset, Quantity, Scene};
+use crate::scene::{LINK_PROPERTIES, Link, Offset, Quantity, Scene};
 
 impl Lowering<'_> {
     /// A quantity of the description as a constant.
@@ -42,7 +42,7 @@ impl Lowering<'_> {
         })
     }
 
-    pub(super) fn value_of(&mut self, quantity: &Quantity) -> ValueId {
+    pub(in crate::program) fn value_of(&mut self, quantity: &Quantity) -> ValueId {
         let constant = self.quantity(quantity);
         self.builder.constant(constant)
     }
@@ -51,15 +51,20 @@ impl Lowering<'_> {
         [self.value_of(&point.along), self.value_of(&point.lateral)]
     }
 
+    /// The properties of a link.
+    pub(super) fn link_properties(&mut self, link: &Link) -> [ConstantId; LINK_PROPERTIES.len()] {
+        link.properties().map(|quantity| self.quantity(quantity))
+    }
+
     /// A link as a body, see [`Strip::body`](super::Strip).
-    pub(super) fn body(&mut self, scene: &Scene, link: &Link) -> [ConstantId; 12] {
+    pub(super) fn body(&mut self, scene: &Scene, link: &Link) -> [ConstantId; 13] {
         let gravity = self.quantity(&scene.gravity);
         let mut at = |quantity: &Quantity| self.quantity(quantity);
         let (mass, inertia) = (at(&link.mass), at(&link.inertia));
         let [d, e] = [&link.com.along, &link.com.lateral].map(&mut at);
         let [along, across] = [&link.pivot.along, &link.pivot.lateral].map(&mut at);
-        let forces = [&link.spring, &link.friction, &link.drag];
-        let [spring, friction, drag] = forces.map(|force| match force {
+        let forces = [&link.spring, &link.rest, &link.friction, &link.drag];
+        let [spring, rest, friction, drag] = forces.map(|force| match force {
             Some(force) => at(force),
             None => at(&Quantity::zero()),
         });
@@ -81,6 +86,7 @@ impl Lowering<'_> {
             setup.mul(gravity, h),
             setup.mul(gravity, k),
             setup.div(spring, two),
+            rest,
             friction,
             drag,
         ]

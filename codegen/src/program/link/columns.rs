@@ -22,14 +22,14 @@ pub enum Column {
     InverseLength,
     /// h L/M of a leaf.
     GainAlong,
-    /// The same of the lateral part of the moment.
+    /// Lateral part of the first moment of a leaf, times L/M.
     GainAcross,
     /// L² m/M of a leaf.
     InverseInertia,
     /// Place of the children's pivot along the link over L; where children hang at
     /// several places, of the link on its parent.
     Along,
-    /// The same across the link.
+    /// Place across the link, over L.
     Across,
     /// Friction in the pivot over m l².
     Friction,
@@ -37,13 +37,15 @@ pub enum Column {
     Drag,
     /// Stiffness of the torsion spring over m l².
     Spring,
+    /// Angle at which the spring is at rest.
+    Rest,
     /// Torque on the root over m l², stated by each evaluation; zero in the rows.
     DriveTorque,
 }
 
 impl Column {
     /// All columns, in their order.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Inertia,
         Self::Moment,
         Self::LateralMoment,
@@ -58,6 +60,7 @@ impl Column {
         Self::Friction,
         Self::Drag,
         Self::Spring,
+        Self::Rest,
         Self::DriveTorque,
     ];
 
@@ -78,6 +81,7 @@ impl Column {
             Self::Friction => "friction",
             Self::Drag => "drag",
             Self::Spring => "spring",
+            Self::Rest => "rest",
             Self::DriveTorque => "drive_torque",
         }
     }
@@ -99,6 +103,7 @@ impl Column {
             Self::Friction => "friction in the pivot over m l²",
             Self::Drag => "drag against the ground over m l²",
             Self::Spring => "stiffness of the torsion spring over m l²",
+            Self::Rest => "angle at which the torsion spring is at rest",
             Self::DriveTorque => "torque on the root over m l², stated anew by every evaluation",
         }
     }

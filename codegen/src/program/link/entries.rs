@@ -190,7 +190,7 @@ impl Functions<'_> {
         let driven = at(Column::DriveTorque);
         let joint = self.joint_torque(list, own);
         let builder = &mut list.lowering.builder;
-        // −c (ω − ω_π) − κ (θ − θ_π) − k ω + τ and the torques of the children's joints.
+        // −c (ω − ω_π) − κ (θ − θ_π − ρ) − k ω + τ and the torques of the children's joints.
         let dragged = builder.mul(drag, omega);
         let resisting = builder.add(joint, dragged);
         let below = torque.unwrap_or_else(|| builder.integer(0));
@@ -211,13 +211,17 @@ impl Functions<'_> {
         (link, joint)
     }
 
-    /// The torque of the joint on the parent, c (ω − ω_π) + κ (θ − θ_π).
+    /// The torque of the joint on the parent, c (ω − ω_π) + κ (θ − θ_π − ρ).
     fn joint_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
         let friction = self.column(list, kind, Column::Friction);
         let spring = self.column(list, kind, Column::Spring);
         let rate = self.motion(list, Motion::JointRate);
-        let angle = self.motion(list, Motion::JointAngle);
+        let mut angle = self.motion(list, Motion::JointAngle);
+        let rest = self.column(list, kind, Column::Rest);
         let builder = &mut list.lowering.builder;
+        if !builder.is(rest, 0) {
+            angle = builder.sub(angle, rest);
+        }
         let (slowed, bent) = (builder.mul(friction, rate), builder.mul(spring, angle));
         let torque = builder.add(slowed, bent);
         builder.name(torque, "joint_torque")
@@ -292,7 +296,7 @@ impl Functions<'_> {
             force: [x, y],
             torque: turning,
         } = attached;
-        // What a link's own moment and inertia lose.
+        // Deductions from a link's own moment and inertia.
         let [moment_x, moment_y] = first_moment.map(|component| builder.neg(component));
         let inertia = builder.neg(inertia);
         let yy = deficit.yy(builder);

@@ -4,7 +4,7 @@
 
 use crate::program::ValueId;
 use crate::program::builder::Builder;
-use crate::program::lower::{Door, Lowering};
+use crate::program::lower::{Environment, Lowering};
 use crate::program::pair::Pair;
 use crate::scene::{LinkId, Scene};
 
@@ -25,6 +25,8 @@ pub(super) struct Unit {
     pub(super) place: Pair,
     /// Friction, drag and stiffness of the spring as they are.
     pub(super) forces: [ValueId; 3],
+    /// Angle at which the spring is at rest.
+    pub(super) rest: ValueId,
 }
 
 /// All constants of the recursion.
@@ -46,23 +48,26 @@ pub(super) struct Given {
     pub(super) pivot: Pair,
     /// Friction, drag and stiffness of the spring.
     pub(super) forces: [ValueId; 3],
+    /// Angle at which the spring is at rest.
+    pub(super) rest: ValueId,
 }
 
 impl Lowering<'_> {
     /// Those of a tree that is written out.
-    pub(super) fn units(&mut self, scene: &Scene, door: &mut Door<'_>) -> Units {
+    pub(super) fn units(&mut self, scene: &Scene, environment: &mut Environment<'_>) -> Units {
         let mechanics = self.mechanics;
         let mut given = Vec::new();
         for joint in &mechanics.articulation.joints {
-            let mut at = |expr| self.expr(door, expr);
+            let mut at = |expr| self.expr(environment, expr);
             given.push(Given {
                 inertia: at(&joint.inertia),
                 moment: [at(&joint.moment[0]), at(&joint.moment[1])],
                 pivot: [at(&joint.pivot[0]), at(&joint.pivot[1])],
                 forces: [at(&joint.friction), at(&joint.drag), at(&joint.spring)],
+                rest: at(&joint.rest),
             });
         }
-        let gravity = self.expr(door, &mechanics.articulation.gravity);
+        let gravity = self.expr(environment, &mechanics.articulation.gravity);
         Units::of(&mut self.builder, scene, &given, gravity, true)
     }
 }
@@ -115,6 +120,7 @@ impl Units {
                 per_torque: builder.div(one, torque),
                 place: given.pivot.map(|component| builder.div(component, carrier)),
                 forces: given.forces,
+                rest: given.rest,
             }
         });
         let links = links.collect();

@@ -9,22 +9,34 @@ use crate::mechanics::expression::{Expr, SymbolId};
 use crate::program::builder::Builder;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, ValueId};
-use crate::scene::{Layout, LinkId, Scene};
+use crate::scene::{LINK_PROPERTIES, Layout, LinkId, Quantity, Scene};
 
 /// Neighbours that share their constants.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Strip {
     /// Name of the generation or link.
     pub name: String,
-    /// Whether nothing hangs from its links.
+    /// True if nothing hangs from its links.
     pub is_leaf: bool,
     /// A constant for each of the columns that the equations read.
     pub constants: Vec<ConstantId>,
     /// Its links as bodies, in SI units, where energies are asked for: half of the
     /// mass; first moments along and across; half of the moment of inertia about the
     /// pivot; place on the parent, along and across; weight, and weight times the two
-    /// components of the centre of mass; half of the spring's stiffness, friction, drag.
-    pub body: Option<[ConstantId; 12]>,
+    /// components of the centre of mass; half of the spring's stiffness, its rest angle,
+    /// friction, drag.
+    pub body: Option<[ConstantId; 13]>,
+    /// Its [properties](crate::scene::LINK_PROPERTIES), if positions are asked for.
+    pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
+}
+
+impl Strip {
+    /// All constants that it holds.
+    pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
+        let others = self.body.iter().flatten();
+        let others = others.chain(self.properties.iter().flatten());
+        self.constants.iter().chain(others).copied()
+    }
 }
 
 /// A tree in loops.
@@ -34,11 +46,11 @@ pub struct Strips {
     pub columns: Vec<Column>,
     /// From the root outwards.
     pub strips: Vec<Strip>,
-    /// Whether children of one link hang at several places.
+    /// True if children of one link hang at several places.
     pub has_several_places: bool,
-    /// Whether joints have torques.
+    /// True if joints have torques.
     pub has_joint_torques: bool,
-    /// Whether a torque acts on the root.
+    /// True if a torque acts on the root.
     pub has_drive_torque: bool,
 }
 
@@ -69,7 +81,7 @@ impl Table {
         shared(builder, rows.map(|(row, _)| row[column as usize]))
     }
 
-    /// The same of all that hang from a parent.
+    /// Number that all links but the root have in a column, if it is one.
     pub(super) fn common_of_children(&self, builder: &Builder, column: Column) -> Option<Rational> {
         shared(
             builder,
@@ -129,15 +141,18 @@ impl Lowering<'_> {
             has_several_places |= places.len() > 1;
             let composite = self.composite(scene, index, balance, &places);
             let forces = [&link.friction, &link.drag, &link.spring];
-            let forces = forces.map(|force| match force {
+            let mut optional = |force: &Option<Quantity>| match force {
                 Some(force) => self.value_of(force),
                 None => zero,
-            });
+            };
+            let forces = forces.map(&mut optional);
+            let rest = optional(&link.rest);
             given.push(Given {
                 inertia: composite[0],
                 moment: [composite[1], composite[2]],
                 pivot: self.values_of(&link.pivot),
                 forces,
+                rest,
             });
             masses.push(match children[index].is_empty() {
                 true => zero,
@@ -261,7 +276,7 @@ impl Lowering<'_> {
     pub(super) fn strips(&mut self, scene: &Scene, table: &Table, columns: Vec<Column>) -> Strips {
         let any = |force: fn(&crate::scene::Link) -> bool| scene.links.iter().any(force);
         let mut strips = Vec::with_capacity(scene.links.len());
-        let mut bodies: Vec<Option<[ConstantId; 12]>> = vec![None; scene.orbits.len()];
+        let mut bodies: Vec<Option<[ConstantId; 13]>> = vec![None; scene.orbits.len()];
         for link in &scene.links {
             let orbit = link.orbit.0;
             let constants = columns.iter().map(|&column| {
@@ -280,6 +295,7 @@ impl Lowering<'_> {
                 is_leaf: table.is_leaf[orbit],
                 constants,
                 body: bodies[orbit],
+                properties: scene.requests.positions.then(|| self.link_properties(link)),
             });
         }
         let drive = scene.drive.as_ref();
@@ -328,6 +344,7 @@ fn row(
         Column::Friction => friction,
         Column::Drag => drag,
         Column::Spring => spring,
+        Column::Rest => unit.rest,
         Column::DriveTorque => zero,
     })
 }

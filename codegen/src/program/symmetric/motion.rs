@@ -15,6 +15,7 @@ pub(in crate::program) struct OrbitValues {
     pub(in crate::program) gravity: TruncatedSeries,
     pub(in crate::program) lateral_gravity: TruncatedSeries,
     pub(in crate::program) spring: TruncatedSeries,
+    pub(in crate::program) rest: TruncatedSeries,
     pub(in crate::program) friction: TruncatedSeries,
     pub(in crate::program) drag: TruncatedSeries,
     pub(in crate::program) drive: [TruncatedSeries; 3],
@@ -154,42 +155,75 @@ impl SymmetricTree<'_> {
             self.accumulate(&mut gradient, &along);
             self.accumulate(&mut gradient, &across);
         }
-        self.in_joints(&mut gradient, &pose.angles, values, |constants| {
-            &constants.spring
-        });
+        self.add_springs(&mut gradient, values, &pose.angles);
         self.all_hinted(&gradient, "potential_slope");
         gradient
     }
 
-    /// Adds stiffness · (own − parent's) to each link, and its opposite to the
-    /// parent.
-    pub(super) fn in_joints(
+    /// Adds κ (θ − θ_parent − ρ) to each link, and its opposite to the parent.
+    pub(super) fn add_springs(
         &mut self,
         sums: &mut Fields,
-        positions: &Fields,
         values: &ConstantValues,
-        stiffness: fn(&OrbitValues) -> &TruncatedSeries,
+        angles: &Fields,
     ) {
         for (orbit, constants) in values.orbits.iter().enumerate() {
-            let stiffness = stiffness(constants);
-            if stiffness.is_zero() {
-                continue;
-            }
-            let relative = self.relative(positions, orbit);
-            self.hinted(&relative, "relative");
-            let torque = self.scale(stiffness, &relative);
-            self.hinted(&torque, "joint_torque");
-            self.accumulate(sums, &torque);
-            if let Some(parent) = self.orbits[orbit].parent {
-                let reaction = self.gather(&torque, parent);
-                let reaction = self.neg(&reaction);
-                self.accumulate(sums, &reaction);
+            if !constants.spring.is_zero() {
+                let strain = self.strain(values, angles, orbit);
+                self.hinted(&strain, "relative");
+                self.add_joint(sums, &constants.spring, &strain);
             }
         }
     }
 
+    /// Adds c (ω − ω_parent) to each link, and its opposite to the parent.
+    fn add_friction(&mut self, sums: &mut Fields, values: &ConstantValues, rates: &Fields) {
+        for (orbit, constants) in values.orbits.iter().enumerate() {
+            if !constants.friction.is_zero() {
+                let relative = self.relative(rates, orbit);
+                self.hinted(&relative, "relative");
+                self.add_joint(sums, &constants.friction, &relative);
+            }
+        }
+    }
+
+    /// Adds coefficient · relative to the links of its orbit, and the opposite to
+    /// their parents.
+    pub(super) fn add_joint(
+        &mut self,
+        sums: &mut Fields,
+        coefficient: &TruncatedSeries,
+        relative: &SymmetricField,
+    ) {
+        let torque = self.scale(coefficient, relative);
+        self.hinted(&torque, "joint_torque");
+        self.accumulate(sums, &torque);
+        if let Some(parent) = self.orbits[relative.orbit].parent {
+            let reaction = self.gather(&torque, parent);
+            let reaction = self.neg(&reaction);
+            self.accumulate(sums, &reaction);
+        }
+    }
+
+    /// θ − θ_parent − ρ, by which the springs of an orbit are turned. Their rest angle
+    /// is one for all, and so in the mean alone.
+    pub(super) fn strain(
+        &mut self,
+        values: &ConstantValues,
+        angles: &Fields,
+        orbit: usize,
+    ) -> SymmetricField {
+        let relative = self.relative(angles, orbit);
+        let rest = &values.orbits[orbit].rest;
+        if rest.is_zero() {
+            return relative;
+        }
+        let rest = SymmetricField::uniform(orbit, rest.clone());
+        self.sub(&relative, &rest)
+    }
+
     /// A link's own less its parent's.
-    pub(super) fn relative(&mut self, positions: &Fields, orbit: usize) -> SymmetricField {
+    fn relative(&mut self, positions: &Fields, orbit: usize) -> SymmetricField {
         match self.orbits[orbit].parent {
             Some(parent) => {
                 let above = self.lift(&positions[parent], orbit);
@@ -218,7 +252,7 @@ impl SymmetricTree<'_> {
         rates: &Fields,
     ) -> Fields {
         let mut losses = self.zeros();
-        self.in_joints(&mut losses, rates, values, |constants| &constants.friction);
+        self.add_friction(&mut losses, values, rates);
         for (constants, rate) in values.orbits.iter().zip(rates) {
             let drag = self.scale(&constants.drag, rate);
             self.accumulate(&mut losses, &drag);

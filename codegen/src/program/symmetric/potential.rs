@@ -52,8 +52,9 @@ impl SymmetricTree<'_> {
             let gravity = self.series.mul(&weight, &square);
             sum = self.series.add(&sum, &gravity);
             if !constants.spring.is_zero() {
-                let relative = self.relative(&pose.angles, orbit).component(sector);
-                let square = self.series.mul(&relative, &relative);
+                let strain = self.strain(values, &pose.angles, orbit);
+                let strain = strain.component(sector);
+                let square = self.series.mul(&strain, &strain);
                 let weight = self.series.mul(&share, &constants.spring);
                 let spring = self.series.mul(&weight, &square);
                 sum = self.series.add(&sum, &spring);
@@ -165,14 +166,9 @@ impl SymmetricTree<'_> {
                 self.accumulate(&mut gradient, &lateral);
             }
             if !constants.spring.is_zero() {
-                let relative = self.relative(&pose.angles, orbit).restricted(sector);
-                let torque = self.scale(&constants.spring, &relative);
-                self.accumulate(&mut gradient, &torque);
-                if let Some(parent) = self.orbits[orbit].parent {
-                    let reaction = self.gather(&torque, parent);
-                    let reaction = self.neg(&reaction);
-                    self.accumulate(&mut gradient, &reaction);
-                }
+                let strain = self.strain(values, &pose.angles, orbit);
+                let strain = strain.restricted(sector);
+                self.add_joint(&mut gradient, &constants.spring, &strain);
             }
         }
         gradient
@@ -181,9 +177,7 @@ impl SymmetricTree<'_> {
     /// ∂U/∂θ of the springs.
     pub(super) fn spring_gradient(&mut self, values: &ConstantValues, pose: &Pose) -> Fields {
         let mut gradient = self.zeros();
-        self.in_joints(&mut gradient, &pose.angles, values, |constants| {
-            &constants.spring
-        });
+        self.add_springs(&mut gradient, values, &pose.angles);
         gradient
     }
 }

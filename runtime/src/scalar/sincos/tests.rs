@@ -171,8 +171,7 @@ fn fused_sines_are_odd() {
 
 fn fused_agrees<const N: usize>() {
     let all = signed();
-    for block in all.chunks_exact(N) {
-        let angles: [f64; N] = from_fn(|i| block[i]);
+    for &angles in all.as_chunks::<N>().0 {
         let small = angles.map(|angle| angle as f32);
         let (Ok((sines, cosines)), Ok(single)) =
             (run_fused(InFused(angles)), run_fused(InFused(small)))
@@ -209,7 +208,7 @@ fn one_angle_has_the_same_fused_bits_in_any_company() {
 #[test]
 fn registers_have_the_bits_of_one_angle() {
     skip_missing();
-    for block in signed().chunks_exact(16) {
+    for block in signed().as_chunks::<16>().0 {
         for set in InstructionSet::ALL {
             let found = run_in_registers(set, InRegister(block));
             for (&angle, found) in block.iter().zip(found) {
@@ -310,8 +309,7 @@ impl<const N: usize> Routine for InLanes<N> {
 /// every instruction set.
 fn agrees<const N: usize>() {
     let all = signed();
-    for block in all.chunks_exact(N) {
-        let angles: [f64; N] = from_fn(|i| block[i]);
+    for &angles in all.as_chunks::<N>().0 {
         let alone = angles.map(|angle| bits(Scalar::sin_cos(angle)));
         let (sines, cosines) = f64::sin_cos_each(&angles);
         assert_eq!(from_fn(|i| bits((sines[i], cosines[i]))), alone);

@@ -99,13 +99,7 @@ where
     // What does not fuse rounds otherwise.
     let sizes = widest.iter().map(|&alpha| Real::abs(alpha));
     let largest = sizes.fold(T::ZERO, |largest, size| largest.max(size));
-    let rounding = T::from_f64(1024.0) * T::EPSILON * largest;
-    std::println!(
-        "APART {} {}",
-        count,
-        widest.iter().zip(&build).fold(0.0, |a: f64, (&x, &y)| a
-            .max((Real::abs(x - y) / (T::EPSILON * largest)).to_f64()))
-    );
+    let rounding = T::from_f64(256.0) * T::EPSILON * largest;
     for (&own, &other) in widest.iter().zip(&build) {
         assert!(
             own.is_finite() && Real::abs(own - other) <= rounding,

@@ -89,16 +89,9 @@ fn agree(own: &[f64], dense: &[f64]) {
     let size = dense
         .iter()
         .fold(1.0, |size: f64, alpha| size.max(alpha.abs()));
-    std::println!(
-        "DENSE {} {:e}",
-        own.len(),
-        own.iter()
-            .zip(dense)
-            .fold(0.0, |a: f64, (x, y)| a.max((x - y).abs() / size))
-    );
     for (link, (own, dense)) in own.iter().zip(dense).enumerate() {
         let apart = (own - dense).abs();
-        assert!(apart <= 1e-10 * size, "link {link}: {own} {dense}");
+        assert!(apart <= 2e-14 * size, "link {link}: {own} {dense}");
     }
 }
 

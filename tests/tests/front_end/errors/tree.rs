@@ -66,7 +66,7 @@ pub(super) const CASES: &[Case] = &[
     ),
     (
         "long_number",
-        "#[branched_pendulum(gravity = -1e-300 / 3, a: rod(mass = 0x123456789012345678901234567890123456789012345678901234567890, length = 1))] struct Pendulum;",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = -1e-300 / 3, length = 0x123456789012345678901234567890123456789012345678901234567890))] struct Pendulum;",
     ),
     (
         "ended",
@@ -284,5 +284,21 @@ pub(super) const CASES: &[Case] = &[
     (
         "not_exact",
         "#[branched_pendulum(gravity = pi^2, a: rod(mass = 1, length = tau))] struct Pendulum;",
+    ),
+    (
+        "rest_without_spring",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1, rest = 0.1))] struct Pendulum;",
+    ),
+    (
+        "declared_parameters",
+        "#[branched_pendulum(
+    gravity = g,
+    parameters(g, mass_of_a, r, mass_of_a),
+    a: rod(mass = mas_of_a, length = prism),
+)] struct Pendulum;",
+    ),
+    (
+        "unused_parameter",
+        "#[branched_pendulum(parameters(g, m), gravity = g, a: rod(mass = 1, length = 1))] struct Pendulum;",
     ),
 ];

@@ -12,7 +12,7 @@ use super::{flattened, mutated};
 use crate::support::Random;
 
 /// Most processor time for one description, in an unoptimised build on a busy machine.
-const TIME: Duration = Duration::from_secs(30);
+const TIME: Duration = Duration::from_secs(10);
 
 /// Most memory for all of them.
 const MEMORY: u64 = 1 << 30;

@@ -82,6 +82,9 @@ impl Grammar<'_> {
                 entries.push(format!("{name} = {value}"));
             }
         }
+        if self.one_in(20) {
+            entries.push(format!("parameters({})", PARAMETERS.join(", ")));
+        }
         let budget = *self.random.pick(&[1, 2, 3, 4, 5, 7]);
         entries.push(self.tree(budget));
         if self.is_odd() {
@@ -129,6 +132,9 @@ impl Grammar<'_> {
         for property in ["friction", "drag", "spring"] {
             if self.one_in(8) {
                 properties.push(self.property(property));
+                if property == "spring" && (self.is_odd() || self.one_in(2)) {
+                    properties.push(self.property("rest"));
+                }
             }
         }
         if self.links.len() > 1 && self.one_in(5) {
@@ -192,7 +198,15 @@ impl Grammar<'_> {
         properties.push(format!(
             "shape = {shape}, count = {count}, branching = {branching}"
         ));
-        for ratio in ["mass_ratio", "length_ratio", "friction", "spring"] {
+        const RATIOS: [&str; 6] = [
+            "mass_ratio",
+            "length_ratio",
+            "friction",
+            "spring",
+            "spring_ratio",
+            "inertia_ratio",
+        ];
+        for ratio in RATIOS {
             if self.one_in(4) {
                 properties.push(self.property(ratio));
             }

@@ -61,6 +61,7 @@ fn the_samples_are_rich() {
     assert!(SAMPLES.iter().filter(nested).count() >= 4);
     let links = SAMPLES.iter().flat_map(|sample| &sample.tree.links);
     assert!(links.clone().any(|link| link.spring > 0.0));
+    assert!(links.clone().any(|link| link.rest != 0.0));
     assert!(links.clone().any(|link| link.com[1] != 0.0));
     assert!(links.clone().any(|link| link.friction > 0.0));
 }

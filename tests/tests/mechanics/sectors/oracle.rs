@@ -123,7 +123,7 @@ pub(crate) fn potentials(tree: &Tree, basis: &Basis, theta: &[f64]) -> Vec<f64> 
     let cos = DVector::from_fn(n, |i, _| 1.0 - theta[i].cos());
     let sin = DVector::from_fn(n, |i, _| theta[i].sin());
     let relative = DVector::from_fn(n, |i, _| {
-        theta[i] - tree.links[i].parent.map_or(0.0, |parent| theta[parent])
+        theta[i] - tree.links[i].parent.map_or(0.0, |parent| theta[parent]) - tree.links[i].rest
     });
     basis
         .sectors

@@ -1,0 +1,210 @@
+use super::entry::{Entry, question};
+use super::{ExpansionCache, placed};
+use crate::{expand, layout};
+use proc_macro2::TokenStream;
+use quote::quote;
+use std::fs;
+use std::path::PathBuf;
+
+/// A folder of a test's own, removed at the end.
+struct Own(PathBuf);
+
+impl Own {
+    fn new(name: &str) -> Self {
+        let id = std::process::id();
+        Self(std::env::temp_dir().join(format!("expansions-{id}-{name}")))
+    }
+
+    fn cache(&self) -> ExpansionCache {
+        ExpansionCache::in_folder(self.0.clone())
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        let entries = fs::read_dir(&self.0).into_iter().flatten();
+        entries.map(|entry| entry.unwrap().path()).collect()
+    }
+}
+
+impl Drop for Own {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn attribute() -> TokenStream {
+    quote!(gravity = 9.80665, rod: rod(mass = m, length = 1))
+}
+
+fn item() -> TokenStream {
+    quote! {
+        #[doc = " A rod."]
+        #[derive(Debug)]
+        pub(crate) struct Rod;
+    }
+}
+
+#[test]
+fn kept_and_new_expansions_are_those_without_a_cache() {
+    let own = Own::new("equal");
+    let plain = layout(expand(attribute(), item())).unwrap();
+    for _ in 0..2 {
+        let tokens = own.cache().expand(attribute(), item());
+        assert_eq!(layout(tokens).unwrap(), plain);
+        assert_eq!(own.files().len(), 1);
+    }
+}
+
+#[test]
+fn what_is_kept_is_the_answer_and_nothing_is_derived() {
+    let own = Own::new("answer");
+    let question = question(&attribute(), &item());
+    // No derivation gives these tokens.
+    let entry = Entry {
+        question: &question,
+        expansion: "fn kept() {}",
+    };
+    fs::create_dir_all(&own.0).unwrap();
+    fs::write(own.0.join(Entry::file_name(&question)), entry.to_string()).unwrap();
+    let tokens = own.cache().expand(attribute(), item());
+    assert_eq!(
+        tokens.to_string(),
+        quote!(
+            fn kept() {}
+        )
+        .to_string()
+    );
+
+    // Other tokens, and another compiler, are other questions.
+    let other = own
+        .cache()
+        .expand(quote!(gravity = 1, rod: rod(mass = m, length = 1)), item());
+    assert_ne!(other.to_string(), tokens.to_string());
+    let older = question.replacen(env!("BRANCHED_PENDULUM_COMPILER"), "0123456789abcdef", 1);
+    assert_ne!(older, question);
+    let entry = Entry {
+        question: &older,
+        expansion: "fn kept() {}",
+    };
+    fs::write(own.0.join(Entry::file_name(&question)), entry.to_string()).unwrap();
+    let tokens = own.cache().expand(attribute(), item());
+    assert_ne!(
+        tokens.to_string(),
+        quote!(
+            fn kept() {}
+        )
+        .to_string()
+    );
+}
+
+#[test]
+fn groups_that_macros_make_are_part_of_the_question() {
+    let sum = proc_macro2::Group::new(proc_macro2::Delimiter::None, quote!(1 + 1));
+    let product = |length: TokenStream| quote!(gravity = 2 * #length);
+    let (grouped, plain) = (product(quote!(#sum)), product(quote!(1 + 1)));
+    assert_ne!(question(&grouped, &item()), question(&plain, &item()));
+}
+
+#[test]
+fn damaged_files_are_no_answer_and_are_written_anew() {
+    let own = Own::new("damaged");
+    let plain = own.cache().expand(attribute(), item()).to_string();
+    let files = own.files();
+    let [path] = files.as_slice() else {
+        panic!("{files:?}")
+    };
+    let whole = fs::read_to_string(path).unwrap();
+    let damages = [
+        String::new(),
+        whole[..whole.len() / 2].to_owned(),
+        whole.replacen("Rod", "Rot", 3),
+        whole.replace("mul", "nul") + " ",
+        whole.replacen("branched-pendulum expansion ", "", 1),
+    ];
+    for damaged in damages {
+        fs::write(path, &damaged).unwrap();
+        assert_eq!(own.cache().expand(attribute(), item()).to_string(), plain);
+        assert_eq!(fs::read_to_string(path).unwrap(), whole);
+    }
+    fs::write(path, b"\xff\xfe").unwrap();
+    assert_eq!(own.cache().expand(attribute(), item()).to_string(), plain);
+}
+
+#[test]
+fn many_threads_share_one_folder() {
+    let own = Own::new("threads");
+    let plain = layout(expand(attribute(), item())).unwrap();
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                for _ in 0..3 {
+                    let tokens = own.cache().expand(attribute(), item());
+                    assert_eq!(layout(tokens).unwrap(), plain);
+                    for file in own.files() {
+                        let _ = fs::write(file, "half");
+                    }
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn mistakes_are_never_kept_and_no_folder_is_no_mistake() {
+    let own = Own::new("mistakes");
+    let wrong = quote!(gravity = 9.8, rod: rod(mass = -1, length = 1));
+    let tokens = own.cache().expand(wrong, item()).to_string();
+    assert!(tokens.contains("compile_error"), "{tokens}");
+    assert_eq!(own.files().len(), 0);
+
+    // A file where the folder should be.
+    fs::write(&own.0, "").unwrap();
+    let tokens = own.cache().expand(attribute(), item());
+    let plain = layout(expand(attribute(), item())).unwrap();
+    assert_eq!(layout(tokens).unwrap(), plain);
+    fs::remove_file(&own.0).unwrap();
+}
+
+#[test]
+fn the_structs_own_tokens_keep_their_places() {
+    // With places, as in a file.
+    let item: TokenStream = "#[derive(Clone)]\n#[doc = \"text\"]\npub(crate)\nstruct Rod;"
+        .parse()
+        .unwrap();
+    let kept = quote! {
+        #[derive(Clone)] #[doc = "text"] #[doc = "more"] pub(crate) struct Rod { a: f64 }
+        impl Rod { fn new(parameters: RodParameters) -> Rod {} }
+    };
+    let mut lines = Vec::new();
+    collect(placed::placed(kept.clone(), &item), &mut lines);
+    let own = [
+        "derive:1",
+        "Clone:1",
+        "doc:2",
+        "crate:3",
+        "Rod:4",
+        "RodParameters:4",
+    ];
+    for word in own {
+        assert!(lines.iter().any(|line| line == word), "{word}: {lines:?}");
+    }
+    assert_eq!(lines.iter().filter(|line| *line == "Rod:4").count(), 3);
+    assert!(lines.iter().any(|line| line == "parameters:1"));
+    assert_eq!(
+        placed::placed(kept.clone(), &item).to_string(),
+        kept.to_string()
+    );
+}
+
+/// Identifiers with their lines; what `quote!` makes stands in line 1, as the text
+/// of a file that is read back does.
+fn collect(tokens: TokenStream, lines: &mut Vec<String>) {
+    for token in tokens {
+        match token {
+            proc_macro2::TokenTree::Group(group) => collect(group.stream(), lines),
+            proc_macro2::TokenTree::Ident(word) => {
+                lines.push(format!("{word}:{}", word.span().start().line));
+            }
+            _ => {}
+        }
+    }
+}

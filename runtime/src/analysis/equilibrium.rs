@@ -1,0 +1,130 @@
+//! Equilibria of a tree, about which its linear modes are those of small motions.
+
+use core::fmt;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::modes::{ModesError, symmetric_matrix};
+
+/// What a model says of a tree at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtRest<const N: usize> {
+    /// Mass matrix M, kg m².
+    pub mass: [[f64; N]; N],
+    /// Second derivatives of the potential energy, N m/rad.
+    pub stiffness: [[f64; N]; N],
+    /// Accelerations from rest, rad/s².
+    pub accelerations: [f64; N],
+}
+
+/// Most steps of the search.
+const MOST_STEPS: usize = 100;
+
+/// Longest step of an angle, rad: beyond, the stiffness says nothing.
+const LONGEST_STEP: f64 = 0.5;
+
+/// Finds the equilibrium near `start`, at which the tree stays at rest, by Newton's
+/// method: K δ = M α, since the torques at rest are M α = −∂U/∂θ. No angle changes by
+/// more than half a radian at once. It may be unstable: [`Modes`](super::Modes) says so.
+///
+/// # Errors
+///
+/// [`EquilibriumError`] if the stiffness is singular or not finite on the way, or if
+/// 100 steps do not suffice.
+///
+/// # Examples
+///
+/// A rod held up by a spring that is at rest at 0.2 rad from the upward vertical:
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::analysis::{AtRest, Modes, equilibrium};
+/// use branched_pendulum::prelude::*;
+///
+/// #[branched_pendulum(
+///     gravity = -9.80665,
+///     reed: rod(mass = 0.1, length = 0.3, spring = 0.2, rest = 0.2),
+///     emit(modes),
+/// )]
+/// struct Reed;
+///
+/// let reed = Reed::new();
+/// let theta = equilibrium([0.0], |theta| AtRest {
+///     mass: reed.mass_matrix(theta),
+///     stiffness: reed.stiffness_matrix(theta),
+///     accelerations: reed.accelerations(theta, &[0.0]),
+/// })?;
+/// // It leans further than the spring alone would have it.
+/// assert!((theta[0] - 0.6381).abs() < 1e-3, "{theta:?}");
+/// assert!(reed.accelerations(&theta, &[0.0])[0].abs() < 1e-12);
+/// let modes = Modes::new(&reed.mass_matrix(&theta), &reed.stiffness_matrix(&theta))?;
+/// assert!(modes.frequencies_hz[0] > 0.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn equilibrium<const N: usize>(
+    start: [f64; N],
+    mut at: impl FnMut(&[f64; N]) -> AtRest<N>,
+) -> Result<[f64; N], EquilibriumError> {
+    let mut theta = start;
+    let mut size = f64::INFINITY;
+    for _ in 0..MOST_STEPS {
+        let AtRest {
+            mass,
+            stiffness,
+            accelerations,
+        } = at(&theta);
+        let mass = symmetric_matrix("mass", &mass).map_err(EquilibriumError::Matrix)?;
+        let stiffness: DMatrix<f64> =
+            symmetric_matrix("stiffness", &stiffness).map_err(EquilibriumError::Matrix)?;
+        let torque = mass * DVector::from_column_slice(&accelerations);
+        let step = stiffness.lu().solve(&torque);
+        let step = step.filter(|step| step.iter().all(|part| part.is_finite()));
+        let Some(step) = step else {
+            return Err(EquilibriumError::Singular);
+        };
+        let before = size;
+        size = step.amax();
+        let factor = (LONGEST_STEP / size).min(1.0);
+        for (angle, part) in theta.iter_mut().zip(step.iter()) {
+            *angle += factor * part;
+        }
+        // Rounding is reached where steps no longer shrink.
+        if size == 0.0 || (size < 1e-9 && size >= 0.5 * before) {
+            return Ok(theta);
+        }
+    }
+    Err(EquilibriumError::NoConvergence { last_step: size })
+}
+
+/// Reason for which no equilibrium was found.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum EquilibriumError {
+    /// A matrix is not finite or not symmetric.
+    Matrix(ModesError),
+    /// The stiffness is singular, or torques are not finite.
+    Singular,
+    /// The steps did not become small.
+    NoConvergence {
+        /// Largest change of an angle in the last step, rad.
+        last_step: f64,
+    },
+}
+
+impl fmt::Display for EquilibriumError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Matrix(error) => error.fmt(f),
+            Self::Singular => f.write_str(
+                "the stiffness is singular on the way to an equilibrium: start elsewhere",
+            ),
+            Self::NoConvergence { last_step } => write!(
+                f,
+                "no equilibrium within {MOST_STEPS} steps, the last one of {last_step} rad: start \
+                 elsewhere"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for EquilibriumError {}
