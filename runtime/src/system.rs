@@ -174,6 +174,22 @@ pub trait Energy<T: Scalar>: Pendulum<T> {
     /// Potential energy for angles `theta` (rad), of length
     /// [`Pendulum::LINKS`]; zero where every link hangs straight down.
     fn potential_energy_of(&self, theta: &[T]) -> T;
+
+    /// Returns the kinetic energy, in memory that the caller keeps: trees in loops
+    /// need some, and allocate it for every call of
+    /// [`kinetic_energy_of`](Self::kinetic_energy_of).
+    #[inline]
+    fn kinetic_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> T {
+        let _ = workspace;
+        self.kinetic_energy_of(theta, omega)
+    }
+
+    /// Returns the potential energy, in memory that the caller keeps.
+    #[inline]
+    fn potential_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
+        let _ = workspace;
+        self.potential_energy_of(theta)
+    }
 }
 
 impl<T: Scalar, P: Energy<T>> Energy<T> for &P {

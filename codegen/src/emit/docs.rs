@@ -13,7 +13,7 @@ use proc_macro2::TokenStream;
 
 /// Formulas of more rows than this are shown up to here.
 const ROWS: usize = 8;
-/// A formula longer than this is left to `expand --stage mechanics`.
+/// A formula longer than this is left to `branched-pendulum --stage mechanics`.
 const LONGEST_FORMULA: usize = 600;
 
 /// Meaning of w in formulas of transfers.
@@ -249,7 +249,7 @@ impl Emission<'_> {
                 vec![
                     format!("Energy transfer W (in W) into `{}` through order {order} in {what}. {remainder}", difference(n)),
                     String::new(),
-                    "`expand --stage mechanics` shows the formulas.".into(),
+                    "`branched-pendulum --stage mechanics` shows the formulas.".into(),
                 ]
             }
             Purpose::QuadraticForm(n) => vec![

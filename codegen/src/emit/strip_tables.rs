@@ -54,7 +54,7 @@ impl Emission<'_> {
             _ => (
                 quote!(Parents(&PARENTS)),
                 Some(self.parents()),
-                quote!(with_parents(&PARENTS, #rows, #gravity)),
+                quote!(with_parents(&PARENTS, &#rows, #gravity)),
             ),
         };
         let bodies = strips.strips.iter().filter_map(|strip| strip.body.as_ref());
@@ -181,8 +181,8 @@ impl Emission<'_> {
         }
     }
 
-    /// A table of constants, and the vector of these in the model's scalar, in
-    /// which values of parameters are put in place.
+    /// A table of constants, and the vector of these in the model's scalar, one row after
+    /// the other, in which values of parameters are put in place.
     fn table(
         &self,
         name: &Ident,
@@ -207,16 +207,15 @@ impl Emission<'_> {
         docs.extend(numbered.map(|(column, meaning)| format!("{}. {meaning}", column + 1)));
         let docs = doc_lines(&docs);
         let count = Literal::usize_unsuffixed(rows.len());
-        let width = Literal::usize_unsuffixed(columns.len());
+        let width = columns.len();
         let mut placed = Vec::new();
         let lines = rows.iter().enumerate().map(|(link, row)| {
             let numbers = row.iter().enumerate().map(|(column, &id)| {
                 let exact = self.program.setup.get(id).exact.as_ref();
                 let [high, low] = exact.map(part_tokens).unwrap_or_else(|| {
                     let value = self.known_value(id, known);
-                    let link = Literal::usize_unsuffixed(link);
-                    let column = Literal::usize_unsuffixed(column);
-                    placed.push(quote!(#name[#link][#column] = #value;));
+                    let place = Literal::usize_unsuffixed(link * width + column);
+                    placed.push(quote!(#name[#place] = #value;));
                     [quote!(0.0), quote!(0.0)]
                 });
                 quote!([#high, #low])
@@ -224,11 +223,12 @@ impl Emission<'_> {
             quote!([#(#numbers),*])
         });
         let lines = quote!(#(#lines),*);
+        let width = Literal::usize_unsuffixed(width);
         let table = quote! {
             #docs
             static #constants: [[[f64; 2]; #width]; #count] = [#lines];
         };
-        let value = quote!(#runtime::tree::rows(&#constants));
+        let value = quote!(#runtime::tree::numbers(#constants.as_flattened()));
         let value = match placed.is_empty() {
             true => value,
             false => quote! {{

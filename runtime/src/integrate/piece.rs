@@ -71,7 +71,7 @@ impl<'a, T: Real> Piece<'a, T> {
     /// Writes the solution at the fraction `fraction` of the step, from 0 to 1.
     pub(crate) fn value(&self, fraction: T, out: &mut [T]) {
         if self.form == Form::Taylor {
-            return T::run_packs(Ahead {
+            return run_packs::<T, _>(Ahead {
                 coefficients: self.terms[0],
                 tau: fraction * self.length,
                 start: self.start,

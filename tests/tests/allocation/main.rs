@@ -1,5 +1,5 @@
 //! Large trees with a workspace, and batches, allocate nothing after their first
-//! evaluation, counted.
+//! evaluation, and energies with a workspace nothing after the first, counted.
 
 #[path = "../../../runtime/tests/counting/mod.rs"]
 mod counting;
@@ -80,7 +80,13 @@ fn evaluations<T: Lane, P: Pendulum<T> + Energy<T>>(model: &P) {
     // Where nothing is counted, the second zero says nothing.
     assert!(first > 0);
     assert_eq!(second, 0);
-    let energy = model.kinetic_energy_of(&theta, &omega) + model.potential_energy_of(&theta);
+    let (mut workspace, mut energy) = (Workspace::new(), T::from_f64(0.0));
+    let [first, second] = of_two(|| {
+        energy = model.kinetic_energy_with(&mut workspace, &theta, &omega)
+            + model.potential_energy_with(&mut workspace, &theta);
+    });
+    assert!(first > 0);
+    assert_eq!(second, 0);
     assert!(energy > T::from_f64(0.0));
 }
 
