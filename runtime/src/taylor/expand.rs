@@ -238,6 +238,7 @@ where
     where
         T: Simd<L>,
     {
-        self.by::<TaylorElimination<T, Q>, N>().form::<OneLink<T>, true>();
+        self.by::<TaylorElimination<T, Q>, N>()
+            .form::<OneLink<T>, true>();
     }
 }
