@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints what a model costs before it runs, as the table in performance.md: least
-# processor time, of five, of an unoptimised `expand` and of `cargo build --release`
+# processor time, of five, of an unoptimised `branched-pendulum` and of `cargo build --release`
 # for a program that evaluates the expanded file, its dependencies built; lines of
 # the expanded file; and by how many bytes of machine code that program is longer
 # than one without a model. Rows can be chosen by their names, as in

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints what expansion costs, as the table in pipeline.md: processor time of an
-# unoptimised `expand` and lines that it writes, for binary trees of rods.
+# unoptimised `branched-pendulum` and lines that it writes, for binary trees of rods.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -237,7 +237,7 @@ impl Emission<'_> {
                 vec![
                     format!("Energy transfer W (in W) into `{}` through order {order} in {what}. {remainder}", difference(n)),
                     String::new(),
-                    "`expand --stage mechanics` shows the formulas.".into(),
+                    "`branched-pendulum --stage mechanics` shows the formulas.".into(),
                 ]
             }
             Purpose::QuadraticForm(n) => vec![

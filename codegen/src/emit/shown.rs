@@ -8,7 +8,7 @@ use crate::mechanics::expression::Expr;
 
 /// Formulas of more rows than this are shown up to here.
 const ROWS: usize = 8;
-/// A formula longer than this is left to `expand --stage mechanics`.
+/// A formula longer than this is left to `branched-pendulum --stage mechanics`.
 const LONGEST_FORMULA: usize = 600;
 
 impl Emission<'_> {

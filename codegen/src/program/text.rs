@@ -1,4 +1,4 @@
-//! A program as text, for `expand --stage program` and for snapshots.
+//! A program as text, for `branched-pendulum --stage program` and for snapshots.
 
 use super::{Argument, ConstantId, ConstantOp, Op, Program, ValueId};
 use std::fmt::{self, Write};

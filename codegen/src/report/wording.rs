@@ -552,7 +552,7 @@ impl Message {
             M::Algebra(reason) => problem(
                 "the mechanics could not be derived",
                 reason.as_str(),
-                "commit the expansion made by the `expand` tool where the derivation cannot run",
+                "commit the expansion made by the tool `branched-pendulum` where the derivation cannot run",
             ),
             M::NestedGroups { group } => problem(
                 format!(

@@ -30,8 +30,9 @@ impl Drop for Folder {
 
 /// The tool, deriving the paper's pendulum, for a user with this home.
 fn derivation(home: &Path) -> Command {
-    let scene = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../tests/fixtures/scenes/paper.rs");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_expand"));
+    let scene =
+        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/fixtures/scenes/paper.rs");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_branched-pendulum"));
     command
         .args(["--stage".as_ref(), "mechanics".as_ref(), scene.as_os_str()])
         .env("HOME", home)
