@@ -4,8 +4,8 @@
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 repository="$PWD"
 
-cargo build --quiet --package branched-pendulum-codegen --bin expand
-expand="$(realpath "${CARGO_TARGET_DIR:-target}")/debug/expand"
+cargo build --quiet --package branched-pendulum-cli
+expand="$(realpath "${CARGO_TARGET_DIR:-target}")/debug/branched-pendulum"
 folder="$(mktemp -d)"
 trap 'rm -r "$folder"' EXIT
 

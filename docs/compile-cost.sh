@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints what a model costs before it runs, as the table in performance.md: least
-# processor time, of five, of an unoptimised `expand` and of `cargo build --release`
+# processor time, of five, of an unoptimised `branched-pendulum` and of `cargo build --release`
 # for a program that evaluates the expanded file, its dependencies built; lines of
 # the expanded file; and by how many bytes of machine code that program is longer
 # than one without a model. Rows can be chosen by their names, as in
@@ -9,8 +9,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 export CARGO_TARGET_DIR="${CARGO_TARGET_DIR:-$PWD/target}"
-cargo build --quiet --package branched-pendulum-codegen --bin expand
-expand="$CARGO_TARGET_DIR/debug/expand"
+cargo build --quiet --package branched-pendulum-cli
+expand="$CARGO_TARGET_DIR/debug/branched-pendulum"
 folder="$(mktemp -d)"
 trap 'rm -r "$folder"' EXIT
 TIMEFORMAT=%U
@@ -75,7 +75,7 @@ use branched_pendulum::prelude::*;
 #[branched_pendulum(gravity = 9.80665, $3, emit(energies))]
 pub struct Tree;
 SCENE
-    derivation="$(least "$expand" "$folder/$1/scene.rs" --out "$folder/$1/src/scene.rs")"
+    derivation="$(least "$expand" "$folder/$1/scene.rs" --output "$folder/$1/src/scene.rs")"
     bytes=$(($(code "$1") - bare))
     compilation="$(cd "$folder/$1" && touched=src/main.rs least cargo build --release --quiet --offline)"
     lines="$(wc -l < "$folder/$1/src/scene.rs")"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Prints what expansion costs, as the table in pipeline.md: processor time of an
-# unoptimised `expand` and lines that it writes, for binary trees of rods.
+# unoptimised `branched-pendulum` and lines that it writes, for binary trees of rods.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-cargo build --quiet --package branched-pendulum-codegen --bin expand
-expand="${CARGO_TARGET_DIR:-target}/debug/expand"
+cargo build --quiet --package branched-pendulum-cli
+expand="${CARGO_TARGET_DIR:-target}/debug/branched-pendulum"
 folder="$(mktemp -d)"
 trap 'rm -r "$folder"' EXIT
 TIMEFORMAT=%U
@@ -38,7 +38,7 @@ use branched_pendulum::prelude::*;
 )]
 pub struct Tree;
 SCENE
-    seconds="$({ time "$expand" "$folder/scene.rs" --out "$folder/expanded.rs"; } 2>&1)"
+    seconds="$({ time "$expand" "$folder/scene.rs" --output "$folder/expanded.rs"; } 2>&1)"
     lines="$(wc -l < "$folder/expanded.rs")"
     longest="$(awk '/^    (pub )?fn /{start = NR} /^    }$/{if (start && NR - start + 1 > most) most = NR - start + 1; start = 0} END{print most}' "$folder/expanded.rs")"
     echo "| $((2 ** $2 - 1)) | \`${1:-–}\` | $seconds | $lines | $longest |"

@@ -2,8 +2,8 @@
 # What each pass over programs is worth: the tables of docs/pipeline.md.
 set -eu
 cd "$(dirname "$0")/.."
-cargo build --quiet -p branched-pendulum-codegen
-expand=${CARGO_TARGET_DIR:-target}/debug/expand
+cargo build --quiet -p branched-pendulum-cli
+expand=${CARGO_TARGET_DIR:-target}/debug/branched-pendulum
 for scene in paper triplet nested; do
     printf '%s\n\n' "$scene"
     "$expand" --stage passes "tests/fixtures/scenes/$scene.rs"

@@ -14,7 +14,7 @@ scene() {
         module="${1}_$solve"
         printf '#[branched_pendulum(gravity = 9.80665, %s, solve = %s)]\npub struct Tree;\n' \
             "$3" "$solve" > "$folder/scene.rs"
-        "$expand" "$folder/scene.rs" --out "$folder/src/$module.rs"
+        "$expand" "$folder/scene.rs" --output "$folder/src/$module.rs"
         modules+="#[path = \"$module.rs\"] #[allow(warnings)] mod $module;"$'\n'
         list+="(\"$module\", |kind, times| crate::run::<$2, _>($module::Tree::<f64>::new(), kind, times)),"$'\n'
     done

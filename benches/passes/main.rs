@@ -1,4 +1,4 @@
-//! What each pass over programs is worth in time: the same scenes with and
+//! The worth of each pass over programs in time: the same scenes with and
 //! without it, in one run. `run.sh` writes `variants.rs` and builds this.
 //!
 //! Variants take turns; each time is divided by that of the program with all passes in the

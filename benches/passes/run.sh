@@ -33,7 +33,7 @@ scene() {
         option=""
         [ "$variant" == – ] || [ "$variant" == again ] || option="--without $variant"
         # shellcheck disable=SC2086
-        "$expand" $option "$source" --out "$folder/src/$module.rs"
+        "$expand" $option "$source" --output "$folder/src/$module.rs"
         modules+="#[path = \"$module.rs\"] #[allow(warnings)] mod $module;"$'\n'
         variants+="crate::Variant { name: \"$variant\", passes: [
             crate::one_by_one::<$3>($module::Tree::new()),

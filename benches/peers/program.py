@@ -35,7 +35,7 @@ def emitted(generations, solve, tool):
     with tempfile.NamedTemporaryFile("w", suffix=".rs") as source:
         source.write(scene)
         source.flush()
-        command = [ROOT / "target/release/expand", "--stage", "program", source.name]
+        command = [ROOT / "target/release/branched-pendulum", "--stage", "program", source.name]
         text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     return translate(text, tool)
 

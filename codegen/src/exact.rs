@@ -6,6 +6,7 @@
 mod operators;
 mod round;
 mod text;
+mod turn;
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! What the example programs do, as a library, so that tests can call it.
+//! The example programs as a library, so that tests can call them.
 //!
 //! Each program in `src/bin` is a thin shell around one module here; but for
 //! `evaluation-speed`, whose many scenes take long to compile and whose modules are
@@ -6,8 +6,9 @@
 
 pub mod branched_double;
 pub mod energy_cascade;
-pub mod exit;
+pub mod failure;
 pub mod integration_speed;
+pub mod program;
 pub mod quadrature;
 pub mod solvers;
 pub mod stability_map;

@@ -2,8 +2,6 @@
 
 use std::process::{Command, Output};
 
-use branched_pendulum_examples::energy_cascade::Arguments;
-use branched_pendulum_examples::energy_cascade::arguments::HELP;
 use branched_pendulum_examples::energy_cascade::scene::{Tree, TreeParameters, modes};
 
 /// A pair of outermost rods moves against each other on a pivot at rest.
@@ -56,14 +54,14 @@ fn a_short_run_leaves_table_and_charts() {
 #[test]
 fn a_command_line_that_cannot_be_followed_is_explained() {
     for (arguments, message) in [
-        (&["--duration", "0"][..], "from 0.1 to 1000 s, but got `0`"),
-        (&["--torque", "NaN"], "from 0 to 100 N m, but got `NaN`"),
-        (&["--frequency"], "`--frequency` needs a value"),
+        (&["--duration", "0"][..], "must be from 0.1 to 1000 s"),
+        (&["--torque", "NaN"], "must be from 0 to 100 N m"),
+        (&["--frequency"], "a value is required for '--frequency"),
         (
             &["--output", "a", "--output", "b"],
-            "`--output` is given twice",
+            "cannot be used multiple times",
         ),
-        (&["--seed", "1"], "no option `--seed`"),
+        (&["--seed", "1"], "unexpected argument '--seed'"),
     ] {
         let output = program(arguments);
         let error = String::from_utf8(output.stderr).unwrap();
@@ -72,20 +70,15 @@ fn a_command_line_that_cannot_be_followed_is_explained() {
     }
     let help = program(&["--help"]);
     assert!(help.status.success());
-    assert_eq!(String::from_utf8(help.stdout).unwrap(), HELP);
-}
-
-#[test]
-fn the_help_shows_the_defaults() {
-    let defaults = Arguments::default();
+    let help = String::from_utf8(help.stdout).unwrap();
     for default in [
-        format!("[{}]", defaults.duration),
-        format!("[{}]", defaults.torque),
-        format!("[{}]", defaults.frequency),
-        format!("[{}]", defaults.difference),
-        format!("[{:e}]", defaults.tolerance),
-        format!("[{}]", defaults.output.display()),
+        "20",
+        "0.2",
+        "0.6",
+        "0.001",
+        "1e-12",
+        "energy-cascade-output",
     ] {
-        assert!(HELP.contains(&default), "{default}");
+        assert!(help.contains(&format!("[default: {default}]")), "{help}");
     }
 }

@@ -4,7 +4,6 @@
 use std::process::{Command, Output};
 
 use branched_pendulum::prelude::*;
-use branched_pendulum_examples::solvers::Method;
 use branched_pendulum_examples::stability_map::verdict::{
     Verdict, damped, damped_model, damped_reference, ideal,
 };
@@ -72,12 +71,12 @@ fn a_command_line_that_cannot_be_followed_is_explained() {
         env!("CARGO_BIN_EXE_stability-map"),
     ] {
         for (arguments, message) in [
-            (&["--output"][..], "`--output` needs a value"),
+            (&["--output"][..], "a value is required for '--output"),
             (
                 &["--output", "a", "--output", "b"],
-                "`--output` is given twice",
+                "cannot be used multiple times",
             ),
-            (&["--steps", "1"], "no option `--steps`"),
+            (&["--steps", "1"], "unexpected argument '--steps'"),
         ] {
             let output = run(program, arguments);
             let error = String::from_utf8(output.stderr).unwrap();

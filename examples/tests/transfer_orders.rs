@@ -9,6 +9,7 @@ use branched_pendulum::analysis::truncation::{
 use branched_pendulum::analysis::{Modes, SectorModes};
 use branched_pendulum::prelude::*;
 use branched_pendulum::{Sectors, TransferForms};
+use branched_pendulum_examples::program::{Job, Progress};
 use branched_pendulum_examples::transfer_orders::scenes::{apparatus, arms};
 use branched_pendulum_examples::transfer_orders::{Apparatus, Arms, Settings, Study, output};
 
@@ -208,7 +209,7 @@ fn a_tree_of_one_s_own_gets_table_csv_and_chart() {
         Settings::released("bells", "bells", &model, &[0.8, 0.0, 0.0, 0.0], 50).unwrap();
     settings.trajectories.disturbances.truncate(3);
     settings.trajectories.duration = 2.0;
-    let study = Study::of(&model, settings).unwrap();
+    let study = Study::of(&model, settings, &Progress::default()).unwrap();
     assert_eq!(study.costs.ratios.len(), 2);
     let table = output::table(&study);
     assert!(
@@ -217,10 +218,11 @@ fn a_tree_of_one_s_own_gets_table_csv_and_chart() {
     );
     assert!(table.contains("amplitude order 3"));
     let folder = std::env::temp_dir().join(format!("transfer-orders-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let files = output::write(&folder, &study).unwrap();
+    let job = Job::quiet(&folder).unwrap();
+    output::write(&job, &study).unwrap();
+    let files = job.files();
     assert_eq!(files.len(), 6);
-    let csv = std::fs::read_to_string(&files[0]).unwrap();
+    let csv = std::fs::read_to_string(folder.join(&files[0])).unwrap();
     std::fs::remove_dir_all(&folder).unwrap();
     assert!(csv.starts_with("amplitude"), "{csv}");
     assert_eq!(
@@ -246,13 +248,13 @@ fn program(arguments: &[&str]) -> Output {
 fn a_command_line_that_cannot_be_followed_is_explained() {
     for (arguments, message) in [
         (&["--states", "9"][..], "whole number from 10 to 1000000"),
-        (&["--states", "many"], "but got `many`"),
-        (&["--states"], "`--states` needs a value"),
+        (&["--states", "many"], "invalid value 'many'"),
+        (&["--states"], "a value is required for '--states"),
         (
             &["--output", "a", "--output", "b"],
-            "`--output` is given twice",
+            "cannot be used multiple times",
         ),
-        (&["--seed", "1"], "no option `--seed`"),
+        (&["--seed", "1"], "unexpected argument '--seed'"),
     ] {
         let output = program(arguments);
         let error = String::from_utf8(output.stderr).unwrap();
@@ -261,5 +263,9 @@ fn a_command_line_that_cannot_be_followed_is_explained() {
     }
     let help = program(&["--help"]);
     assert!(help.status.success());
-    assert!(String::from_utf8(help.stdout).unwrap().contains("[20000]"));
+    assert!(
+        String::from_utf8(help.stdout)
+            .unwrap()
+            .contains("[default: 20000]")
+    );
 }

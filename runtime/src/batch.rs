@@ -1,9 +1,10 @@
-//! Accelerations of many states at once.
+//! Accelerations, and any other function of a model, of many states at once.
 //!
 //! States lie as a structure of arrays: for each link a slice with its angle in
 //! every state. [`Batch`] takes as many at a time as fit into the widest vector
 //! registers that the machine has. The states are read and written where they
-//! lie.
+//! lie. [`state_function!`](crate::state_function) names other functions than the
+//! accelerations.
 //!
 //! ```
 //! # use branched_pendulum::{Pendulum, Cast, Scalar};
@@ -46,6 +47,7 @@
 
 mod blocks;
 mod error;
+mod function;
 
 use alloc::vec::Vec;
 
@@ -56,6 +58,7 @@ use crate::system::{Cast, Workspace};
 use blocks::Blocks;
 
 pub use error::BatchError;
+pub use function::{StateFunction, StateValues};
 
 /// Evaluates a pendulum for any number of states, a register at a time.
 ///

@@ -76,6 +76,9 @@
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `macros` (default): the attribute `branched_pendulum`.
+//! - `serde`: states, options, methods, reports and trajectories can be written and
+//!   read. Finite numbers keep their bits wherever the format keeps them; of `serde_json`
+//!   the feature `float_roundtrip` does so.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 
@@ -106,7 +109,10 @@ pub mod tree;
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
-pub use system::{Canonical, Cast, Energy, Pendulum, SymmetricPendulum, TaylorPendulum};
+pub use system::{
+    Canonical, Cast, Energy, Forced, Pendulum, Positions, SymmetricPendulum, TaylorPendulum,
+    Transverse, WholeTree,
+};
 pub use transfer_forms::{TransferForm, TransferForms};
 
 #[cfg(feature = "macros")]

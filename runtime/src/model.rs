@@ -6,6 +6,7 @@ use core::ops::Add;
 /// Energy transfer W into one mode, in watts, by the part of the rest of the
 /// tree that it comes from: {H_d, K − T} and {H_d, U − V}.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Transfer<T> {
     /// Part of the kinetic energy, W_K.
     pub kinetic: T,

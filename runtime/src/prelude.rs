@@ -11,11 +11,11 @@ pub use crate::branched_pendulum;
 pub use crate::ensemble::Ensemble;
 pub use crate::integrate::{
     Crossing, DenseStep, Dop853, Dopri5, Event, Gauss, GaussOrder, IntegrationError, Integrator,
-    Options, Report, Rk4, Solution, StoermerVerlet, StopReason, Taylor, Verner98,
+    Method, Options, Report, Rk4, Solution, StoermerVerlet, StopReason, Taylor, Verner98,
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
 pub use crate::system::{
-    AbsoluteAngles, Canonical, CanonicalVariables, Energy, FirstIntegral, Ode, Pendulum, State,
-    SymmetricCoordinates, SymmetricPendulum,
+    AbsoluteAngles, Canonical, CanonicalVariables, Energy, FirstIntegral, Forced, Ode, Pendulum,
+    Positions, State, SymmetricCoordinates, SymmetricPendulum,
 };

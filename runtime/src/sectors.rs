@@ -10,7 +10,7 @@
 mod normalisation;
 
 pub use normalisation::Normalisation;
-use normalisation::{Kind, inward, outward, renormalise};
+use normalisation::{StateKind, inward, outward, renormalise};
 
 use crate::scalar::Scalar;
 
@@ -90,6 +90,10 @@ pub struct Sector {
 /// let square = |values: &[f64]| values.iter().map(|x| x * x).sum::<f64>();
 /// assert!((square(&orthonormal) - square(&theta)).abs() < 1e-15);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know its sectors",
+    note = "a tree with identical siblings knows them with `emit(budget)` in its attribute"
+)]
 pub trait Sectors {
     /// The sectors: the means, then the differences, those of a branching before
     /// those of the branchings below it.
@@ -106,7 +110,7 @@ pub trait Sectors {
         absolute: &[T],
         symmetric: &mut [T],
     ) {
-        let kind = Kind::Coordinates;
+        let kind = StateKind::Coordinates;
         inward(Self::SECTORS, kind, normalisation, absolute, symmetric);
     }
 
@@ -118,7 +122,7 @@ pub trait Sectors {
         symmetric: &[T],
         absolute: &mut [T],
     ) {
-        let kind = Kind::Coordinates;
+        let kind = StateKind::Coordinates;
         outward(Self::SECTORS, kind, normalisation, symmetric, absolute);
     }
 
@@ -130,7 +134,7 @@ pub trait Sectors {
         absolute: &[T],
         symmetric: &mut [T],
     ) {
-        let kind = Kind::Momenta;
+        let kind = StateKind::Momenta;
         inward(Self::SECTORS, kind, normalisation, absolute, symmetric);
     }
 
@@ -141,14 +145,14 @@ pub trait Sectors {
         symmetric: &[T],
         absolute: &mut [T],
     ) {
-        let kind = Kind::Momenta;
+        let kind = StateKind::Momenta;
         outward(Self::SECTORS, kind, normalisation, symmetric, absolute);
     }
 
     /// Symmetric coordinates or their rates, from one normalisation to another
     /// in place.
     fn renormalise<T: Scalar>(&self, from: Normalisation, to: Normalisation, values: &mut [T]) {
-        renormalise(Self::SECTORS, Kind::Coordinates, [from, to], values);
+        renormalise(Self::SECTORS, StateKind::Coordinates, [from, to], values);
     }
 
     /// Momenta of symmetric coordinates, from one normalisation to another in
@@ -159,7 +163,7 @@ pub trait Sectors {
         to: Normalisation,
         values: &mut [T],
     ) {
-        renormalise(Self::SECTORS, Kind::Momenta, [from, to], values);
+        renormalise(Self::SECTORS, StateKind::Momenta, [from, to], values);
     }
 }
 

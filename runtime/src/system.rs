@@ -9,29 +9,46 @@
 
 mod canonical;
 pub(crate) mod cast;
+mod coordinates;
 mod first_integral;
+mod forced;
 mod link_name;
+mod ode;
+pub(crate) mod positions;
+mod state;
 mod taylor;
+mod transverse;
+mod whole_tree;
 mod workspace;
-
-use alloc::vec::Vec;
-use core::fmt;
 
 use crate::scalar::Scalar;
 
 pub use canonical::{Canonical, CanonicalVariables};
-pub use cast::Cast;
 #[doc(hidden)]
 pub use cast::InRegisters;
+pub use cast::{Cast, CastOde};
+pub use coordinates::{AbsoluteAngles, SymmetricCoordinates};
 pub use first_integral::{CanonicalEnergy, FirstIntegral};
+pub use forced::{Forced, UnderTorques};
 pub use link_name::LinkName;
-pub use taylor::{TaylorOde, TaylorPendulum};
+pub use ode::{Ode, OdeFn};
+pub use positions::{LinkPoint, LinkProperties, Positions};
+pub use state::{LengthMismatch, State};
+pub use taylor::{RatesOnly, TaylorOde, TaylorPendulum};
+pub use transverse::{InPhaseMotion, Transverse, TransverseOde, TransverseSector};
+pub use whole_tree::{WholeLengthError, WholeTree};
+#[doc(hidden)]
+pub use whole_tree::{WholeMotion, WholeOrbit};
 pub use workspace::Workspace;
 
 /// Equations of motion in absolute angles.
 ///
 /// Angles are measured from the downward vertical, in radians; links stand in
 /// parent-before-child order.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no equations of motion in `{T}`",
+    note = "a model has them in its own numbers: `model.cast(…)` takes it to others, `linearised(AbsoluteAngles(&model))` to those of variational equations"
+)]
 pub trait Pendulum<T: Scalar> {
     /// Number of links, each with one angle.
     const LINKS: usize;
@@ -77,11 +94,41 @@ pub trait Pendulum<T: Scalar> {
     }
 }
 
+impl<T: Scalar, P: Pendulum<T>> Pendulum<T> for &P {
+    const LINKS: usize = P::LINKS;
+    const LINK_NAMES: &'static [&'static str] = P::LINK_NAMES;
+
+    fn link_name(index: usize) -> Option<LinkName> {
+        P::link_name(index)
+    }
+
+    #[inline]
+    fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+        (**self).accelerations_into(time, theta, omega, alpha);
+    }
+
+    #[inline]
+    fn accelerations_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        alpha: &mut [T],
+    ) {
+        (**self).accelerations_with(workspace, time, theta, omega, alpha);
+    }
+}
+
 /// Equations of motion in symmetric coordinates: means and differences of
 /// identical sibling subtrees.
 ///
 /// There are as many coordinates as links. A set of differences that is
 /// exactly zero, with its rates, has accelerations that are exactly zero.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no symmetric coordinates in `{T}`",
+    note = "a tree with identical siblings has them with `emit(symmetric)` in its attribute"
+)]
 pub trait SymmetricPendulum<T: Scalar>: Pendulum<T> {
     /// Names of the coordinates, in order.
     const COORDINATE_NAMES: &'static [&'static str];
@@ -99,7 +146,26 @@ pub trait SymmetricPendulum<T: Scalar>: Pendulum<T> {
     );
 }
 
+impl<T: Scalar, P: SymmetricPendulum<T>> SymmetricPendulum<T> for &P {
+    const COORDINATE_NAMES: &'static [&'static str] = P::COORDINATE_NAMES;
+
+    #[inline]
+    fn symmetric_accelerations_into(
+        &self,
+        time: T,
+        coordinates: &[T],
+        rates: &[T],
+        accelerations: &mut [T],
+    ) {
+        (**self).symmetric_accelerations_into(time, coordinates, rates, accelerations);
+    }
+}
+
 /// Kinetic and potential energy in absolute angles, in joules.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know its energies in `{T}`",
+    note = "a model knows them with `emit(energies)` in its attribute"
+)]
 pub trait Energy<T: Scalar>: Pendulum<T> {
     /// Kinetic energy for angles `theta` (rad) and angular velocities `omega`
     /// (rad/s); both of length [`Pendulum::LINKS`].
@@ -108,257 +174,35 @@ pub trait Energy<T: Scalar>: Pendulum<T> {
     /// Potential energy for angles `theta` (rad), of length
     /// [`Pendulum::LINKS`]; zero where every link hangs straight down.
     fn potential_energy_of(&self, theta: &[T]) -> T;
-}
 
-/// A system of first-order ordinary differential equations y' = f(t, y).
-pub trait Ode<T> {
-    /// Number of components of the state.
-    fn dimension(&self) -> usize;
-
-    /// Writes f(t, y) to `rates`. Both slices have length
-    /// [`dimension`](Self::dimension).
-    ///
-    /// Where f is not defined, write NaN: integrators stop there at once, with
-    /// the time and the state.
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]);
-
-    /// Writes the same rates as [`rates`](Self::rates), in memory that the caller
-    /// keeps. Integrators call this one. Systems that need no memory leave it as it
-    /// is.
+    /// Returns the kinetic energy, in memory that the caller keeps: trees in loops
+    /// need some, and allocate it for every call of
+    /// [`kinetic_energy_of`](Self::kinetic_energy_of).
     #[inline]
-    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+    fn kinetic_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> T {
         let _ = workspace;
-        self.rates(time, state, rates);
+        self.kinetic_energy_of(theta, omega)
+    }
+
+    /// Returns the potential energy, in memory that the caller keeps.
+    #[inline]
+    fn potential_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
+        let _ = workspace;
+        self.potential_energy_of(theta)
     }
 }
 
-impl<T, O: Ode<T> + ?Sized> Ode<T> for &O {
-    fn dimension(&self) -> usize {
-        (**self).dimension()
+impl<T: Scalar, P: Energy<T>> Energy<T> for &P {
+    #[inline]
+    fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
+        (**self).kinetic_energy_of(theta, omega)
     }
 
     #[inline]
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        (**self).rates(time, state, rates);
-    }
-
-    #[inline]
-    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
-        (**self).rates_with(workspace, time, state, rates);
+    fn potential_energy_of(&self, theta: &[T]) -> T {
+        (**self).potential_energy_of(theta)
     }
 }
-
-/// A function as an [`Ode`].
-///
-/// # Examples
-///
-/// ```
-/// use branched_pendulum::system::{Ode, OdeFn};
-///
-/// let oscillator = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
-///     rates[0] = y[1];
-///     rates[1] = -y[0];
-/// });
-/// let mut rates = [0.0; 2];
-/// oscillator.rates(0.0, &[1.0, 0.5], &mut rates);
-/// assert_eq!(rates, [0.5, -1.0]);
-/// ```
-#[derive(Clone, Copy)]
-pub struct OdeFn<F> {
-    dimension: usize,
-    function: F,
-}
-
-impl<F> OdeFn<F> {
-    /// The system of `dimension` equations whose rates `function(time, state,
-    /// rates)` writes.
-    pub fn new<T>(dimension: usize, function: F) -> Self
-    where
-        F: Fn(T, &[T], &mut [T]),
-    {
-        Self {
-            dimension,
-            function,
-        }
-    }
-}
-
-impl<F> fmt::Debug for OdeFn<F> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            dimension,
-            function: _,
-        } = self;
-        formatter
-            .debug_struct("OdeFn")
-            .field("dimension", dimension)
-            .finish_non_exhaustive()
-    }
-}
-
-impl<T, F: Fn(T, &[T], &mut [T])> Ode<T> for OdeFn<F> {
-    fn dimension(&self) -> usize {
-        self.dimension
-    }
-
-    #[inline]
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        (self.function)(time, state, rates);
-    }
-}
-
-/// A pendulum as a first-order system in absolute angles: the state is the
-/// angles followed by the angular velocities.
-#[derive(Clone, Copy, Debug)]
-pub struct AbsoluteAngles<'a, P>(pub &'a P);
-
-impl<T: Scalar, P: Pendulum<T>> Ode<T> for AbsoluteAngles<'_, P> {
-    fn dimension(&self) -> usize {
-        2 * P::LINKS
-    }
-
-    #[inline]
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        second_order(P::LINKS, state, rates, |theta, omega, alpha| {
-            self.0.accelerations_into(time, theta, omega, alpha);
-        });
-    }
-
-    #[inline]
-    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
-        second_order(P::LINKS, state, rates, |theta, omega, alpha| {
-            self.0
-                .accelerations_with(workspace, time, theta, omega, alpha);
-        });
-    }
-}
-
-/// A pendulum as a first-order system in symmetric coordinates: the state is
-/// the coordinates followed by their rates.
-#[derive(Clone, Copy, Debug)]
-pub struct SymmetricCoordinates<'a, P>(pub &'a P);
-
-impl<T: Scalar, P: SymmetricPendulum<T>> Ode<T> for SymmetricCoordinates<'_, P> {
-    fn dimension(&self) -> usize {
-        2 * P::LINKS
-    }
-
-    #[inline]
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        second_order(
-            P::LINKS,
-            state,
-            rates,
-            |coordinates, velocities, accelerations| {
-                self.0
-                    .symmetric_accelerations_into(time, coordinates, velocities, accelerations);
-            },
-        );
-    }
-}
-
-/// q' = v, v' = a(q, v). Slices of another length than 2n have no answer, and
-/// get NaN.
-#[inline]
-fn second_order<T: Scalar>(
-    n: usize,
-    state: &[T],
-    rates: &mut [T],
-    accelerations: impl FnOnce(&[T], &[T], &mut [T]),
-) {
-    if state.len() != 2 * n || rates.len() != 2 * n {
-        rates.fill(T::from_f64(f64::NAN));
-        return;
-    }
-    let (positions, velocities) = state.split_at(n);
-    let (position_rates, velocity_rates) = rates.split_at_mut(n);
-    position_rates.copy_from_slice(velocities);
-    accelerations(positions, velocities, velocity_rates);
-}
-
-/// A time and the values of all components at that time.
-///
-/// For a second-order system the first half are positions (rad) and the second
-/// half velocities (rad/s).
-#[derive(Clone, Debug, PartialEq)]
-pub struct State<T> {
-    /// Time, in seconds.
-    pub time: T,
-    /// All components.
-    pub values: Vec<T>,
-}
-
-impl<T: Scalar> State<T> {
-    /// The state `values` at `time`.
-    pub fn new(time: T, values: Vec<T>) -> Self {
-        Self { time, values }
-    }
-
-    /// A state of a second-order system at `time`.
-    ///
-    /// # Errors
-    ///
-    /// [`LengthMismatch`] unless both slices have the same length.
-    pub fn from_positions_and_velocities(
-        time: T,
-        positions: &[T],
-        velocities: &[T],
-    ) -> Result<Self, LengthMismatch> {
-        if positions.len() != velocities.len() {
-            return Err(LengthMismatch {
-                positions: positions.len(),
-                velocities: velocities.len(),
-            });
-        }
-        Ok(Self {
-            time,
-            values: [positions, velocities].concat(),
-        })
-    }
-
-    /// A state of a second-order system with all velocities zero.
-    pub fn at_rest(time: T, positions: &[T]) -> Self {
-        let mut values = positions.to_vec();
-        values.resize(2 * positions.len(), T::from_f64(0.0));
-        Self { time, values }
-    }
-
-    /// The first half of the components, rounded down where their number is
-    /// odd.
-    pub fn positions(&self) -> &[T] {
-        self.values.split_at(self.values.len() / 2).0
-    }
-
-    /// The components that [`positions`](Self::positions) leaves.
-    pub fn velocities(&self) -> &[T] {
-        self.values.split_at(self.values.len() / 2).1
-    }
-}
-
-/// Positions and velocities of a state differ in number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LengthMismatch {
-    /// Number of positions given.
-    pub positions: usize,
-    /// Number of velocities given.
-    pub velocities: usize,
-}
-
-impl fmt::Display for LengthMismatch {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            positions,
-            velocities,
-        } = self;
-        write!(
-            formatter,
-            "a state needs as many velocities as positions, \
-             but got {positions} positions and {velocities} velocities"
-        )
-    }
-}
-
-impl core::error::Error for LengthMismatch {}
 
 #[cfg(test)]
 mod tests {

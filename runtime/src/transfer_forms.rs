@@ -84,6 +84,10 @@ pub struct SmallSector {
 /// model.transfers_into(2, &coordinates, &momenta, &mut exact);
 /// assert_eq!(exact[0], model.transfer_exact(&coordinates, &momenta));
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no truncated forms of W beside the exact one",
+    note = "a model has them with `emit(transfer(amplitude = 2, exact))` and its like, or `emit(budget(canonical, amplitude = 2))`"
+)]
 pub trait TransferForms<T: Scalar>: SymmetricPendulum<T> {
     /// The forms: angle orders, then amplitude orders, both from the lowest, and
     /// [`TransferForm::Exact`] last.

@@ -44,6 +44,24 @@ fn in_steps<O: Ode<f64>>(ode: &O, method: &impl Integrator<f64, O>) -> u64 {
     after - before.unwrap()
 }
 
+/// Allocations of a million frames and steps, with changes of state and equations.
+fn in_frames<O: Ode<f64>>(ode: O, method: &impl Integrator<f64, O>) -> u64 {
+    let start = State::at_rest(0.0, &[1.0]);
+    let mut stepper = method.start(ode, &start).unwrap();
+    let before = allocations();
+    for number in 0..250_000 {
+        stepper.advance(0.7 * STEP).unwrap();
+        stepper.step().unwrap();
+        let end = stepper.time() + 1.5 * STEP;
+        while stepper.step_to(end).unwrap().is_some() {}
+        if number % 10 == 0 {
+            let _ = stepper.ode_mut();
+            stepper.set_state(0.0, &[1.0, 0.1]).unwrap();
+        }
+    }
+    allocations() - before
+}
+
 fn options() -> Options<f64> {
     Options {
         initial_step: Some(STEP),
@@ -68,6 +86,7 @@ fn explicit_pairs() {
     assert_eq!(in_steps(&ode, &Dopri5::new(options())), 0);
     assert_eq!(in_steps(&ode, &Dop853::new(options())), 0);
     assert_eq!(in_steps(&ode, &Verner98::new(options())), 0);
+    assert_eq!(in_frames(&ode, &Dop853::new(options())), 0);
 }
 
 #[test]
@@ -80,7 +99,9 @@ fn methods_with_fixed_steps() {
             ..Gauss::new(GaussOrder::Four, STEP)
         };
         assert_eq!(in_steps(&ode, &method), 0);
+        assert_eq!(in_frames(&ode, &method), 0);
     }
+    assert_eq!(in_frames(&ode, &Gauss::for_animation(STEP)), 0);
 }
 
 #[test]
@@ -135,8 +156,8 @@ impl TaylorOde<f64> for Series {
 
     fn taylor(&self, _time: f64, y: &[f64], coefficients: &mut [f64], _work: &mut [Quad<f64>]) {
         let (mut position, mut velocity) = (y[0], y[1]);
-        for (k, row) in coefficients.chunks_exact_mut(2).enumerate() {
-            row.copy_from_slice(&[position, velocity]);
+        for (k, row) in coefficients.as_chunks_mut().0.iter_mut().enumerate() {
+            *row = [position, velocity];
             let next = 1.0 / (k + 1) as f64;
             (position, velocity) = (velocity * next, -position * next);
         }
@@ -149,7 +170,9 @@ fn taylor_series() {
         beta: 0.0,
         ..options()
     };
-    assert_eq!(in_steps(&Series, &Taylor::new(options)), 0);
+    let method = Taylor::new(options);
+    assert_eq!(in_steps(&Series, &method), 0);
+    assert_eq!(in_frames(Series, &method), 0);
 }
 
 /// y'' = −k y, which holds k.
@@ -199,8 +222,8 @@ impl<T: Scalar> TaylorPendulum<T> for Oscillator<T> {
         _work: &mut [Quad<T>],
     ) {
         let (mut position, mut velocity) = (theta[0], omega[0]);
-        for (k, row) in coefficients.chunks_exact_mut(2).enumerate() {
-            row.copy_from_slice(&[position, velocity]);
+        for (k, row) in coefficients.as_chunks_mut().0.iter_mut().enumerate() {
+            *row = [position, velocity];
             let next = T::from_f64(1.0 / (k + 1) as f64);
             (position, velocity) = (velocity * next, -(self.0 * position * next));
         }

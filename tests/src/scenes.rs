@@ -1,6 +1,8 @@
 //! The fixture scenes, compiled. Their files under `fixtures/scenes` are
 //! what snapshots show, so that what is read is what is run.
 
+#[path = "../fixtures/scenes/branch.rs"]
+pub mod branch;
 #[path = "../fixtures/scenes/chain.rs"]
 pub mod chain;
 #[path = "../fixtures/scenes/damped_series.rs"]
@@ -32,7 +34,7 @@ pub mod sweep;
 #[path = "../fixtures/scenes/triplet.rs"]
 pub mod triplet;
 
-/// The paper's scene as `expand` commits it: built without the macro.
+/// The paper's scene as `branched-pendulum` commits it: built without the macro.
 #[rustfmt::skip]
 #[path = "../fixtures/expanded/paper.rs"]
 pub mod paper_expanded;

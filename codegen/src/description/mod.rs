@@ -11,6 +11,8 @@
 //!             | "parameters" "(" [ name { "," name } [ "," ] ] ")"
 //!             | "drive" "(" [ property { "," property } [ "," ] ] ")"
 //!             | "observe" "(" [ observable { "," observable } [ "," ] ] ")"
+//!             | "in_phase" "(" [ name { "," name } [ "," ] ] ")"
+//!             | "locked" "(" name "," expression ")"
 //!             | link
 //! link        = name [ ":" shape ] "(" [ property { "," property } [ "," ] ] ")"
 //!               [ "[" [ link { "," link } [ "," ] ] "]" ] [ "*" integer ]
@@ -74,9 +76,36 @@ pub struct Description {
     pub requests: Vec<Request>,
     /// Members of `observe(...)`.
     pub observables: Vec<ObservableClause>,
+    /// `in_phase(...)` and `locked(...)`.
+    pub reductions: Reductions,
     /// True if part of it was unreadable, which is reported already: anything
     /// that is missing may have stood there.
     pub damaged: bool,
+}
+
+/// Links that get no coordinate of their own.
+#[derive(Debug, Clone, Default)]
+pub struct Reductions {
+    /// Nodes whose copies move alike.
+    pub in_phase: Vec<Ident>,
+    /// Links whose joint does not move.
+    pub locked: Vec<LockedClause>,
+}
+
+impl Reductions {
+    /// Returns true if every link keeps its coordinate.
+    pub fn is_empty(&self) -> bool {
+        self.in_phase.is_empty() && self.locked.is_empty()
+    }
+}
+
+/// A joint that does not move.
+#[derive(Debug, Clone)]
+pub struct LockedClause {
+    /// The link.
+    pub link: Ident,
+    /// Its angle to the link that it hangs from, rad.
+    pub angle: Expression,
 }
 
 impl Description {

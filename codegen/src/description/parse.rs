@@ -12,8 +12,8 @@ use super::list::{
     List, ListFault, brackets, colon, expected, group, identifier, list, parse_all, take,
 };
 use super::{
-    Description, DriveClause, Expression, Multiplicity, Node, ObservableClause, ParameterClause,
-    Property, Request, RequestForm, StructItem, Value,
+    Description, DriveClause, Expression, LockedClause, Multiplicity, Node, ObservableClause,
+    ParameterClause, Property, Reductions, Request, RequestForm, StructItem, Value,
 };
 use crate::report::{Diagnostic, Message, Report};
 
@@ -55,6 +55,7 @@ pub fn parse(
         roots: Vec::new(),
         requests: Vec::new(),
         observables: Vec::new(),
+        reductions: Reductions::default(),
         damaged: entries.damaged,
     };
     let (mut emits, mut observes) = (0, 0);
@@ -115,6 +116,8 @@ pub fn parse(
                 }
                 description.observables.extend(observables);
             }
+            Member::InPhase(nodes) => description.reductions.in_phase.extend(nodes),
+            Member::Locked(clause) => description.reductions.locked.push(clause),
             Member::Link(node) => description.roots.push(node),
         }
     }
@@ -194,6 +197,8 @@ enum Member {
     Drive(DriveClause),
     Emit(Ident, Vec<Request>),
     Observe(Ident, Vec<ObservableClause>),
+    InPhase(Vec<Ident>),
+    Locked(LockedClause),
     Link(Node),
 }
 
@@ -241,6 +246,23 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFaul
         let observables = group(input, Delimiter::Parenthesis, "`(` and what to observe")?;
         let observables = list(observables, report, observable);
         return Ok(Member::Observe(name, observables.members));
+    }
+    if name == "in_phase" {
+        let nodes = group(input, Delimiter::Parenthesis, "`(` and links")?;
+        let node = |input: ParseStream<'_>, _: &mut Report| {
+            identifier(input, "a link with copies, or `all`")
+        };
+        return Ok(Member::InPhase(list(nodes, report, node).members));
+    }
+    if name == "locked" {
+        let inside = group(input, Delimiter::Parenthesis, "`(`, a link and an angle")?;
+        let clause = parse_all(inside, |input| {
+            let link = identifier(input, "a link, as in `locked(arm, 0.3)`")?;
+            take::<Token![,]>(input, "`,` and an angle in rad, as in `locked(arm, 0.3)`")?;
+            let angle = Expression::parse(input)?;
+            Ok(LockedClause { link, angle })
+        })?;
+        return Ok(Member::Locked(clause));
     }
     if name == "gravity" || name == "crate" {
         return Err(expected(input, "`=` and a value"));

@@ -5,8 +5,8 @@ use std::fmt::{self, Display, Formatter};
 use quote::ToTokens as _;
 
 use super::{
-    Description, Expression, ExpressionKind, Node, ObservableClause, Property, Request,
-    RequestForm, Value,
+    Description, Expression, ExpressionKind, LockedClause, Node, ObservableClause, Property,
+    Reductions, Request, RequestForm, Value,
 };
 
 impl Display for Description {
@@ -33,6 +33,14 @@ impl Display for Description {
         }
         for root in &self.roots {
             node(root, 0, f)?;
+        }
+        let Reductions { in_phase, locked } = &self.reductions;
+        if !in_phase.is_empty() {
+            let nodes: Vec<String> = in_phase.iter().map(ToString::to_string).collect();
+            writeln!(f, "in_phase({})", nodes.join(", "))?;
+        }
+        for LockedClause { link, angle } in locked {
+            writeln!(f, "locked({link}, {angle})")?;
         }
         if !self.requests.is_empty() {
             write!(f, "emit(")?;

@@ -7,13 +7,13 @@ use crate::mechanics;
 use crate::mechanics::Counting;
 use crate::mechanics::expression::Expr;
 use crate::program::{Argument, Entry, LinkFunction, Purpose};
-use crate::scene::CoordinateKind;
 use crate::scene::Solve;
+use crate::scene::{CoordinateKind, Reduction};
 use proc_macro2::TokenStream;
 
 /// Formulas of more rows than this are shown up to here.
 const ROWS: usize = 8;
-/// A formula longer than this is left to `expand --stage mechanics`.
+/// A formula longer than this is left to `branched-pendulum --stage mechanics`.
 const LONGEST_FORMULA: usize = 600;
 
 /// Meaning of w in formulas of transfers.
@@ -68,6 +68,10 @@ impl Emission<'_> {
             lines.push(String::new());
             lines.push("Transfers follow Y. Toda and T. Ooshida, *Experimental detection of energy transfer into the anti-phase mode in a branched double pendulum*.".into());
         }
+        if let Some(Reduction { links, .. }) = &scene.reduction {
+            lines.push(String::new());
+            lines.push(format!("A motion of a tree of {links} links: `WHOLE` has which of them move alike, and their angles."));
+        }
         if self.mechanics.drive.is_some() {
             lines.extend(self.drive_docs());
             self.show(&self.drive_formulas(), &mut lines);
@@ -91,8 +95,10 @@ impl Emission<'_> {
         if !untold.is_empty() {
             lines.push(String::new());
             let untold = match untold.as_slice() {
-                [first, second, third] => format!("{first}, {second} and {third}"),
-                untold => untold.join(" and "),
+                [others @ .., last] if !others.is_empty() => {
+                    format!("{} and {last}", others.join(", "))
+                }
+                untold => untold.concat(),
             };
             lines.push(format!("At {untold}."));
         }
@@ -136,6 +142,11 @@ impl Emission<'_> {
             self.mechanics.coordinates[coordinate].name.clone()
         };
         let lines: Vec<String> = match purpose {
+            Purpose::AccelerationsUnder => vec![
+                format!("Angular accelerations (in rad/s²) as [`accelerations`](Self::accelerations), with generalized `torques` Q (in N m) from outside: M(θ) θ̈ + b(θ, ω{}) = Q. Q_i is a couple on link i; forces have those of `centre_torques` and its like (`emit(positions)`).", self.and_time()),
+                String::new(),
+                "The power of the torques is Q·ω. In canonical variables they add to the rates of the momenta.".into(),
+            ],
             Purpose::Accelerations => vec![
                 format!("Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s).", self.at_time()),
                 String::new(),
@@ -174,7 +185,7 @@ impl Emission<'_> {
                 vec!["Angular velocities ω (in rad/s) at angles `theta` (in rad) and `momenta` p (in kg m²/s): solves M(θ) ω = p with M of [`accelerations`](Self::accelerations).".into()]
             }
             Purpose::CanonicalRates => vec![
-                "Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta ∂L/∂θ + Q (in N m), friction, drag and drive included, at angles `theta` (in rad) and `momenta` (in kg m²/s).".into(),
+                format!("Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta {} (in N m), at {}angles `theta` (in rad) and `momenta` (in kg m²/s).", self.momentum_rates_in_words(), self.at_time()),
                 String::new(),
                 "For methods in canonical variables, as `integrate::Gauss` with `system::CanonicalVariables`.".into(),
             ],
@@ -238,7 +249,7 @@ impl Emission<'_> {
                 vec![
                     format!("Energy transfer W (in W) into `{}` through order {order} in {what}. {remainder}", difference(n)),
                     String::new(),
-                    "`expand --stage mechanics` shows the formulas.".into(),
+                    "`branched-pendulum --stage mechanics` shows the formulas.".into(),
                 ]
             }
             Purpose::QuadraticForm(n) => vec![
@@ -271,6 +282,14 @@ impl Emission<'_> {
             Purpose::TotalFrictionPower => vec![
                 "Power −2 R (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.".into(),
             ],
+            Purpose::Transverse(_)
+            | Purpose::TransverseEnergy(_)
+            | Purpose::TransverseTransfer(_)
+            | Purpose::TransverseFriction(_) => self.transverse_meaning(purpose),
+            Purpose::Positions(_)
+            | Purpose::PointVelocities(_)
+            | Purpose::PointTorques(_)
+            | Purpose::LinkProperties => self.positions_meaning(purpose),
             Purpose::Link(function) => vec![link_meaning(function).into()],
             Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
             Purpose::RootDrive => vec![
@@ -280,19 +299,40 @@ impl Emission<'_> {
         lines
     }
 
-    /// Formulas as a text block and, folded away, as LaTeX.
-    pub(super) fn show(&self, formulas: &[DocFormula], lines: &mut Vec<String>) {
-        self.show_rows(formulas, ROWS, lines);
+    /// The rates of the momenta, with the torques that the scene has.
+    fn momentum_rates_in_words(&self) -> String {
+        let links = &self.scene.links;
+        let present = [
+            (links.iter().any(|link| link.friction.is_some()), "friction"),
+            (links.iter().any(|link| link.drag.is_some()), "drag"),
+            (self.mechanics.drive.is_some(), "drive"),
+        ];
+        let present = present.into_iter().filter(|(present, _)| *present);
+        let torques: Vec<&str> = present.map(|(_, name)| name).collect();
+        match torques.split_last() {
+            None => "∂L/∂θ".to_owned(),
+            Some((last, [])) => format!("∂L/∂θ + Q with the torques Q of {last}"),
+            Some((last, others)) => format!(
+                "∂L/∂θ + Q with the torques Q of {} and {last}",
+                others.join(", ")
+            ),
+        }
     }
 
-    /// Formulas with at most so many rows.
-    pub(super) fn show_rows(&self, formulas: &[DocFormula], most: usize, lines: &mut Vec<String>) {
+    /// Formulas as a text block; returns the number of those shown, none if one of all
+    /// is too long.
+    pub(super) fn show_text(
+        &self,
+        formulas: &[DocFormula],
+        most: usize,
+        lines: &mut Vec<String>,
+    ) -> usize {
         let texts: Vec<String> = formulas
             .iter()
             .map(|f| format!("{} = {}", f.left, self.text(&f.right)))
             .collect();
         if texts.is_empty() || texts.iter().any(|text| text.len() > LONGEST_FORMULA) {
-            return;
+            return 0;
         }
         let shown = texts.len().min(most);
         lines.push(String::new());
@@ -302,6 +342,15 @@ impl Emission<'_> {
             lines.push(format!("… and {} more", texts.len() - shown));
         }
         lines.push("```".into());
+        shown
+    }
+
+    /// Formulas as a text block and, folded away, as LaTeX.
+    pub(super) fn show(&self, formulas: &[DocFormula], lines: &mut Vec<String>) {
+        let shown = self.show_text(formulas, ROWS, lines);
+        if shown == 0 {
+            return;
+        }
         lines.push(String::new());
         lines.push("<details><summary>LaTeX</summary>".into());
         lines.push(String::new());
@@ -324,7 +373,11 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::Omega => Some("angular velocities `omega` (in rad/s)"),
         Argument::Coordinates => Some("symmetric `coordinates` (in rad)"),
         Argument::Rates => Some("their `rates` (in rad/s)"),
+        Argument::Alpha => Some("angular accelerations `alpha` (in rad/s²)"),
+        Argument::Difference(_) => Some("differences `difference` (in rad)"),
+        Argument::DifferenceRate(_) => Some("their rates `difference_rate` (in rad/s)"),
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
+        Argument::Torques => Some("`torques` (in N m)"),
         _ => None,
     }
 }

@@ -82,7 +82,13 @@ impl Emission<'_> {
             }
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
             Purpose::Observable(n, form) => self.observable_formulas(n, form),
+            Purpose::Positions(_) | Purpose::PointVelocities(_) => self.positions_formulas(purpose),
+            Purpose::Transverse(_)
+            | Purpose::TransverseEnergy(_)
+            | Purpose::TransverseTransfer(_)
+            | Purpose::TransverseFriction(_) => self.transverse_formulas(purpose),
             Purpose::AbsoluteVelocities
+            | Purpose::AccelerationsUnder
             | Purpose::TaylorCoefficients
             | Purpose::MassMatrix
             | Purpose::Budget(_)
@@ -94,6 +100,8 @@ impl Emission<'_> {
             | Purpose::FromSymmetric
             | Purpose::SymmetricVelocities
             | Purpose::Hamiltonian
+            | Purpose::PointTorques(_)
+            | Purpose::LinkProperties
             | Purpose::Link(_)
             | Purpose::RootGravity => Vec::new(),
         }

@@ -57,12 +57,20 @@ impl Emission<'_> {
             return quote!(T);
         }
         let size = self.argument_size(argument);
-        quote!(&[T; #size])
+        match argument {
+            Argument::Forces => quote!(&[[T; 2]; #size]),
+            _ => quote!(&[T; #size]),
+        }
     }
 
     /// Links and coordinates are equally many.
-    pub(super) fn argument_size(&self, _argument: Argument) -> Literal {
-        Literal::usize_unsuffixed(self.scene.links.len())
+    pub(super) fn argument_size(&self, argument: Argument) -> Literal {
+        Literal::usize_unsuffixed(match argument {
+            Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
+                self.transverse_links(sector)
+            }
+            _ => self.scene.links.len(),
+        })
     }
 
     pub(super) fn result_type(&self, entry: &Entry) -> TokenStream {
@@ -71,13 +79,10 @@ impl Emission<'_> {
         match entry.shape {
             Shape::Scalar => quote!(T),
             Shape::Vector => quote!([T; #length]),
-            Shape::Pair => {
-                let half = Literal::usize_unsuffixed(entry.outputs.len() / 2);
-                quote!([[T; #half]; 2])
-            }
-            Shape::Matrix(size) => {
-                let size = Literal::usize_unsuffixed(size);
-                quote!([[T; #size]; #size])
+            Shape::Rows(length) => {
+                let rows = Literal::usize_unsuffixed(entry.outputs.len() / length);
+                let length = Literal::usize_unsuffixed(length);
+                quote!([[T; #length]; #rows])
             }
             Shape::Split(first) => {
                 let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
@@ -267,7 +272,13 @@ impl Emission<'_> {
         }
         let length = match &self.program.strips {
             Some(strips) => strips.length(argument),
-            None => self.scene.links.len(),
+            None => match argument {
+                Argument::Forces => 2 * self.scene.links.len(),
+                Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
+                    self.transverse_links(sector)
+                }
+                _ => self.scene.links.len(),
+            },
         };
         let mut any = false;
         let elements: Vec<TokenStream> = (0..length)
@@ -289,6 +300,10 @@ impl Emission<'_> {
         match argument {
             _ if !any => quote!(let _ = #array;),
             Argument::Motion => self.motion_taken_apart(&elements),
+            Argument::Forces => {
+                let vectors = elements.chunks(2).map(|vector| quote!([#(#vector),*]));
+                quote!(let [#(#vectors),*] = *#array;)
+            }
             Argument::Response
             | Argument::Sums
             | Argument::Elimination
@@ -342,12 +357,8 @@ impl Emission<'_> {
         match entry.shape {
             Shape::Scalar => quote!(#(#values)*),
             Shape::Vector => quote!([#(#values),*]),
-            Shape::Pair => {
-                let (first, second) = values.split_at(values.len() / 2);
-                quote!([[#(#first),*], [#(#second),*]])
-            }
-            Shape::Matrix(size) => {
-                let rows = values.chunks(size).map(|row| quote!([#(#row),*]));
+            Shape::Rows(length) => {
+                let rows = values.chunks(length).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
             }
             Shape::Split(first) => {

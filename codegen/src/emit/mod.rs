@@ -13,18 +13,23 @@ mod model;
 mod names;
 mod observables;
 mod parts;
+mod positions;
 mod quantities;
 mod sink;
+mod strip_docs;
 mod strip_powers;
 mod strip_tables;
 mod strips;
 mod stub;
+mod stub_sectors;
 mod taylor;
 mod taylor_order;
 mod taylor_rules;
 mod tokens;
 mod traits;
 mod transfer_forms;
+mod transverse;
+mod whole;
 
 pub use stub::stub;
 
@@ -63,7 +68,8 @@ pub fn emit(
     // The tables of loops are long: they come last.
     if let Some(strips) = &program.strips {
         let code = emission.in_strips(strips);
-        return quote!(#model #code #values);
+        let whole = emission.whole_tree();
+        return quote!(#model #code #values #whole);
     }
     let functions = program.entries.iter().map(|entry| match entry.purpose {
         Purpose::TaylorCoefficients => emission.taylor_coefficients(entry),
@@ -72,6 +78,7 @@ pub fn emit(
     let parts = emission.part_implementations();
     let accessors = emission.accessors();
     let traits = emission.traits();
+    let whole = emission.whole_tree();
     let runtime = emission.runtime();
     let name = &item.ident;
     quote! {
@@ -80,8 +87,9 @@ pub fn emit(
         #values
 
         // All tokens stand where the attribute does, of many lines: clippy
-        // takes that for arrays whose elements were broken across lines.
-        #[allow(clippy::possible_missing_comma)]
+        // takes that for arrays whose elements were broken across lines. A binary
+        // may call a few of the functions.
+        #[allow(dead_code, clippy::possible_missing_comma)]
         impl<T: #runtime::Scalar> #name<T> {
             #(#functions)*
             #accessors
@@ -90,6 +98,8 @@ pub fn emit(
         #parts
 
         #traits
+
+        #whole
     }
 }
 

@@ -163,13 +163,13 @@ impl Emission<'_> {
         let parameters = format_ident!("{}Parameters", name);
         quote! {
             // As for the functions, see `emit`.
-            #[allow(clippy::possible_missing_comma)]
+            #[allow(dead_code, clippy::possible_missing_comma)]
             impl<T: #runtime::Scalar> #name<T> {
-                /// The model for the given parameters, taken as they are:
-                /// other scalars than `f64` have no order by which masses
-                /// could be checked.
+                /// The model for the given parameters, taken as they are: for
+                /// scalars without an order by which masses could be checked,
+                /// as lanes and dual numbers. Others have `new`.
                 #[must_use]
-                pub fn from_parameters(parameters: #parameters<T>) -> Self {
+                pub fn from_parameters_unchecked(parameters: #parameters<T>) -> Self {
                     #constants
                 }
             }
@@ -179,6 +179,7 @@ impl Emission<'_> {
     fn literal_constructor(&self) -> TokenStream {
         let name = &self.item.ident;
         quote! {
+            #[allow(dead_code)]
             impl #name<f64> {
                 /// The model in double precision, its constants rounded once
                 /// from their exact values. `Default` builds it for other
@@ -201,6 +202,10 @@ impl Emission<'_> {
                 #docs
                 #vis #field: T
             }
+        });
+        let doubles = self.scene.parameters.iter().map(|parameter| {
+            let field = format_ident!("{}", parameter.name);
+            quote!(#field: #runtime::scalar::Real::to_f64(given.#field))
         });
         let docs = format!(" Parameters of [`{name}`]. SI units.");
         let signed = |index: usize| {
@@ -233,21 +238,26 @@ impl Emission<'_> {
             }
 
             // As for the functions below.
-            #[allow(clippy::possible_missing_comma)]
-            impl #name<f64> {
-                /// The model for the given parameters, in double precision.
+            #[allow(dead_code, clippy::possible_missing_comma)]
+            impl<T: #runtime::scalar::Real> #name<T> {
+                /// The model for the given parameters, which are checked in
+                /// double precision.
                 ///
                 /// # Errors
                 /// A parameter that is not finite, one that makes a mass, an
                 /// inertia or a friction coefficient impossible, or ones that
                 /// make the mass matrix singular.
                 pub fn new(
-                    parameters: #parameters<f64>,
+                    parameters: #parameters<T>,
                 ) -> ::core::result::Result<Self, #runtime::ParameterError> {
+                    let given = parameters;
+                    let parameters = #parameters::<f64> {
+                        #(#doubles),*
+                    };
                     #(#finite)*
                     #(#signs)*
                     #regular
-                    ::core::result::Result::Ok(Self::from_parameters(parameters))
+                    ::core::result::Result::Ok(Self::from_parameters_unchecked(given))
                 }
             }
         }

@@ -124,6 +124,17 @@ impl Emission<'_> {
                 Some(frame) => &frame.momenta,
                 None => &mechanics.absolute.momenta,
             },
+            Argument::Alpha => match &mechanics.transverse {
+                Some(transverse) => &transverse.accelerations,
+                None => unreachable!("accelerations are an argument of transverse sectors"),
+            },
+            Argument::Difference(sector) => &self.transverse_sector(sector).differences,
+            Argument::DifferenceRate(sector) => &self.transverse_sector(sector).rates,
+            Argument::Torques => return format!("outside_{}", self.scene.links[index].name),
+            Argument::Forces => {
+                let axis = ["x", "y"][index % 2];
+                return format!("force_{axis}_{}", self.scene.links[index / 2].name);
+            }
             argument => {
                 let strips = self.program.strips.as_ref();
                 let name = strips.map(|strips| strips.element(argument, index));

@@ -149,6 +149,7 @@ impl Emission<'_> {
         let unused = entry.arguments.iter().filter(|a| !used(a) && !read(a));
         let unused = unused.map(|argument| ident(argument.name()));
         let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
+        let runtime = self.runtime();
         let calls = parts.parts.iter().map(|part| {
             let arguments = part.arguments.iter();
             let arguments = arguments.map(|argument| ident(argument.name()));
@@ -156,7 +157,7 @@ impl Emission<'_> {
                 let number = Literal::usize_unsuffixed(part.number);
                 let handed = arguments.map(|name| quote!(#name));
                 let handed = together(handed.chain([quote!(&mut #shared)]).collect());
-                quote!(T::outlined::<#number, _, _>(self, #handed);)
+                quote!(#runtime::emitted::outlined::<#number, T, _, _>(self, #handed);)
             } else {
                 let name = part.name(entry);
                 quote!(self.#name(#(#arguments,)* &mut #shared);)
@@ -165,8 +166,18 @@ impl Emission<'_> {
         let values = entry.outputs.iter().map(|&id| match *self.op(id) {
             Op::Input(Argument::Time, _) => self.bound(id, locals, Binding::Sum),
             Op::Input(argument, index) => {
-                let (name, index) = (ident(argument.name()), Literal::usize_unsuffixed(index));
-                quote!(#name[#index])
+                let name = ident(argument.name());
+                let place = |index| Literal::usize_unsuffixed(index);
+                match argument {
+                    Argument::Forces => {
+                        let (link, axis) = (place(index / 2), place(index % 2));
+                        quote!(#name[#link][#axis])
+                    }
+                    _ => {
+                        let index = place(index);
+                        quote!(#name[#index])
+                    }
+                }
             }
             Op::Number(ref number) => number_tokens(number),
             Op::Constant(_) => self.bound(id, locals, Binding::Sum),

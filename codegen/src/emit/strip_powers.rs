@@ -12,6 +12,8 @@ impl Emission<'_> {
         if !self.scene.requests.energies {
             return TokenStream::new();
         }
+        let runtime = self.runtime();
+        let energy = quote!(#runtime::Energy);
         let frame = match self.frame_note() {
             "" => None,
             note => Some(quote!(#[doc = #note])),
@@ -31,13 +33,13 @@ impl Emission<'_> {
             #frame
             #[must_use]
             pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
-                self.bodies.kinetic_energy(theta, omega)
+                #energy::kinetic_energy_of(self, theta, omega)
             }
 
             #potential
             #[must_use]
             pub fn potential_energy(&self, theta: &[T]) -> T {
-                self.bodies.potential_energy(theta)
+                #energy::potential_energy_of(self, theta)
             }
         }
     }
@@ -97,7 +99,8 @@ impl Emission<'_> {
             #power
             #[must_use]
             pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
-                self.bodies.drive_power(self.drive(time), theta, omega)
+                let mut workspace = #runtime::system::Workspace::new();
+                self.bodies.drive_power(&mut workspace, self.drive(time), theta, omega)
             }
 
             #friction
@@ -106,14 +109,35 @@ impl Emission<'_> {
 
     pub(super) fn strip_energy(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
+        let (energy, workspace) = (
+            quote!(#runtime::Energy),
+            quote!(#runtime::system::Workspace),
+        );
         quote! {
-            impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
+            impl<T: #runtime::Scalar> #energy<T> for #name<T> {
                 fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
-                    self.bodies.kinetic_energy(theta, omega)
+                    #energy::kinetic_energy_with(self, &mut #workspace::new(), theta, omega)
                 }
 
                 fn potential_energy_of(&self, theta: &[T]) -> T {
-                    self.bodies.potential_energy(theta)
+                    #energy::potential_energy_with(self, &mut #workspace::new(), theta)
+                }
+
+                fn kinetic_energy_with(
+                    &self,
+                    workspace: &mut #workspace<T>,
+                    theta: &[T],
+                    omega: &[T],
+                ) -> T {
+                    self.bodies.kinetic_energy(workspace, theta, omega)
+                }
+
+                fn potential_energy_with(
+                    &self,
+                    workspace: &mut #workspace<T>,
+                    theta: &[T],
+                ) -> T {
+                    self.bodies.potential_energy(workspace, theta)
                 }
             }
         }

@@ -4,8 +4,8 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{number_tokens, part_tokens};
-use crate::program::{ConstantId, ConstantOp, Op, Purpose, Strips, ValueId};
-use crate::scene::Layout;
+use crate::program::{ConstantId, ConstantOp, Op, Purpose, Strip, Strips, ValueId};
+use crate::scene::{LINK_PROPERTIES, Layout};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,7 +54,7 @@ impl Emission<'_> {
             _ => (
                 quote!(Parents(&PARENTS)),
                 Some(self.parents()),
-                quote!(with_parents(&PARENTS, #rows, #gravity)),
+                quote!(with_parents(&PARENTS, &#rows, #gravity)),
             ),
         };
         let bodies = strips.strips.iter().filter_map(|strip| strip.body.as_ref());
@@ -72,17 +72,34 @@ impl Emission<'_> {
                 (table, Some(value))
             }
         };
+        let properties = strips.strips.iter();
+        let properties = properties.filter_map(|strip| strip.properties.as_ref());
+        let properties: Vec<&[ConstantId]> = properties.map(|row| row.as_slice()).collect();
+        let (property_table, property_field) = match properties.is_empty() {
+            true => (TokenStream::new(), None),
+            false => {
+                let columns = LINK_PROPERTIES.map(str::to_owned);
+                let name = format_ident!("properties");
+                let [table, rows] = self.table(&name, "positions", &columns, properties, &known);
+                let value = quote! {
+                    properties:
+                        #runtime::tree::PropertyTable::new(#runtime::tree::Shape::#shape, #rows)
+                };
+                (table, Some(value))
+            }
+        };
         let stored = self.stored_constants();
         let stored = stored.iter().map(|&id| {
             let field = self.field(id);
             let value = self.known_value(id, &known);
             quote!(#field: #value)
         });
-        let fields = body_field.into_iter().chain(stored);
+        let fields = body_field.into_iter().chain(property_field).chain(stored);
         quote! {
             #parents
             #table
             #body_table
+            #property_table
             #(#lines)*
             Self {
                 tree: #runtime::tree::Tree::#tree,
@@ -95,8 +112,8 @@ impl Emission<'_> {
     /// of the drive, and their names.
     fn formed_constants(&self, strips: &Strips) -> (Vec<TokenStream>, BTreeMap<ConstantId, Ident>) {
         let rows = strips.strips.iter();
-        let rows = rows.flat_map(|strip| strip.constants.iter().chain(strip.body.iter().flatten()));
-        let mut wanted: Vec<ConstantId> = rows.copied().collect();
+        let rows = rows.flat_map(Strip::all_constants);
+        let mut wanted: Vec<ConstantId> = rows.collect();
         wanted.extend(self.stored_constants());
         wanted.extend(self.root_constants());
         let setup = &self.program.setup;
@@ -164,8 +181,8 @@ impl Emission<'_> {
         }
     }
 
-    /// A table of constants, and the vector of these in the model's scalar, in
-    /// which values of parameters are put in place.
+    /// A table of constants, and the vector of these in the model's scalar, one row after
+    /// the other, in which values of parameters are put in place.
     fn table(
         &self,
         name: &Ident,
@@ -190,16 +207,15 @@ impl Emission<'_> {
         docs.extend(numbered.map(|(column, meaning)| format!("{}. {meaning}", column + 1)));
         let docs = doc_lines(&docs);
         let count = Literal::usize_unsuffixed(rows.len());
-        let width = Literal::usize_unsuffixed(columns.len());
+        let width = columns.len();
         let mut placed = Vec::new();
         let lines = rows.iter().enumerate().map(|(link, row)| {
             let numbers = row.iter().enumerate().map(|(column, &id)| {
                 let exact = self.program.setup.get(id).exact.as_ref();
                 let [high, low] = exact.map(part_tokens).unwrap_or_else(|| {
                     let value = self.known_value(id, known);
-                    let link = Literal::usize_unsuffixed(link);
-                    let column = Literal::usize_unsuffixed(column);
-                    placed.push(quote!(#name[#link][#column] = #value;));
+                    let place = Literal::usize_unsuffixed(link * width + column);
+                    placed.push(quote!(#name[#place] = #value;));
                     [quote!(0.0), quote!(0.0)]
                 });
                 quote!([#high, #low])
@@ -207,11 +223,12 @@ impl Emission<'_> {
             quote!([#(#numbers),*])
         });
         let lines = quote!(#(#lines),*);
+        let width = Literal::usize_unsuffixed(width);
         let table = quote! {
             #docs
             static #constants: [[[f64; 2]; #width]; #count] = [#lines];
         };
-        let value = quote!(#runtime::tree::rows(&#constants));
+        let value = quote!(#runtime::tree::numbers(#constants.as_flattened()));
         let value = match placed.is_empty() {
             true => value,
             false => quote! {{

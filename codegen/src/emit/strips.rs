@@ -10,7 +10,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 /// The fields of a model in loops that are no constants of its drive.
-const FIELDS: [&str; 2] = ["tree", "bodies"];
+const FIELDS: [&str; 3] = ["tree", "bodies", "properties"];
 
 impl Emission<'_> {
     /// The equations and the functions of a model in loops.
@@ -20,15 +20,17 @@ impl Emission<'_> {
         let pendulum = self.strip_pendulum();
         let energies = self.scene.requests.energies;
         let energy = energies.then(|| self.strip_energy());
+        let positions = self.positions_trait();
         quote! {
             #equations
             #functions
             #pendulum
             #energy
+            #positions
         }
     }
 
-    /// Whether a field of the model in loops has this name.
+    /// Returns true if a field of the model in loops has this name.
     pub(super) fn is_loop_field(&self, name: &str) -> bool {
         self.scene.in_loops() && FIELDS.contains(&name)
     }
@@ -53,43 +55,10 @@ impl Emission<'_> {
             quote!(#field: T)
         });
         let tree = quote!(tree: #tree);
-        let first = std::iter::once(tree).chain(bodies);
+        let properties = self.scene.requests.positions;
+        let properties = properties.then(|| quote!(properties: #runtime::tree::PropertyTable<T>));
+        let first = std::iter::once(tree).chain(bodies).chain(properties);
         first.chain(stored).collect()
-    }
-
-    pub(super) fn strip_docs(&self) -> Vec<String> {
-        let energies = match self.scene.requests.energies {
-            true => "",
-            false => " Energies can be asked for with `emit(energies)`.",
-        };
-        let rows = self.scene.links.len();
-        let mut lines = match self.scene.layout {
-            Layout::Generations { branching, links } => vec![
-                format!(
-                    "A planar tree of {links} rigid links in {rows} generations, {branching} under each link but the last ones. Angles are absolute, in radians from the downward vertical; SI units throughout."
-                ),
-                String::new(),
-                "Links stand generation by generation, and in a generation copy by copy: copy c (from 0) under link i of a generation of n links is number c n + i of the next one. `link` finds one by its path.".into(),
-                String::new(),
-                format!(
-                    "The code is loops over generations, O(links), in vectors of siblings, and on all cores where there are many.{energies}"
-                ),
-            ],
-            _ => vec![
-                format!(
-                    "A planar tree of {rows} rigid links. Angles are absolute, in radians from the downward vertical, in the order of `LINK_NAMES`; SI units throughout."
-                ),
-                String::new(),
-                format!(
-                    "The code is a loop over the links, O(links), of the equations that are shown where they stand.{energies}"
-                ),
-            ],
-        };
-        if self.mechanics.drive.is_some() {
-            lines.extend(self.drive_docs());
-            self.show(&self.drive_formulas(), &mut lines);
-        }
-        lines
     }
 
     /// The equations of one link: a type without values, and its trait.
@@ -142,27 +111,6 @@ impl Emission<'_> {
                 #(#functions)*
             }
         }
-    }
-
-    fn equations_docs(&self) -> Vec<String> {
-        let mut lines = vec![
-            "The equations of one link, by articulated-body recursion in the plane (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7).".to_owned(),
-            String::new(),
-            "Subtrees that hang at (ℓ, w) answer the acceleration **a** of their pivot with the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is the mass of those that are single links, and zero for others. J is the moment of inertia that the joint feels, b the first moment, κ the bias torque, f the force with the joint held; primed are N and γ of the subtree that the link carries, and the acceleration of its children's pivot. The code carries −**a**, the apparent gravity, has all masses over m and all lengths over l of the commonest leaf, and angles of a link by its own length.".to_owned(),
-        ];
-        if let Some(link) = &self.mechanics.link {
-            let formulas = link.formulas(&self.mechanics.symbols);
-            let formulas = formulas
-                .into_iter()
-                .map(|line| super::formulas::DocFormula {
-                    left: line.left,
-                    left_latex: line.left_latex,
-                    right: line.right,
-                });
-            let formulas: Vec<_> = formulas.collect();
-            self.show_rows(&formulas, formulas.len(), &mut lines);
-        }
-        lines
     }
 
     pub(super) fn entry(&self, purpose: Purpose) -> Option<&Entry> {
@@ -236,6 +184,7 @@ impl Emission<'_> {
         let allow = allow.then(|| quote!(#[allow(clippy::possible_missing_comma)]));
         quote! {
             #allow
+            #[allow(dead_code)]
             impl<T: #runtime::Scalar> #name<T> {
                 #own
 
@@ -395,7 +344,10 @@ impl Emission<'_> {
         });
         let bodies = self.scene.requests.energies;
         let bodies = bodies.then(|| quote!(bodies: self.bodies.cast(&convert)));
+        let properties = self.scene.requests.positions;
+        let properties = properties.then(|| quote!(properties: self.properties.cast(&convert)));
         let tree = quote!(tree: self.tree.cast(&convert));
-        std::iter::once(tree).chain(bodies).chain(stored).collect()
+        let first = std::iter::once(tree).chain(bodies).chain(properties);
+        first.chain(stored).collect()
     }
 }

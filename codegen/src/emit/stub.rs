@@ -2,9 +2,11 @@
 //! methods without meaning, so that an editor shows the description's errors
 //! and no others.
 
-use crate::description::{Description, Expression, ExpressionKind, Node, Value};
+use super::stub_sectors::{budgets, places};
+use crate::description::Description;
+use crate::program::PointKind;
 use crate::scene::{OBSERVABLE_SUFFIXES, is_keyword, is_method};
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
 
@@ -31,18 +33,8 @@ const NUMBERS: [&str; 4] = [
 ];
 /// Methods from the time and two arrays to a number.
 const POWERS: [&str; 2] = ["drive_power", "antiphase_drive_power"];
-/// Budgets of the sectors.
-const BUDGETS: [&str; 4] = [
-    "budget_rest",
-    "budget_canonical",
-    "budget_velocity",
-    "budget_parseval",
-];
 /// Methods from two arrays to a transfer.
 const TRANSFERS: [&str; 2] = ["transfer_exact", "transfer_exact_from_rates"];
-
-/// Results of more elements say no more about a description that is wrong.
-const MOST_SECTORS: usize = 1024;
 
 /// The type and its documented methods as stubs. They are never run: the
 /// errors beside them keep the crate from compiling.
@@ -83,6 +75,15 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
         functions.extend(placed);
     }
     numbers.extend(observables(description));
+    let of_points = |suffix: &'static str| {
+        let kinds = PointKind::ALL.into_iter();
+        kinds.map(move |kind| format_ident!("{}{suffix}", kind.name()))
+    };
+    let (points, velocities, torques) = (
+        of_points("s"),
+        of_points("_velocities"),
+        of_points("_torques"),
+    );
     let taylor = taylor(description, runtime);
     let budgets = budgets(description, runtime);
     quote! {
@@ -131,6 +132,27 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             pub fn potential_energy<const N: usize>(&self, theta: &[T; N]) -> T {
                 ::core::unimplemented!()
             }
+            #(pub fn #points<const N: usize>(&self, theta: &[T; N]) -> [[T; 2]; N] {
+                ::core::unimplemented!()
+            })*
+            #(pub fn #velocities<const N: usize>(
+                &self, theta: &[T; N], omega: &[T; N],
+            ) -> [[T; 2]; N] {
+                ::core::unimplemented!()
+            })*
+            #(pub fn #torques<const N: usize>(
+                &self, theta: &[T; N], forces: &[[T; 2]; N],
+            ) -> [T; N] {
+                ::core::unimplemented!()
+            })*
+            pub fn accelerations_under<const N: usize>(
+                &self, #time theta: &[T; N], omega: &[T; N], torques: &[T; N],
+            ) -> [T; N] {
+                ::core::unimplemented!()
+            }
+            pub fn link_properties<const N: usize>(&self) -> [[T; 8]; N] {
+                ::core::unimplemented!()
+            }
             #budgets
         }
 
@@ -176,108 +198,31 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             fn symmetric_momenta_into(&self, _: &[T], _: &[T], _: &mut [T]) {}
         }
 
+        impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
+            fn accelerations_under_into(&self, _: T, _: &[T], _: &[T], _: &[T], _: &mut [T]) {}
+        }
+
+        impl<T: #runtime::Scalar> #runtime::Positions<T> for #name<T> {
+            fn properties_of(
+                &self, _: usize,
+            ) -> ::core::option::Option<#runtime::system::LinkProperties<T>> {
+                ::core::option::Option::None
+            }
+            fn points_into(&self, _: #runtime::system::LinkPoint, _: &[T], _: &mut [[T; 2]]) {}
+            fn point_velocities_into(
+                &self, _: #runtime::system::LinkPoint, _: &[T], _: &[T], _: &mut [[T; 2]],
+            ) {}
+            fn point_torques_into(
+                &self, _: #runtime::system::LinkPoint, _: &[T], _: &[[T; 2]], _: &mut [T],
+            ) {}
+        }
+
         impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
             fn kinetic_energy_of(&self, _: &[T], _: &[T]) -> T { ::core::unimplemented!() }
             fn potential_energy_of(&self, _: &[T]) -> T { ::core::unimplemented!() }
         }
 
         #taylor
-    }
-}
-
-/// Names of the differences of groups of single links, each once: names of links
-/// may be wrong.
-fn places(description: &Description) -> BTreeSet<String> {
-    let mut groups: Vec<(String, usize)> = Vec::new();
-    let mut pending: Vec<&Node> = description.roots.iter().collect();
-    while let Some(node) = pending.pop() {
-        let copies = node.copies.map_or(1, |copies| copies.count as usize);
-        let name = node.name.to_string();
-        if copies > 1 && copies <= MOST_SECTORS && is_plain(&name) {
-            groups.push((name, copies));
-        }
-        pending.extend(&node.children);
-    }
-    let alone = groups.len() == 1;
-    let names = groups.iter().flat_map(|(name, copies)| {
-        let stem = if alone {
-            "d".to_owned()
-        } else {
-            format!("{name}_d")
-        };
-        let number = move |number: usize| match copies {
-            2 => stem.clone(),
-            _ => format!("{stem}{number}"),
-        };
-        (1..*copies).map(number)
-    });
-    names.collect()
-}
-
-/// The functions of sectors. Their results have as many elements as the tree
-/// has sectors, as far as that can be read.
-fn budgets(description: &Description, runtime: &TokenStream) -> TokenStream {
-    let time = description.drive.as_ref().map(|_| quote!(time: T,));
-    let differences = description.roots.iter().map(differences);
-    let sectors = differences.fold(1_usize, usize::saturating_add);
-    let sectors = Literal::usize_unsuffixed(sectors.min(MOST_SECTORS));
-    let both = |name: &str| [format_ident!("{name}"), format_ident!("symmetric_{name}")];
-    let shares = BUDGETS.iter().flat_map(|name| both(name));
-    let mut transfers = both("sector_transfers").to_vec();
-    for order in 1..=8 {
-        transfers.push(format_ident!("sector_transfers_angle_{order}"));
-        transfers.push(format_ident!("sector_transfers_amplitude_{order}"));
-    }
-    let matrices = both("transfer_matrix");
-    quote! {
-        #(pub fn #shares<const N: usize>(
-            &self, #time first: &[T; N], second: &[T; N],
-        ) -> #runtime::Budget<T, #sectors> {
-            ::core::unimplemented!()
-        })*
-        #(pub fn #transfers<const N: usize>(
-            &self, first: &[T; N], second: &[T; N],
-        ) -> [#runtime::Transfer<T>; #sectors] {
-            ::core::unimplemented!()
-        })*
-        #(pub fn #matrices<const N: usize>(
-            &self, first: &[T; N], second: &[T; N],
-        ) -> [[T; #sectors]; #sectors] {
-            ::core::unimplemented!()
-        })*
-    }
-}
-
-/// Differences between copies in a subtree: a group of k has k − 1 of them
-/// everywhere it stands.
-fn differences(node: &Node) -> usize {
-    let copies = node.copies.map_or(1, |copies| copies.count.max(1) as usize);
-    let below = if node
-        .shape
-        .as_ref()
-        .is_some_and(|shape| shape == "generations")
-    {
-        // Σ (k − 1) kⁱ over all generations but the last.
-        let branching = rule_count(node, "branching").unwrap_or(1);
-        let generations = rule_count(node, "count").unwrap_or(1);
-        let power = u32::try_from(generations.saturating_sub(1)).unwrap_or(u32::MAX);
-        branching.saturating_pow(power).saturating_sub(1)
-    } else {
-        let children = node.children.iter().map(differences);
-        children.fold(0, usize::saturating_add)
-    };
-    copies.saturating_mul(below).saturating_add(copies - 1)
-}
-
-/// A whole number that a rule gives.
-fn rule_count(node: &Node, name: &str) -> Option<usize> {
-    let property = node.properties.iter().find(|p| p.name == name)?;
-    match &property.value {
-        Value::Single(Expression {
-            kind: ExpressionKind::Number(number),
-            ..
-        }) => number.numerator_text().parse().ok(),
-        _ => None,
     }
 }
 
@@ -337,8 +282,8 @@ fn observables(description: &Description) -> Vec<Ident> {
     functions
 }
 
-/// Whether a name may stand in a stub: no keyword, and spelt in one way only.
-fn is_plain(name: &str) -> bool {
+/// Returns true if a name may stand in a stub: no keyword, and spelt in one way only.
+pub(super) fn is_plain(name: &str) -> bool {
     syn::parse_str::<Ident>(name).is_ok() && !is_keyword(name) && !name.starts_with("r#")
 }
 
@@ -368,9 +313,9 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
         #vis struct #parameters<T = f64> { #(#vis #names: T),* }
 
         #[allow(missing_docs, unused_variables, clippy::all)]
-        impl #name<f64> {
+        impl<T: #runtime::scalar::Real> #name<T> {
             pub fn new(
-                parameters: #parameters<f64>,
+                parameters: #parameters<T>,
             ) -> ::core::result::Result<Self, #runtime::ParameterError> {
                 ::core::unimplemented!()
             }
@@ -378,7 +323,7 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
 
         #[allow(missing_docs, unused_variables, clippy::all)]
         impl<T: #runtime::Scalar> #name<T> {
-            pub fn from_parameters(parameters: #parameters<T>) -> Self {
+            pub fn from_parameters_unchecked(parameters: #parameters<T>) -> Self {
                 ::core::unimplemented!()
             }
         }

@@ -20,6 +20,9 @@ impl Emission<'_> {
         let sectors = self.mechanics.sectors.as_ref();
         let sectors = sectors.map(|sectors| self.sectors(sectors));
         let forms = self.transfer_forms();
+        let positions = self.positions_trait();
+        let transverse = self.transverse_trait();
+        let forced = self.scene.requests.forces.then(|| self.forced());
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
             #pendulum
@@ -28,6 +31,9 @@ impl Emission<'_> {
             #canonical
             #sectors
             #forms
+            #positions
+            #transverse
+            #forced
             #taylor
         }
     }
@@ -97,7 +103,12 @@ impl Emission<'_> {
             false => quote!(self.accelerations(&theta, &omega)),
         };
         let time = self.time_name();
-        let body = self.sunk().unwrap_or_else(|| {
+        let sunk = self.sunk();
+        // As for the functions, see `emit`.
+        let allow = sunk
+            .is_some()
+            .then(|| quote!(#[allow(clippy::possible_missing_comma)]));
+        let body = sunk.unwrap_or_else(|| {
             quote! {
                 let theta = ::core::array::from_fn(theta);
                 let omega = ::core::array::from_fn(omega);
@@ -131,6 +142,7 @@ impl Emission<'_> {
                 }
             }
 
+            #allow
             impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
                 type Of<#other: #runtime::Scalar> = #name<#other>;
 
@@ -149,6 +161,31 @@ impl Emission<'_> {
                     theta: impl ::core::ops::Fn(usize) -> T,
                     omega: impl ::core::ops::Fn(usize) -> T,
                     mut alpha: impl ::core::ops::FnMut(usize, T),
+                ) {
+                    #body
+                }
+            }
+        }
+    }
+
+    fn forced(&self) -> TokenStream {
+        let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
+        let output = Ident::new("alpha", Span::call_site());
+        let call = match self.mechanics.drive.is_some() {
+            true => quote!(self.accelerations_under(time, theta, omega, torques)),
+            false => quote!(self.accelerations_under(theta, omega, torques)),
+        };
+        let body = self.fill(&output, &["theta", "omega", "torques"], call);
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
+                #[inline]
+                fn accelerations_under_into(
+                    &self,
+                    #time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    torques: &[T],
+                    alpha: &mut [T],
                 ) {
                     #body
                 }

@@ -30,15 +30,19 @@ impl Derivation<'_> {
             drive: self.plain_drive(Some(&absolute)),
             absolute: self.frame(&absolute),
             articulation: self.articulation(&absolute),
+            positions: None,
             link: None,
             coordinates: Vec::new(),
             symmetric: None,
             sectors: None,
+            transverse: None,
             expansion: None,
             transfers: Vec::new(),
             observables: Observables::default(),
         };
         let requests = &self.scene.requests;
+        let requests_positions = requests.positions;
+        let requests_transverse = requests.transverse;
         let nested = requests.symmetric && self.is_nested();
         if requests.budget.is_some() || nested {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
@@ -70,6 +74,12 @@ impl Derivation<'_> {
             .as_ref()
             .map(|frame| (frame, &*mechanics.coordinates));
         mechanics.observables = self.observables(&absolute, symmetric)?;
+        if requests_transverse {
+            mechanics.transverse = Some(self.transverse(&absolute));
+        }
+        if requests_positions {
+            mechanics.positions = Some(self.positions(&absolute));
+        }
         mechanics.constants = self
             .constants
             .iter()
@@ -99,12 +109,14 @@ impl Derivation<'_> {
                 gravity: self.expr(&gravity.expand()),
                 joints: Vec::new(),
             },
+            positions: None,
             link: Some(link),
             combinations: Vec::new(),
             constants: Vec::new(),
             coordinates: Vec::new(),
             symmetric: None,
             sectors: None,
+            transverse: None,
             expansion: None,
             transfers: Vec::new(),
             observables: Observables::default(),

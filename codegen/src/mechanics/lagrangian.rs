@@ -46,13 +46,8 @@ impl Derivation<'_> {
     /// Row of `∂(x, y)/∂θ_i` of the point `offset` on link `i`:
     /// x = a sin θ + b cos θ, y = −a cos θ + b sin θ.
     fn lever(&self, offset: &Offset, angle: SymbolId) -> (Formula, Formula) {
-        let (cos, sin) = (
-            Formula::symbol(self.cos(angle)),
-            Formula::symbol(self.sin(angle)),
-        );
         let (along, lateral) = (self.quantity(&offset.along), self.quantity(&offset.lateral));
-        let x = &(&along * &sin) + &(&lateral * &cos);
-        let y = &(&lateral * &sin) - &(&along * &cos);
+        let [x, y] = self.point_at(&along, &lateral, angle);
         (self.partial(&x, angle), self.partial(&y, angle))
     }
 

@@ -20,6 +20,7 @@ mod lock;
 mod observable;
 mod observable_rate;
 mod observables;
+mod positions;
 mod print;
 mod rate_symbols;
 pub mod sectors;
@@ -27,6 +28,7 @@ mod series;
 mod show;
 mod symmetric;
 mod transfer;
+mod transverse;
 mod work_limit;
 
 use crate::scene::Coordinate;
@@ -41,8 +43,10 @@ pub use observables::{
     CanonicalRate, EnergySymbols, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame,
     Observables, System,
 };
+pub use positions::{LinkPositions, RelativePosition};
 pub use print::{latex, text};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
+pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 
 use crate::scene::Scene;
@@ -225,6 +229,8 @@ pub struct Mechanics {
     pub absolute: Frame,
     /// The joints, from which their accelerations can be formed as well.
     pub articulation: Articulation,
+    /// Positions of the links' points, if asked for and not in loops.
+    pub positions: Option<Vec<LinkPositions>>,
     /// The balance of one link, where the code is loops.
     pub link: Option<LinkBalance>,
     /// The symmetric coordinates, if asked for.
@@ -235,6 +241,8 @@ pub struct Mechanics {
     /// The mechanics by orbits and sectors, if a budget is asked for, or
     /// symmetric coordinates of a nested tree.
     pub sectors: Option<OrbitMechanics>,
+    /// Small differences beside an in-phase motion, if asked for.
+    pub transverse: Option<TransverseMechanics>,
     /// Expansion about the in-phase motion, if a transfer is asked for.
     pub expansion: Option<MassExpansion>,
     /// Energy transfers, one for each difference, if asked for.

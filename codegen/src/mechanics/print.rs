@@ -1,4 +1,4 @@
-//! Expressions as text and as LaTeX, for docs and for `expand --stage`.
+//! Expressions as text and as LaTeX, for docs and for `branched-pendulum --stage`.
 
 use super::expression::{Expr, Symbols};
 use crate::exact::Rational;

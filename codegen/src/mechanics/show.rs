@@ -1,9 +1,10 @@
-//! A scene's mechanics as text, for `expand --stage mechanics`.
+//! A scene's mechanics as text, for `branched-pendulum --stage mechanics`.
 
 use super::expression::{Expr, SymbolId};
 use super::{
-    Counting, DriveTerms, Frame, LinkBalance, MatrixEntry, Mechanics, OrbitMechanics, Temporal,
-    TransferParts, text,
+    Counting, DriveTerms, Frame, LinkBalance, LinkPositions, MatrixEntry, Mechanics,
+    OrbitMechanics, RelativePosition, Temporal, TransferParts, TransverseFormulas,
+    TransverseMechanics, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
@@ -32,6 +33,12 @@ impl fmt::Display for Mechanics {
                 writeln!(f, "absolute angles")?;
                 self.frame(f, &self.absolute)?;
             }
+        }
+        if let Some(links) = &self.positions {
+            self.positions(f, links)?;
+        }
+        if let Some(transverse) = &self.transverse {
+            self.transverse(f, transverse)?;
         }
         if let Some(frame) = &self.symmetric {
             writeln!(f, "symmetric coordinates")?;
@@ -98,6 +105,56 @@ impl fmt::Display for Mechanics {
 }
 
 impl Mechanics {
+    /// The equations of each sector, M δ̈ + r = 0, and its energy.
+    fn transverse(&self, f: &mut fmt::Formatter<'_>, all: &TransverseMechanics) -> fmt::Result {
+        for formulas in &all.sectors {
+            let TransverseFormulas {
+                sector,
+                differences,
+                mass,
+                residual,
+                energy,
+                transfer,
+                friction,
+                ..
+            } = formulas;
+            writeln!(f, "small differences of {}", sector.name)?;
+            self.matrix(f, "M", mass)?;
+            for (&symbol, value) in differences.iter().zip(residual) {
+                self.line(f, &format!("r of {}", self.name(symbol)), value)?;
+            }
+            self.line(f, "energy", energy)?;
+            self.line(f, "transfer", transfer)?;
+            if !friction.is_zero() {
+                self.line(f, "power of friction", friction)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Each point from the pivot that it is measured from, with its rates.
+    fn positions(&self, f: &mut fmt::Formatter<'_>, links: &[LinkPositions]) -> fmt::Result {
+        writeln!(f, "positions from the pivot of the link that they are on")?;
+        for (&angle, link) in self.absolute.coordinates.iter().zip(links) {
+            let name = &self.symbols.get(angle).code["theta_".len()..];
+            let pivot = link.pivot.iter().map(|pivot| ("pivot", pivot));
+            let others = [("centre", &link.centre), ("end", &link.end)];
+            for (point, relative) in pivot.chain(others) {
+                let RelativePosition {
+                    position, velocity, ..
+                } = relative;
+                for (axis, value, rate) in [
+                    ("x", &position[0], &velocity[0]),
+                    ("y", &position[1], &velocity[1]),
+                ] {
+                    self.line(f, &format!("{axis} of {point} {name}"), value)?;
+                    self.line(f, "  rate", rate)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn name(&self, symbol: SymbolId) -> String {
         self.symbols.get(symbol).text.clone()
     }

@@ -2,8 +2,8 @@
 //! cheaper one stays.
 
 use super::count::{Operations, operations};
-use super::lower::{Door, Lowering};
-use super::{Pass, ValueId};
+use super::lower::{Environment, Lowering};
+use super::{Argument, Pass, ValueId};
 use crate::scene::{Scene, Solve};
 
 /// The solve for the accelerations in absolute angles, and the cost of both.
@@ -49,13 +49,13 @@ impl Lowering<'_> {
     pub(super) fn accelerations(
         &mut self,
         scene: &Scene,
-        door: &mut Door<'_>,
+        environment: &mut Environment<'_>,
     ) -> (Vec<ValueId>, Choice) {
-        let (mut other, mut other_door) = (self.clone(), door.clone());
+        let (mut other, mut other_environment) = (self.clone(), environment.clone());
         let compared = self.builder.off == Some(Pass::Choice)
             || scene.requests.solve == Some(Solve::Factorization);
         if is_deep(scene) && !compared {
-            let recursion = self.recursion(scene, door);
+            let recursion = self.recursion(scene, environment);
             let choice = Choice {
                 solve: Solve::Recursion,
                 factorization: None,
@@ -64,11 +64,11 @@ impl Lowering<'_> {
             if self.builder.setup.is_representable() {
                 return (recursion, choice);
             }
-            (*self, *door) = (other.clone(), other_door.clone());
+            (*self, *environment) = (other.clone(), other_environment.clone());
         }
-        let recursion = other.recursion(scene, &mut other_door);
+        let recursion = other.recursion(scene, &mut other_environment);
         let recursion_cost = operations(&other.builder.definitions, &recursion);
-        let factorization = self.factorization(door);
+        let factorization = self.factorization(environment);
         let factorization_cost = operations(&self.builder.definitions, &factorization);
         let cheaper = self.builder.off != Some(Pass::Choice)
             && cost(&recursion_cost) < cost(&factorization_cost)
@@ -86,22 +86,40 @@ impl Lowering<'_> {
             Solve::Factorization => (factorization, choice),
             Solve::Recursion => {
                 *self = other;
-                *door = other_door;
+                *environment = other_environment;
                 (recursion, choice)
             }
         }
     }
 
-    /// q̈ with M q̈ = −bias, by elimination.
-    pub(super) fn factorization(&mut self, door: &mut Door<'_>) -> Vec<ValueId> {
-        let frame = door.frame;
+    /// θ̈ under torques from outside, by the solve that was chosen without them.
+    pub(super) fn accelerations_under(
+        &mut self,
+        scene: &Scene,
+        environment: &mut Environment<'_>,
+        solve: Solve,
+    ) -> Vec<ValueId> {
+        environment.torques = Some(Argument::Torques);
+        match solve {
+            Solve::Factorization => self.factorization(environment),
+            Solve::Recursion => self.recursion(scene, environment),
+        }
+    }
+
+    /// q̈ with M q̈ = Q − bias, Q from outside if at all, by elimination.
+    pub(super) fn factorization(&mut self, environment: &mut Environment<'_>) -> Vec<ValueId> {
+        let frame = environment.frame;
         let names = self.coordinate_names(frame);
-        let mass = self.mass_matrix(door);
+        let mass = self.mass_matrix(environment);
         let mut right = Vec::new();
         for (bias, name) in frame.bias.iter().zip(&names) {
-            let value = self.expr(door, bias);
+            let value = self.expr(environment, bias);
             self.builder.name(value, &format!("bias_{name}"));
-            let torque = self.builder.neg(value);
+            let mut torque = self.builder.neg(value);
+            if let Some(argument) = environment.torques {
+                let outside = self.builder.input(argument, right.len());
+                torque = self.builder.add(outside, torque);
+            }
             right.push(self.builder.name(torque, &format!("torque_{name}")));
         }
         let solution = self.builder.solve(mass, right, &names);

@@ -1,14 +1,18 @@
 //! Functions of time, and the powers of what moves and brakes the tree.
 
 use super::entries::EntryList;
-use super::lower::{Door, Lowering};
+use super::lower::{Environment, Lowering};
 use super::{Argument, Purpose, Shape, ValueId};
 use crate::mechanics::expression::SymbolId;
 use crate::mechanics::{DriveTerms, Mechanics, Temporal};
 
 impl Lowering<'_> {
     /// The value of a symbol that depends on time alone.
-    pub(super) fn temporal(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
+    pub(super) fn temporal(
+        &mut self,
+        environment: &mut Environment<'_>,
+        symbol: SymbolId,
+    ) -> ValueId {
         let mechanics = self.mechanics;
         let Some(meaning) = mechanics
             .drive
@@ -20,14 +24,14 @@ impl Lowering<'_> {
         let value = match meaning {
             Temporal::Time => self.builder.input(Argument::Time, 0),
             Temporal::Sin(argument) => {
-                let argument = self.expr(door, argument);
+                let argument = self.expr(environment, argument);
                 self.builder.sin(argument)
             }
             Temporal::Cos(argument) => {
-                let argument = self.expr(door, argument);
+                let argument = self.expr(environment, argument);
                 self.builder.cos(argument)
             }
-            Temporal::Given(value) => self.expr(door, value),
+            Temporal::Given(value) => self.expr(environment, value),
         };
         let code = &mechanics.symbols.get(symbol).code;
         self.builder.name(value, code)
@@ -46,13 +50,13 @@ impl EntryList<'_, '_> {
     /// The drive as a function of time alone: acceleration of the root's pivot,
     /// torque on the root. What is not given is zero.
     pub(super) fn drive(&mut self, mechanics: &Mechanics, drive: &DriveTerms) {
-        let mut door = Door::new(&mechanics.absolute, Argument::Theta, None, None);
+        let mut environment = Environment::new(&mechanics.absolute, Argument::Theta, None, None);
         let along = |axis: &str| {
             let motion = drive.pivot.iter().find(|motion| motion.name == axis);
             motion.and_then(|motion| motion.acceleration)
         };
         let outputs = [along("x"), along("y"), drive.torque].map(|symbol| match symbol {
-            Some(symbol) => self.lowering.temporal(&mut door, symbol),
+            Some(symbol) => self.lowering.temporal(&mut environment, symbol),
             None => self.lowering.builder.integer(0),
         });
         self.push(
@@ -65,10 +69,10 @@ impl EntryList<'_, '_> {
     }
 
     /// The powers of drive and friction, which balance the energy.
-    pub(super) fn powers(&mut self, door: &mut Door<'_>, drive: &DriveTerms) {
+    pub(super) fn powers(&mut self, environment: &mut Environment<'_>, drive: &DriveTerms) {
         use Argument::{Omega, Theta, Time};
         if let Some(power) = &drive.power {
-            let power = self.lowering.expr(door, power);
+            let power = self.lowering.expr(environment, power);
             self.push(
                 "drive_power",
                 Purpose::DrivePower,
@@ -78,7 +82,7 @@ impl EntryList<'_, '_> {
             );
         }
         if let Some(power) = &drive.friction_power {
-            let power = self.lowering.expr(door, power);
+            let power = self.lowering.expr(environment, power);
             self.push(
                 "friction_power",
                 Purpose::TotalFrictionPower,

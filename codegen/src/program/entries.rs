@@ -1,10 +1,9 @@
 //! The entry points that a scene's requests lead to.
 
-use super::lower::{Door, Lowering};
+use super::lower::{Environment, Lowering};
 use super::{Argument, Choice, Entry, Operations, Purpose, Shape, Strips, ValueId};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Counting, Frame, MatrixEntry, Mechanics, TransferFormulas, TransferParts};
-use crate::scene::CoordinateKind;
+use crate::mechanics::{Frame, MatrixEntry, Mechanics};
 use crate::scene::{LinkId, Scene, Solve};
 
 /// Entry points, the solve that they take, and the constants by strip.
@@ -50,6 +49,12 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
         list.budgets(scene, sectors, request);
     }
     list.observables(scene, mechanics);
+    if let Some(transverse) = &mechanics.transverse {
+        list.transverse(mechanics, transverse);
+    }
+    if let Some(positions) = &mechanics.positions {
+        list.positions(scene, mechanics, positions);
+    }
     if scene.requests.taylor {
         list.taylor(scene, mechanics);
     }
@@ -79,17 +84,21 @@ impl EntryList<'_, '_> {
         });
     }
 
-    fn exprs(&mut self, door: &mut Door<'_>, exprs: &[Expr]) -> Vec<ValueId> {
+    pub(super) fn exprs(
+        &mut self,
+        environment: &mut Environment<'_>,
+        exprs: &[Expr],
+    ) -> Vec<ValueId> {
         exprs
             .iter()
-            .map(|expr| self.lowering.expr(door, expr))
+            .map(|expr| self.lowering.expr(environment, expr))
             .collect()
     }
 
     fn absolute(&mut self, scene: &Scene, mechanics: &Mechanics) -> Choice {
         use Argument::{AbsoluteMomenta, Omega, Theta};
         let frame = &mechanics.absolute;
-        let mut motion = Door::new(frame, Theta, Some(Omega), None);
+        let mut motion = Environment::new(frame, Theta, Some(Omega), None);
         let (alpha, choice) = self.lowering.accelerations(scene, &mut motion);
         let both = [Theta, Omega];
         self.push(
@@ -99,6 +108,18 @@ impl EntryList<'_, '_> {
             alpha,
             Shape::Vector,
         );
+        if scene.requests.forces {
+            let mut pushed = motion.clone();
+            let lowering = &mut self.lowering;
+            let alpha = lowering.accelerations_under(scene, &mut pushed, choice.solve);
+            self.push(
+                "accelerations_under",
+                Purpose::AccelerationsUnder,
+                &self.timed(&[Theta, Omega, Argument::Torques]),
+                alpha,
+                Shape::Vector,
+            );
+        }
         if let Some(energies) = &frame.energies {
             let kinetic = self.lowering.expr(&mut motion, &energies.kinetic);
             let potential = self.lowering.expr(&mut motion, &energies.potential);
@@ -129,7 +150,7 @@ impl EntryList<'_, '_> {
                 momenta,
                 Shape::Vector,
             );
-            let mut phase = Door::new(frame, Theta, None, Some(AbsoluteMomenta));
+            let mut phase = Environment::new(frame, Theta, None, Some(AbsoluteMomenta));
             let velocities: Vec<ValueId> = frame
                 .velocities
                 .iter()
@@ -150,7 +171,7 @@ impl EntryList<'_, '_> {
                     Purpose::CanonicalRates,
                     &self.timed(&[Theta, AbsoluteMomenta]),
                     outputs,
-                    Shape::Pair,
+                    Shape::Rows(frame.coordinates.len()),
                 );
             }
         }
@@ -161,14 +182,19 @@ impl EntryList<'_, '_> {
                 ("stiffness_matrix", Purpose::StiffnessMatrix, stiffness),
             ] {
                 let dense = self.dense(&mut motion, entries, size);
-                self.push(name, purpose, &[Theta], dense, Shape::Matrix(size));
+                self.push(name, purpose, &[Theta], dense, Shape::Rows(size));
             }
         }
         choice
     }
 
-    fn dense(&mut self, door: &mut Door<'_>, entries: &[MatrixEntry], size: usize) -> Vec<ValueId> {
-        let sparse = self.lowering.matrix(door, entries);
+    fn dense(
+        &mut self,
+        environment: &mut Environment<'_>,
+        entries: &[MatrixEntry],
+        size: usize,
+    ) -> Vec<ValueId> {
+        let sparse = self.lowering.matrix(environment, entries);
         let zero = self.lowering.builder.integer(0);
         let mut dense = Vec::with_capacity(size * size);
         for row in 0..size {
@@ -224,7 +250,7 @@ impl EntryList<'_, '_> {
 
     fn symmetric(&mut self, frame: &Frame) {
         use Argument::{Coordinates, Momenta, Rates};
-        let mut motion = Door::new(frame, Coordinates, Some(Rates), None);
+        let mut motion = Environment::new(frame, Coordinates, Some(Rates), None);
         let accelerations = self.lowering.factorization(&mut motion);
         self.push(
             "symmetric_accelerations",
@@ -242,7 +268,7 @@ impl EntryList<'_, '_> {
                 momenta,
                 Shape::Vector,
             );
-            let mut phase = Door::new(frame, Coordinates, None, Some(Momenta));
+            let mut phase = Environment::new(frame, Coordinates, None, Some(Momenta));
             let velocities: Vec<ValueId> = frame
                 .velocities
                 .iter()
@@ -277,127 +303,5 @@ impl EntryList<'_, '_> {
                 Shape::Vector,
             );
         }
-    }
-
-    fn transfer(
-        &mut self,
-        mechanics: &Mechanics,
-        frame: &Frame,
-        number: usize,
-        transfer: &TransferFormulas,
-    ) {
-        use Argument::{Coordinates, Momenta, Rates};
-        let several = mechanics
-            .coordinates
-            .iter()
-            .filter(|c| matches!(c.kind, CoordinateKind::Difference { .. }))
-            .count()
-            > 1;
-        let place = if several {
-            format!("_{}", mechanics.coordinates[transfer.coordinate].name)
-        } else {
-            String::new()
-        };
-        let mut phase = Door::new(frame, Coordinates, None, Some(Momenta));
-        let mut motion = Door::new(frame, Coordinates, Some(Rates), None);
-        let canonical = [Coordinates, Momenta];
-
-        let energy = self.parts(&mut phase, &transfer.energy);
-        let total = self.lowering.builder.add(energy[0], energy[1]);
-        self.push(
-            &format!("antiphase_energy{place}"),
-            Purpose::SubHamiltonian(number),
-            &canonical,
-            vec![total],
-            Shape::Scalar,
-        );
-        if let Some(parts) = &transfer.angle {
-            let outputs = self.parts(&mut phase, parts);
-            self.push(
-                &format!("transfer_angle_1{place}"),
-                Purpose::AngleTransfer(number),
-                &canonical,
-                outputs,
-                Shape::Transfer,
-            );
-        }
-        if let Some(parts) = &transfer.amplitude {
-            let outputs = self.parts(&mut phase, parts);
-            self.push(
-                &format!("transfer_amplitude_2{place}"),
-                Purpose::AmplitudeTransfer(number),
-                &canonical,
-                outputs,
-                Shape::Transfer,
-            );
-        }
-        for (index, truncated) in transfer.higher.iter().enumerate() {
-            let counting = match truncated.counting {
-                Counting::Angle => "angle",
-                Counting::Amplitude => "amplitude",
-            };
-            let outputs = self.parts(&mut phase, &truncated.parts);
-            self.push(
-                &format!("transfer_{counting}_{}{place}", truncated.order),
-                Purpose::HigherTransfer(number, index),
-                &canonical,
-                outputs,
-                Shape::Transfer,
-            );
-        }
-        if let Some(form) = &transfer.quadratic_form {
-            let outputs = self.exprs(&mut phase, form);
-            self.push(
-                &format!("transfer_quadratic_form{place}"),
-                Purpose::QuadraticForm(number),
-                &canonical,
-                outputs,
-                Shape::Vector,
-            );
-        }
-        if let Some(parts) = &transfer.exact {
-            let outputs = self.parts(&mut phase, parts);
-            self.push(
-                &format!("transfer_exact{place}"),
-                Purpose::ExactTransfer(number),
-                &canonical,
-                outputs,
-                Shape::Transfer,
-            );
-            let outputs = self.parts(&mut motion, parts);
-            self.push(
-                &format!("transfer_exact_from_rates{place}"),
-                Purpose::ExactTransferFromRates(number),
-                &[Coordinates, Rates],
-                outputs,
-                Shape::Transfer,
-            );
-        }
-        if !transfer.friction.is_zero() {
-            let power = self.lowering.expr(&mut motion, &transfer.friction);
-            self.push(
-                &format!("antiphase_friction_power{place}"),
-                Purpose::FrictionPower(number),
-                &[Coordinates, Rates],
-                vec![power],
-                Shape::Scalar,
-            );
-        }
-        if !transfer.drive.is_zero() {
-            let power = self.lowering.expr(&mut motion, &transfer.drive);
-            self.push(
-                &format!("antiphase_drive_power{place}"),
-                Purpose::AntiphaseDrivePower(number),
-                &[Argument::Time, Coordinates, Rates],
-                vec![power],
-                Shape::Scalar,
-            );
-        }
-    }
-
-    fn parts(&mut self, door: &mut Door<'_>, parts: &TransferParts) -> Vec<ValueId> {
-        let kinetic = self.lowering.expr(door, &parts.kinetic);
-        let potential = self.lowering.expr(door, &parts.potential);
-        vec![kinetic, potential]
     }
 }

@@ -1,6 +1,6 @@
 //! States in means and differences, as entry points receive them.
 
-use super::lower::{Door, Lowering};
+use super::lower::{Environment, Lowering};
 use super::symmetric::{
     ConstantValues, CouplingValues, Fields, OrbitLinks, OrbitValues, Pose, SeriesArithmetic,
     SymmetricMotion, SymmetricTree, TruncatedSeries,
@@ -42,14 +42,14 @@ pub(super) fn symmetric_tree<'b>(
 
 /// The constants as values of the program.
 pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> ConstantValues {
-    let mut door = Door::new(
+    let mut environment = Environment::new(
         &lowering.mechanics.absolute,
         Argument::Theta,
         Some(Argument::Omega),
         None,
     );
     let mut series = |expr: &Expr| {
-        let value = lowering.expr(&mut door, expr);
+        let value = lowering.expr(&mut environment, expr);
         if lowering.builder.is(value, 0) {
             TruncatedSeries::default()
         } else {

@@ -1,6 +1,6 @@
 //! Expressions become program values.
 //!
-//! A [`Door`] says what the caller hands over (angles and velocities, or
+//! An [`Environment`] says what the caller hands over (angles and velocities, or
 //! coordinates and momenta); a symbol that is not handed over is formed from
 //! what is, when it is first needed.
 
@@ -23,7 +23,7 @@ pub(super) struct Lowering<'a> {
 /// Values for the symbols of one frame: handed over by the caller, or formed on
 /// demand.
 #[derive(Clone)]
-pub(super) struct Door<'a> {
+pub(super) struct Environment<'a> {
     pub(super) frame: &'a Frame,
     /// Argument that holds the coordinates.
     pub(super) coordinates: Argument,
@@ -31,12 +31,14 @@ pub(super) struct Door<'a> {
     pub(super) velocities: Option<Argument>,
     /// Argument that holds the momenta; formed from the velocities if none.
     pub(super) momenta: Option<Argument>,
+    /// Argument that holds torques from outside, if there are any.
+    pub(super) torques: Option<Argument>,
     /// Quantities that observables refer to beside the frame.
     pub(super) observed: Option<&'a ObservableFrame>,
     values: BTreeMap<SymbolId, ValueId>,
 }
 
-impl<'a> Door<'a> {
+impl<'a> Environment<'a> {
     pub(super) fn new(
         frame: &'a Frame,
         coordinates: Argument,
@@ -48,6 +50,7 @@ impl<'a> Door<'a> {
             coordinates,
             velocities,
             momenta,
+            torques: None,
             observed: None,
             values: BTreeMap::new(),
         }
@@ -62,7 +65,7 @@ impl<'a> Door<'a> {
 fn position(symbols: &[SymbolId], symbol: SymbolId) -> usize {
     match symbols.iter().position(|&s| s == symbol) {
         Some(index) => index,
-        None => unreachable!("a symbol of another frame reached this door"),
+        None => unreachable!("a symbol of another frame reached this environment"),
     }
 }
 
@@ -75,9 +78,13 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// The value of a symbol behind a door.
-    pub(super) fn symbol(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
-        if let Some(&value) = door.values.get(&symbol) {
+    /// The value of a symbol in an environment.
+    pub(super) fn symbol(
+        &mut self,
+        environment: &mut Environment<'_>,
+        symbol: SymbolId,
+    ) -> ValueId {
+        if let Some(&value) = environment.values.get(&symbol) {
             return value;
         }
         let entry = self.mechanics.symbols.get(symbol).clone();
@@ -86,66 +93,70 @@ impl<'a> Lowering<'a> {
                 let constant = self.constant(symbol);
                 self.builder.constant(constant)
             }
-            Role::Temporal => self.temporal(door, symbol),
+            Role::Temporal => self.temporal(environment, symbol),
             Role::Trigonometric => {
-                let value = self.trigonometric(door, symbol);
+                let value = self.trigonometric(environment, symbol);
                 self.builder.name(value, &entry.code)
             }
             Role::Coordinate => {
-                let index = position(&door.frame.coordinates, symbol);
-                self.builder.input(door.coordinates, index)
+                let index = position(&environment.frame.coordinates, symbol);
+                self.builder.input(environment.coordinates, index)
             }
             Role::Velocity => {
-                let index = position(&door.frame.velocities, symbol);
-                match door.velocities {
+                let index = position(&environment.frame.velocities, symbol);
+                match environment.velocities {
                     Some(argument) => self.builder.input(argument, index),
-                    None => self.velocities(door)[index],
+                    None => self.velocities(environment)[index],
                 }
             }
             Role::Momentum => {
-                let index = position(&door.frame.momenta, symbol);
-                match door.momenta {
+                let index = position(&environment.frame.momenta, symbol);
+                match environment.momenta {
                     Some(argument) => self.builder.input(argument, index),
                     None => {
-                        let observed = door.observed.map(|observed| &observed.momentum);
-                        let Some(momentum) = door.frame.momentum.as_ref().or(observed) else {
+                        let observed = environment.observed.map(|observed| &observed.momentum);
+                        let Some(momentum) = environment.frame.momentum.as_ref().or(observed)
+                        else {
                             unreachable!("{} is formed where momenta are asked for", entry.code)
                         };
-                        let value = self.expr(door, &momentum[index]);
+                        let value = self.expr(environment, &momentum[index]);
                         self.builder.name(value, &entry.code)
                     }
                 }
             }
-            Role::Derived => match self.observed(door, symbol) {
+            Role::Derived => match self.observed(environment, symbol) {
                 Some(value) => self.builder.name(value, &entry.code),
-                None => self.derived(door, symbol),
+                None => self.derived(environment, symbol),
             },
             Role::Acceleration | Role::Bookkeeping => {
                 unreachable!("{} never leaves the derivation", entry.code)
             }
         };
-        door.values.insert(symbol, value);
+        environment.values.insert(symbol, value);
         value
     }
 
     /// q̇ with M q̇ = p.
-    fn velocities(&mut self, door: &mut Door<'_>) -> Vec<ValueId> {
-        let frame = door.frame;
-        let mass = self.mass_matrix(door);
+    fn velocities(&mut self, environment: &mut Environment<'_>) -> Vec<ValueId> {
+        let frame = environment.frame;
+        let mass = self.mass_matrix(environment);
         let momenta = frame.momenta.clone();
-        let right = momenta.iter().map(|&p| self.symbol(door, p)).collect();
+        let right = momenta
+            .iter()
+            .map(|&p| self.symbol(environment, p))
+            .collect();
         let names = self.coordinate_names(frame);
         let solution = self.builder.solve(mass, right, &names);
         for (&symbol, &value) in frame.velocities.iter().zip(&solution) {
             let code = &self.mechanics.symbols.get(symbol).code;
             self.builder.name(value, code);
-            door.values.insert(symbol, value);
+            environment.values.insert(symbol, value);
         }
         solution
     }
 
     /// A velocity of the expansion: w with M⁽⁰⁾ w = p, or a correction to it.
-    fn derived(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> ValueId {
+    fn derived(&mut self, environment: &mut Environment<'_>, symbol: SymbolId) -> ValueId {
         let mechanics = self.mechanics;
         let Some(expansion) = &mechanics.expansion else {
             unreachable!("derived velocities come with the expansion");
@@ -154,21 +165,23 @@ impl<'a> Lowering<'a> {
             let right = expansion
                 .in_phase
                 .iter()
-                .map(|&i| self.symbol(door, door.frame.momenta[i]))
+                .map(|&i| self.symbol(environment, environment.frame.momenta[i]))
                 .collect();
-            return self.solve_in_phase(door, expansion, &expansion.velocities, right)[place];
+            return self.solve_in_phase(environment, expansion, &expansion.velocities, right)
+                [place];
         }
         for correction in &expansion.corrections {
             if let Some(place) = correction.in_phase.iter().position(|&s| s == symbol) {
                 let right = correction
                     .right
                     .iter()
-                    .map(|r| self.expr(door, r))
+                    .map(|r| self.expr(environment, r))
                     .collect();
-                return self.solve_in_phase(door, expansion, &correction.in_phase, right)[place];
+                return self.solve_in_phase(environment, expansion, &correction.in_phase, right)
+                    [place];
             }
             if let Some((_, value)) = correction.differences.iter().find(|(s, _)| *s == symbol) {
-                let value = self.expr(door, value);
+                let value = self.expr(environment, value);
                 let code = &mechanics.symbols.get(symbol).code;
                 return self.builder.name(value, code);
             }
@@ -178,13 +191,13 @@ impl<'a> Lowering<'a> {
 
     fn solve_in_phase(
         &mut self,
-        door: &mut Door<'_>,
+        environment: &mut Environment<'_>,
         expansion: &MassExpansion,
         symbols: &[SymbolId],
         right: Vec<ValueId>,
     ) -> Vec<ValueId> {
-        let matrix = self.matrix(door, &expansion.leading);
-        let all = self.coordinate_names(door.frame);
+        let matrix = self.matrix(environment, &expansion.leading);
+        let all = self.coordinate_names(environment.frame);
         let names: Vec<String> = expansion
             .in_phase
             .iter()
@@ -194,7 +207,7 @@ impl<'a> Lowering<'a> {
         for (&velocity, &value) in symbols.iter().zip(&solution) {
             let code = &self.mechanics.symbols.get(velocity).code;
             self.builder.name(value, code);
-            door.values.insert(velocity, value);
+            environment.values.insert(velocity, value);
         }
         solution
     }
@@ -212,9 +225,9 @@ impl<'a> Lowering<'a> {
     }
 
     /// The entries of the frame's mass matrix as values, named.
-    pub(super) fn mass_matrix(&mut self, door: &mut Door<'_>) -> Matrix {
-        let names = self.coordinate_names(door.frame);
-        let matrix = self.matrix(door, &door.frame.mass);
+    pub(super) fn mass_matrix(&mut self, environment: &mut Environment<'_>) -> Matrix {
+        let names = self.coordinate_names(environment.frame);
+        let matrix = self.matrix(environment, &environment.frame.mass);
         for (&(row, column), &value) in &matrix {
             let name = format!("mass_{}_{}", names[row], names[column]);
             self.builder.name(value, &name);
@@ -223,11 +236,15 @@ impl<'a> Lowering<'a> {
     }
 
     /// A matrix's entries as values.
-    pub(super) fn matrix(&mut self, door: &mut Door<'_>, entries: &[MatrixEntry]) -> Matrix {
+    pub(super) fn matrix(
+        &mut self,
+        environment: &mut Environment<'_>,
+        entries: &[MatrixEntry],
+    ) -> Matrix {
         entries
             .iter()
             .map(|entry| {
-                let value = self.expr(door, &entry.value);
+                let value = self.expr(environment, &entry.value);
                 ((entry.row, entry.column), value)
             })
             .collect()
@@ -235,13 +252,15 @@ impl<'a> Lowering<'a> {
 
     /// An expression as a value. Sums start with a positive term if they have
     /// one, so that no operation is spent on a sign.
-    pub(super) fn expr(&mut self, door: &mut Door<'_>, expr: &Expr) -> ValueId {
+    pub(super) fn expr(&mut self, environment: &mut Environment<'_>, expr: &Expr) -> ValueId {
         match expr {
             Expr::Number(number) => self.builder.number(number.clone()),
-            Expr::Symbol(symbol) => self.symbol(door, *symbol),
+            Expr::Symbol(symbol) => self.symbol(environment, *symbol),
             Expr::Sum(terms) => {
-                let terms: Vec<(bool, ValueId)> =
-                    terms.iter().map(|term| self.term(door, term)).collect();
+                let terms: Vec<(bool, ValueId)> = terms
+                    .iter()
+                    .map(|term| self.term(environment, term))
+                    .collect();
                 let first = terms.iter().position(|&(negative, _)| !negative);
                 let (negative, mut sum) = terms[first.unwrap_or(0)];
                 for (index, &(minus, value)) in terms.iter().enumerate() {
@@ -257,7 +276,7 @@ impl<'a> Lowering<'a> {
                 if negative { self.builder.neg(sum) } else { sum }
             }
             term => {
-                let (negative, value) = self.term(door, term);
+                let (negative, value) = self.term(environment, term);
                 if negative {
                     self.builder.neg(value)
                 } else {

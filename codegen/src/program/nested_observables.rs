@@ -4,7 +4,7 @@
 
 use super::ValueId;
 use super::entry_state::{EntryState, motion, symmetric_tree, values};
-use super::lower::{Door, Lowering};
+use super::lower::{Environment, Lowering};
 use super::sectors::by_coordinate;
 use super::symmetric::{ConstantValues, Fields, MassFactors, OrbitLinks, SymmetricTree, orbits};
 use crate::mechanics::expression::SymbolId;
@@ -45,7 +45,7 @@ impl<'s> NestedObservables<'s> {
         &self,
         lowering: &mut Lowering<'_>,
         used: &ObservableFrame,
-        door: &mut Door<'_>,
+        environment: &mut Environment<'_>,
         state: EntryState,
     ) {
         let (mechanics, values, used) = (lowering.mechanics, &self.values, &used.nested);
@@ -57,7 +57,7 @@ impl<'s> NestedObservables<'s> {
             found.extend(symbols.iter().copied().zip(projected));
         };
         if state == EntryState::Rates {
-            project(&mut tree, &door.frame.momenta, &motion.momenta);
+            project(&mut tree, &environment.frame.momenta, &motion.momenta);
         }
         let kinetic = tree.kinetic_gradient(&motion.pose, &motion.rates);
         let potential = tree.potential_gradient(values, &motion.pose);
@@ -80,7 +80,7 @@ impl<'s> NestedObservables<'s> {
             found.extend(symbols.iter().copied().zip(components));
         };
         if state != EntryState::Rates {
-            component(&mut tree, &door.frame.velocities, &motion.rates);
+            component(&mut tree, &environment.frame.velocities, &motion.rates);
         }
         if !used.friction_accelerations.is_empty() {
             let accelerations = tree.solve(&self.factors, &friction);
@@ -95,17 +95,22 @@ impl<'s> NestedObservables<'s> {
         for (symbol, value) in found {
             let code = &mechanics.symbols.get(symbol).code;
             lowering.builder.name(value, code);
-            door.supply(symbol, value);
+            environment.supply(symbol, value);
         }
     }
 
     /// Solves a system with the mass matrix and supplies its unknowns.
-    pub(super) fn solve(&self, lowering: &mut Lowering<'_>, door: &mut Door<'_>, system: &System) {
+    pub(super) fn solve(
+        &self,
+        lowering: &mut Lowering<'_>,
+        environment: &mut Environment<'_>,
+        system: &System,
+    ) {
         let mechanics = lowering.mechanics;
         let right: Vec<ValueId> = system
             .right
             .iter()
-            .map(|right| lowering.expr(door, right))
+            .map(|right| lowering.expr(environment, right))
             .collect();
         let mut tree = symmetric_tree(lowering, &self.orbits, None);
         let mut momenta = tree.zeros();
@@ -122,7 +127,7 @@ impl<'s> NestedObservables<'s> {
         for (&symbol, value) in system.unknowns.iter().zip(solution) {
             let code = &mechanics.symbols.get(symbol).code;
             lowering.builder.name(value, code);
-            door.supply(symbol, value);
+            environment.supply(symbol, value);
         }
     }
 }

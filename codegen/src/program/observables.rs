@@ -2,7 +2,7 @@
 
 use super::entries::EntryList;
 use super::entry_state::{CANONICAL, EntryState};
-use super::lower::{Door, Lowering};
+use super::lower::{Environment, Lowering};
 use super::nested_observables::NestedObservables;
 use super::{Argument, ObservableForm, Purpose, Shape, ValueId};
 use crate::mechanics::expression::{Expr, SymbolId};
@@ -11,44 +11,48 @@ use crate::scene::{Function, Scene};
 
 impl Lowering<'_> {
     /// The value of a symbol that only observables have.
-    pub(super) fn observed(&mut self, door: &mut Door<'_>, symbol: SymbolId) -> Option<ValueId> {
+    pub(super) fn observed(
+        &mut self,
+        environment: &mut Environment<'_>,
+        symbol: SymbolId,
+    ) -> Option<ValueId> {
         let mechanics = self.mechanics;
         if let Some(call) = mechanics.observables.functions.get(&symbol) {
-            let argument = self.expr(door, &call.argument);
+            let argument = self.expr(environment, &call.argument);
             return Some(match call.function {
                 Function::Sin => self.builder.sin(argument),
                 Function::Cos => self.builder.cos(argument),
                 Function::Sqrt => self.builder.sqrt(argument),
             });
         }
-        let definition = door.observed?.definitions.get(&symbol)?;
-        Some(self.expr(door, definition))
+        let definition = environment.observed?.definitions.get(&symbol)?;
+        Some(self.expr(environment, definition))
     }
 
     /// Solves a system with the mass matrix and hands its unknowns over.
-    fn solve_system(&mut self, door: &mut Door<'_>, system: &System) {
-        let matrix = self.mass_matrix(door);
+    fn solve_system(&mut self, environment: &mut Environment<'_>, system: &System) {
+        let matrix = self.mass_matrix(environment);
         let right = system
             .right
             .iter()
-            .map(|right| self.expr(door, right))
+            .map(|right| self.expr(environment, right))
             .collect();
-        let names = self.coordinate_names(door.frame);
+        let names = self.coordinate_names(environment.frame);
         let solution = self.builder.solve(matrix, right, &names);
         for (&symbol, &value) in system.unknowns.iter().zip(&solution) {
             let code = &self.mechanics.symbols.get(symbol).code;
             self.builder.name(value, code);
-            door.supply(symbol, value);
+            environment.supply(symbol, value);
         }
     }
 }
 
-/// The arguments and doors of one frame.
+/// The arguments and environments of one frame.
 struct Ways<'a> {
     /// Supply from coordinates and velocities.
-    motion: Door<'a>,
+    motion: Environment<'a>,
     /// Supply from coordinates and momenta.
-    phase: Door<'a>,
+    phase: Environment<'a>,
     velocities: [Argument; 2],
     momenta: [Argument; 2],
     /// Arguments from which the accelerations are computed.
@@ -110,8 +114,8 @@ impl EntryList<'_, '_> {
         solved: Purpose,
         (velocities, momenta): ([Argument; 2], [Argument; 2]),
     ) -> Ways<'a> {
-        let mut motion = Door::new(frame, velocities[0], Some(velocities[1]), None);
-        let mut phase = Door::new(frame, momenta[0], None, Some(momenta[1]));
+        let mut motion = Environment::new(frame, velocities[0], Some(velocities[1]), None);
+        let mut phase = Environment::new(frame, momenta[0], None, Some(momenta[1]));
         motion.observed = Some(used);
         phase.observed = Some(used);
         let mut rates = velocities.to_vec();
@@ -169,12 +173,12 @@ impl EntryList<'_, '_> {
         form: ObservableForm,
         suffix: &str,
         arguments: &[Argument],
-        door: &mut Door<'_>,
+        environment: &mut Environment<'_>,
         expr: &Expr,
     ) {
         let name = &self.lowering.mechanics.observables.list[number].name;
         let name = format!("{name}{suffix}");
-        let value = self.lowering.expr(door, expr);
+        let value = self.lowering.expr(environment, expr);
         self.push(
             &name,
             Purpose::Observable(number, form),

@@ -23,7 +23,7 @@ impl<'a> Rebuilt<'a> {
         }
     }
 
-    /// The same with symbols for elements of the arguments of link functions.
+    /// A reader with symbols for elements of the arguments of link functions.
     pub fn with_symbols(self, given: BTreeMap<(Argument, usize), SymbolId>) -> Self {
         Self { given, ..self }
     }
@@ -62,8 +62,29 @@ impl<'a> Rebuilt<'a> {
             Argument::Coordinates | Argument::Symmetric => &symmetric?.coordinates,
             Argument::Rates => &symmetric?.velocities,
             Argument::Momenta => &symmetric?.momenta,
-            // What the elements of rows stand for is known to their reader.
-            Argument::Constants
+            Argument::Alpha => &self.mechanics.transverse.as_ref()?.accelerations,
+            Argument::Difference(sector) => {
+                &self
+                    .mechanics
+                    .transverse
+                    .as_ref()?
+                    .sectors
+                    .get(sector)?
+                    .differences
+            }
+            Argument::DifferenceRate(sector) => {
+                &self
+                    .mechanics
+                    .transverse
+                    .as_ref()?
+                    .sectors
+                    .get(sector)?
+                    .rates
+            }
+            // The reader knows the meaning of elements of rows.
+            Argument::Forces
+            | Argument::Torques
+            | Argument::Constants
             | Argument::Motion
             | Argument::Response
             | Argument::Sums

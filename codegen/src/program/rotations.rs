@@ -2,7 +2,7 @@
 //! zero where the differences are, and accurate where they are small.
 
 use super::ValueId;
-use super::lower::{Door, Lowering};
+use super::lower::{Environment, Lowering};
 use crate::mechanics::expression::SymbolId;
 
 /// 1 − cos and sin of an angle.
@@ -26,10 +26,10 @@ impl Lowering<'_> {
     /// With s, c of half the angle: sin = 2 s c, vers = 2 s².
     pub(super) fn by_half_angle(
         &mut self,
-        door: &mut Door<'_>,
+        environment: &mut Environment<'_>,
         coordinate: SymbolId,
     ) -> VersineSine {
-        let angle = self.symbol(door, coordinate);
+        let angle = self.symbol(environment, coordinate);
         let code = &self.mechanics.symbols.get(coordinate).code;
         let name = code.strip_prefix("theta_").unwrap_or(code);
         let builder = &mut self.builder;
@@ -52,7 +52,7 @@ impl Lowering<'_> {
     /// The rotation by a sum of coordinates with integer weights.
     pub(super) fn combination(
         &mut self,
-        door: &mut Door<'_>,
+        environment: &mut Environment<'_>,
         combination: &[(SymbolId, i64)],
     ) -> VersineSine {
         let zero = self.builder.integer(0);
@@ -61,7 +61,7 @@ impl Lowering<'_> {
             sine: zero,
         };
         for &(coordinate, weight) in combination {
-            let mut turn = self.by_half_angle(door, coordinate);
+            let mut turn = self.by_half_angle(environment, coordinate);
             if weight < 0 {
                 turn.sine = self.builder.neg(turn.sine);
             }

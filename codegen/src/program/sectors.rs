@@ -202,7 +202,7 @@ impl EntryList<'_, '_> {
                 "transfer_matrix",
                 Purpose::TransferMatrix,
                 outputs,
-                Shape::Matrix(count),
+                Shape::Rows(count),
             ));
         }
         for (name, purpose, outputs, shape) in found {

@@ -6,7 +6,7 @@
 //! own.
 
 use super::entries::EntryList;
-use super::lower::Door;
+use super::lower::Environment;
 use super::{Argument, Purpose, Shape, ValueId, scale};
 use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
@@ -87,7 +87,7 @@ impl EntryList<'_, '_> {
             unreachable!("accelerations are always there");
         };
         let arguments = motion.arguments.clone();
-        let mut door = Door::new(frame, Argument::Theta, Some(Argument::Omega), None);
+        let mut environment = Environment::new(frame, Argument::Theta, Some(Argument::Omega), None);
         let zero = self.lowering.builder.integer(0);
         let zeros = || vec![zero; frame.coordinates.len()];
         let mut outputs = TaylorOutputs {
@@ -112,10 +112,10 @@ impl EntryList<'_, '_> {
         }
         for (link, bias) in frame.bias.iter().enumerate() {
             let joint = &mechanics.articulation.joints[scene.links[link].orbit.0];
-            let inertia = self.lowering.expr(&mut door, &joint.inertia);
+            let inertia = self.lowering.expr(&mut environment, &joint.inertia);
             outputs.inertias.push(inertia);
             for component in (0..2).filter(|_| link > 0) {
-                let mut at = |expr| self.lowering.expr(&mut door, expr);
+                let mut at = |expr| self.lowering.expr(&mut environment, expr);
                 outputs.moments[component][link] = at(&joint.moment[component]);
                 outputs.attachments[component][link] = at(&joint.pivot[component]);
             }
@@ -126,7 +126,7 @@ impl EntryList<'_, '_> {
                 }
                 match gravity(mechanics, frame, term, link) {
                     Some((function, constant)) => {
-                        let constant = self.lowering.expr(&mut door, &constant);
+                        let constant = self.lowering.expr(&mut environment, &constant);
                         let place = &mut outputs.weights[function as usize][link];
                         *place = self.lowering.builder.add(*place, constant);
                     }
@@ -138,7 +138,7 @@ impl EntryList<'_, '_> {
                 1 => rest.remove(0),
                 _ => Expr::Sum(rest),
             };
-            let rest = self.lowering.expr(&mut door, &rest);
+            let rest = self.lowering.expr(&mut environment, &rest);
             outputs.bias.push(rest);
         }
         self.choose_units(scene, &mut outputs);

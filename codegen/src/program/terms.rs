@@ -1,15 +1,19 @@
 //! Terms of sums: in which order the factors of a product are multiplied.
 
 use super::ValueId;
-use super::lower::{Door, Lowering};
+use super::lower::{Environment, Lowering};
 use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 
 impl Lowering<'_> {
     /// A term's sign and size: constants first, then what is multiplied, then
     /// one quotient.
-    pub(super) fn term(&mut self, door: &mut Door<'_>, term: &Expr) -> (bool, ValueId) {
-        if let Some(value) = self.centrifugal(door, term) {
+    pub(super) fn term(
+        &mut self,
+        environment: &mut Environment<'_>,
+        term: &Expr,
+    ) -> (bool, ValueId) {
+        if let Some(value) = self.centrifugal(environment, term) {
             return value;
         }
         let mut negative = false;
@@ -29,10 +33,10 @@ impl Lowering<'_> {
                 other => (other, 1),
             };
             let value = match base {
-                Expr::Product(_) | Expr::Power(..) => self.expr(door, base),
-                Expr::Sum(_) => self.expr(door, base),
+                Expr::Product(_) | Expr::Power(..) => self.expr(environment, base),
+                Expr::Sum(_) => self.expr(environment, base),
                 Expr::Number(number) => self.builder.number(number.clone()),
-                Expr::Symbol(symbol) => self.symbol(door, *symbol),
+                Expr::Symbol(symbol) => self.symbol(environment, *symbol),
             };
             let is_constant = self.builder.is_constant(value);
             for _ in 0..exponent.unsigned_abs() {
@@ -67,7 +71,11 @@ impl Lowering<'_> {
 
     /// ±μ sin ω² as (μ sin) · ω²: a pair of links shares the first factor, all
     /// pairs of a link the second.
-    fn centrifugal(&mut self, door: &mut Door<'_>, term: &Expr) -> Option<(bool, ValueId)> {
+    fn centrifugal(
+        &mut self,
+        environment: &mut Environment<'_>,
+        term: &Expr,
+    ) -> Option<(bool, ValueId)> {
         let mechanics = self.mechanics;
         let role = |symbol: &SymbolId| mechanics.symbols.get(*symbol).role;
         let mut negative = false;
@@ -84,7 +92,7 @@ impl Lowering<'_> {
                     constants.push(self.builder.number(size));
                 }
                 Expr::Symbol(symbol) if role(symbol) == Role::Constant => {
-                    constants.push(self.symbol(door, *symbol));
+                    constants.push(self.symbol(environment, *symbol));
                 }
                 Expr::Symbol(symbol) if role(symbol) == Role::Trigonometric && sine.is_none() => {
                     sine = Some(*symbol);
@@ -101,13 +109,13 @@ impl Lowering<'_> {
             }
         }
         let (sine, velocity) = (sine?, velocity?);
-        let mut scaled = self.symbol(door, sine);
+        let mut scaled = self.symbol(environment, sine);
         for constant in constants {
             scaled = self.builder.mul(constant, scaled);
         }
         let code = &mechanics.symbols.get(sine).code;
         self.builder.name(scaled, &format!("coupled_{code}"));
-        let velocity = self.symbol(door, velocity);
+        let velocity = self.symbol(environment, velocity);
         let square = self.builder.mul(velocity, velocity);
         Some((negative, self.builder.mul(scaled, square)))
     }

@@ -1,4 +1,4 @@
-//! A program as text, for `expand --stage program` and for snapshots.
+//! A program as text, for `branched-pendulum --stage program` and for snapshots.
 
 use super::{Argument, ConstantId, ConstantOp, Op, Program, ValueId};
 use std::fmt::{self, Write};
@@ -13,6 +13,11 @@ impl Argument {
             Self::AbsoluteMomenta | Self::Momenta => "momenta",
             Self::Coordinates => "coordinates",
             Self::Rates => "rates",
+            Self::Forces => "forces",
+            Self::Alpha => "alpha",
+            Self::Difference(_) => "difference",
+            Self::DifferenceRate(_) => "difference_rate",
+            Self::Torques => "torques",
             Self::Absolute => "absolute",
             Self::Symmetric => "symmetric",
             Self::Constants => "constants",

@@ -75,9 +75,8 @@ impl Program {
             _ => None,
         });
         let strips = self.strips.iter().flat_map(|strips| &strips.strips);
-        let mut rows =
-            strips.flat_map(|strip| strip.constants.iter().chain(strip.body.iter().flatten()));
-        in_entries.or_else(|| rows.find_map(|&id| self.unrepresentable_in(id)))
+        let mut rows = strips.flat_map(super::Strip::all_constants);
+        in_entries.or_else(|| rows.find_map(|id| self.unrepresentable_in(id)))
     }
 
     fn unrepresentable_in(&self, id: super::ConstantId) -> Option<&str> {
@@ -113,9 +112,10 @@ impl Program {
         for entry in &self.entries {
             let filled = match entry.shape {
                 Shape::Scalar => entry.outputs.len() == 1,
-                Shape::Pair => entry.outputs.len() >= 2 && entry.outputs.len() % 2 == 0,
                 Shape::Vector => !entry.outputs.is_empty(),
-                Shape::Matrix(size) => entry.outputs.len() == size * size,
+                Shape::Rows(length) => {
+                    !entry.outputs.is_empty() && entry.outputs.len() % length == 0
+                }
                 Shape::Split(first) => (1..entry.outputs.len()).contains(&first),
                 Shape::Transfer => entry.outputs.len() == 2,
                 Shape::Transfers(count) => entry.outputs.len() == 2 * count,

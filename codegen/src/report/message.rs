@@ -391,6 +391,36 @@ pub enum Message {
         /// The function.
         function: String,
     },
+    /// A reduction that names no link of the description.
+    UnknownNode {
+        /// Text as written.
+        name: String,
+        /// The known one that is spelt most alike.
+        nearest: Option<String>,
+    },
+    /// Small differences of copies in phase where there are none.
+    NoTransverse,
+    /// Copies that should move alike where there are none.
+    NothingInPhase {
+        /// The link, or `all`.
+        name: String,
+    },
+    /// The root as a joint that does not move.
+    LockedRoot,
+    /// A generation of a tree in loops as a joint that does not move.
+    LockedGeneration {
+        /// The link.
+        link: String,
+    },
+    /// Friction or a spring in a joint that does not move.
+    IdleJoint {
+        /// The link.
+        link: String,
+        /// The property.
+        property: &'static str,
+    },
+    /// The angle of a joint that does not move is no number of radians.
+    LockedAngle,
     /// A product of masses and lengths that no `f64` can hold.
     ConstantRange {
         /// The constant.
@@ -432,6 +462,8 @@ impl Message {
                 "drive",
                 "emit",
                 "observe",
+                "in_phase",
+                "locked",
             ],
         );
         Self::UnknownEntry { name, nearest }

@@ -444,6 +444,44 @@ impl Message {
                     None => format!("sectors are `{known}`"),
                 },
             ),
+            M::UnknownNode { name, nearest } => problem(
+                format!("no link is called `{name}`"),
+                "not a link of this description",
+                match nearest {
+                    Some(nearest) => format!("did you mean `{nearest}`?"),
+                    None => "write the name of a link of the description".to_owned(),
+                },
+            ),
+            M::NoTransverse => problem(
+                "`transverse` needs copies that move in phase",
+                "nothing moves in phase",
+                "add `in_phase(all)`, or `in_phase(child)` with a link that has copies",
+            ),
+            M::NothingInPhase { name } => problem(
+                format!("nothing to move alike: `{name}` has no copies"),
+                "no copies",
+                "leave it out, or write copies as in `child(...) * 2`",
+            ),
+            M::LockedRoot => problem(
+                "the root cannot be locked",
+                "hangs from the ground",
+                "describe the links below it as the tree, each tree by itself",
+            ),
+            M::LockedGeneration { link } => problem(
+                format!("`{link}` cannot be locked in a tree that is taken through loops"),
+                "a generation of a rule",
+                "write `code = unrolled` among the properties of the rule",
+            ),
+            M::IdleJoint { link, property } => problem(
+                format!("{property} of `{link}` does nothing in a joint that does not move"),
+                "locked",
+                format!("leave out {property}, or the lock"),
+            ),
+            M::LockedAngle => problem(
+                "the angle of a locked joint is not a number of radians between -7 and 7",
+                "not such a number",
+                "write the angle to the link above in radians, as in `locked(arm, 0.3)`",
+            ),
             M::BudgetOrder { form } => problem(
                 format!("`{form}` has no order"),
                 "takes no value",
@@ -514,7 +552,7 @@ impl Message {
             M::Algebra(reason) => problem(
                 "the mechanics could not be derived",
                 reason.as_str(),
-                "commit the expansion made by the `expand` tool where the derivation cannot run",
+                "commit the expansion made by the tool `branched-pendulum` where the derivation cannot run",
             ),
             M::NestedGroups { group } => problem(
                 format!(

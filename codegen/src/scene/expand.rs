@@ -112,6 +112,7 @@ fn link(template: &Template, pending: &Pending) -> Link {
         inertia: body.inertia.clone(),
         com: body.com.clone(),
         pivot: pivot.clone(),
+        end: body.joint.as_ref().unwrap_or(&body.com).clone(),
         friction: friction.clone(),
         drag: drag.clone(),
         spring: spring.clone(),

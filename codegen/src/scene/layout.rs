@@ -46,6 +46,30 @@ pub(super) struct Asked<'a> {
     pub(super) observables: bool,
 }
 
+/// How the code of a rule would be laid out that is not reduced.
+pub(super) fn unreduced(rule: WholeRule, templates: &[Template], asked: &Asked<'_>) -> Layout {
+    let branching = rule.branching;
+    let links = links(branching, templates.len());
+    let looped = match rule.code {
+        Some(code) => code == Code::Loops,
+        None => links > MAX_LINKS || (links >= FEWEST && obstacle(templates, asked).is_none()),
+    };
+    match looped {
+        true => Layout::Generations { branching, links },
+        false => Layout::Unrolled,
+    }
+}
+
+/// Number of links of so many generations.
+fn links(branching: usize, generations: usize) -> usize {
+    let (mut links, mut count): (usize, usize) = (0, 1);
+    for _ in 0..generations {
+        links = links.saturating_add(count);
+        count = count.saturating_mul(branching);
+    }
+    links
+}
+
 /// Decides how the code of a rule is laid out. Where it is loops, leaves one
 /// template for a link of each generation.
 ///
@@ -58,12 +82,7 @@ pub(super) fn of_rule(
     asked: &Asked<'_>,
     report: &mut Report,
 ) -> Result<Layout, ()> {
-    let mut links: usize = 0;
-    let mut count: usize = 1;
-    for _ in &*templates {
-        links = links.saturating_add(count);
-        count = count.saturating_mul(rule.branching);
-    }
+    let links = links(rule.branching, templates.len());
     let wanted = match rule.code {
         Some(Code::Unrolled) => return Ok(Layout::Unrolled),
         Some(Code::Loops) => true,
@@ -161,6 +180,9 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         transfer,
         budget,
         taylor,
+        positions: _,
+        transverse,
+        forces,
         solve,
     } = &asked.resolved.requests;
     // Loops are the recursion.
@@ -172,6 +194,8 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         (transfer.is_some(), "`emit(transfer)`"),
         (budget.is_some(), "`emit(budget)`"),
         (*taylor, "`emit(taylor)`"),
+        (*transverse, "`emit(transverse)`"),
+        (*forces, "`emit(forces)`"),
         (asked.observables, "`observe(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),

@@ -17,12 +17,15 @@ pub mod coordinates;
 mod drive;
 mod expand;
 mod layout;
+mod link_properties;
 mod names;
 mod observable_text;
 mod observables;
 mod probe;
 mod properties;
 mod quantity;
+mod reduced_body;
+mod reduction;
 mod requests;
 mod resolve;
 mod rule;
@@ -31,11 +34,13 @@ mod singular;
 mod symbols;
 mod template;
 mod text;
+mod transverse;
 mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, TimeFunction};
 pub use layout::Layout;
+pub use link_properties::LINK_PROPERTIES;
 pub use names::is_keyword;
 pub use observables::{
     CoordinateIndex, Function, OBSERVABLE_SUFFIXES, Observable, Observed, Variable, VariableKind,
@@ -44,6 +49,9 @@ pub use observables::{
 pub use quantity::Quantity;
 pub use resolve::resolve;
 pub use sectors::{SectorVariables, sectors};
+pub use transverse::TransverseSector;
+
+use crate::exact::Rational;
 
 /// Index of a link in [`Scene::links`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -87,6 +95,9 @@ pub struct Scene {
     /// Quantities of the user's own. One that is written in symmetric
     /// coordinates comes with `requests.symmetric`.
     pub observables: Vec<Observable>,
+    /// How the links stand for those of the whole tree, where the description makes it
+    /// smaller.
+    pub reduction: Option<Reduction>,
     /// How the code takes the equations through the tree. Over generations, `links`
     /// holds one link of each, below each other, and there are no groups.
     pub layout: Layout,
@@ -143,6 +154,10 @@ pub struct Link {
     /// The link's pivot on its parent, from the parent's pivot and in the
     /// parent's directions; zero for the root.
     pub pivot: Offset,
+    /// The link's end, from its own pivot: where links hang from it unless they say
+    /// where, or where they would; the centre of mass of a link that has no such
+    /// place.
+    pub end: Offset,
     /// Viscous friction in the link's pivot, N m s, on the angular velocity
     /// relative to the parent (to the ground for the root); `None` without.
     pub friction: Option<Quantity>,
@@ -193,6 +208,59 @@ pub struct Group {
     pub parent: Option<LinkId>,
     /// The roots of the copies, two or more.
     pub copies: Vec<LinkId>,
+}
+
+/// Whole tree of a description whose scene is smaller than it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reduction {
+    /// Order in which the links of the whole tree stand.
+    pub order: WholeOrder,
+    /// Number of links of the whole tree.
+    pub links: usize,
+    /// The nodes of the whole tree, parents before children, depth first.
+    pub orbits: Vec<WholeOrbit>,
+}
+
+/// Order of the links of a whole tree: that of a scene without reductions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WholeOrder {
+    /// Each link before what hangs from it, and that before the next copy.
+    DepthFirst,
+    /// Generation by generation.
+    Generations,
+}
+
+/// Links of a whole tree that are copies of one node of the description.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WholeOrbit {
+    /// Name of the node: `child`, or `name_2` for a generation of a rule.
+    pub name: String,
+    /// Copies under each copy of the parent.
+    pub copies: usize,
+    /// True if the copies under one parent move alike.
+    pub in_phase: bool,
+    /// Index behind the last node of the subtree.
+    pub end: usize,
+    /// Motion of the copies.
+    pub motion: WholeMotion,
+}
+
+/// Motion of a link of a whole tree in terms of the scene's links.
+#[derive(Debug, Clone, PartialEq)]
+pub enum WholeMotion {
+    /// As a link of the scene: the first copy as the one `offset` places behind the link
+    /// that it hangs from, each further one that moves by itself `stride` places later.
+    Moving {
+        /// Places between the first copy and the link that it hangs from.
+        offset: usize,
+        /// Places from one copy to the next.
+        stride: usize,
+    },
+    /// As the link that it hangs from.
+    Locked {
+        /// Angle to that link, rad.
+        angle: Rational,
+    },
 }
 
 /// A value that the description names instead of stating.
@@ -271,6 +339,12 @@ pub struct Requests {
     pub budget: Option<BudgetRequest>,
     /// Taylor coefficients of the motion.
     pub taylor: bool,
+    /// Positions and velocities of links, and the torques of forces on them.
+    pub positions: bool,
+    /// Equations of small differences between copies in phase.
+    pub transverse: bool,
+    /// Accelerations under torques that the caller hands over.
+    pub forces: bool,
 }
 
 /// Forms of the sectors' budget that are asked for; at least one. The forms

@@ -138,13 +138,16 @@ pub const OBSERVABLE_SUFFIXES: [&str; 5] = [
 /// list against the fixtures.
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
-    "accelerations", "accelerations_into", "canonical_rates", "clone", "default",
-    "degrees_of_freedom", "eq", "evaluate", "fmt", "from", "from_parameters", "from_symmetric",
-    "hamiltonian", "into", "kinetic_energy", "kinetic_energy_of", "mass_matrix", "momenta", "new", "part",
-    "potential_energy", "potential_energy_of", "cast", "stiffness_matrix",
-    "symmetric_accelerations", "symmetric_accelerations_into", "symmetric_momenta",
-    "symmetric_velocities", "taylor_coefficients", "taylor_coefficients_into", "to_symmetric",
-    "transfers_into", "velocities",
+    "accelerations", "accelerations_into", "accelerations_under", "accelerations_under_into", "canonical_rates", "cast", "centre_torques",
+    "centre_velocities", "centres", "children", "clone", "default", "degrees_of_freedom",
+    "end_torques", "end_velocities", "ends", "eq", "evaluate", "fmt", "from",
+    "from_parameters_unchecked", "from_symmetric", "hamiltonian", "into", "kinetic_energy",
+    "kinetic_energy_of", "link_body", "link_properties", "mass_matrix", "momenta", "new", "part",
+    "pivot_torques", "pivot_velocities", "pivots", "point_torques_into",
+    "point_velocities_into", "points_into", "potential_energy", "potential_energy_of",
+    "stiffness_matrix", "symmetric_accelerations", "symmetric_accelerations_into",
+    "symmetric_momenta", "symmetric_velocities", "taylor_coefficients",
+    "taylor_coefficients_into", "to_symmetric", "transfers_into", "velocities",
 ];
 
 /// Beginnings of names of methods that are many.
@@ -157,6 +160,7 @@ const METHOD_FAMILIES: &[&str] = &[
     "friction_power",
     "sector_transfers",
     "symmetric_",
+    "transverse_",
     "transfer_amplitude_",
     "transfer_angle_",
     "transfer_exact",

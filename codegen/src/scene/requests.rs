@@ -21,6 +21,9 @@ const OUTPUTS: &[&str] = &[
     "transfer",
     "budget",
     "taylor",
+    "positions",
+    "transverse",
+    "forces",
 ];
 
 /// All forms of the budget.
@@ -50,6 +53,8 @@ pub(super) struct Resolved {
     symmetric: Option<Span>,
     transfer: Option<Span>,
     budget: Option<Span>,
+    /// Place of `transverse`.
+    pub(super) transverse: Option<Span>,
     /// Names of the sectors whose differences are small.
     pub(super) small: Vec<Ident>,
 }
@@ -61,6 +66,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         symmetric: None,
         transfer: None,
         budget: None,
+        transverse: None,
         small: Vec::new(),
     };
     let mut seen: Vec<String> = Vec::new();
@@ -85,6 +91,12 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             "momenta" => wanted.momenta = true,
             "modes" => wanted.modes = true,
             "taylor" => wanted.taylor = true,
+            "positions" => wanted.positions = true,
+            "transverse" => {
+                wanted.transverse = true;
+                resolved.transverse = Some(span);
+            }
+            "forces" => wanted.forces = true,
             "symmetric" => {
                 wanted.symmetric = true;
                 resolved.symmetric = Some(span);

@@ -1,9 +1,12 @@
 //! Description to scene, on one page.
 
+use proc_macro2::Span;
+
 use super::drive::resolve_drive;
 use super::expand::{check_names, check_pairs, check_size, expand};
 use super::layout::{self, Asked, Layout};
 use super::observables::resolve_observables;
+use super::reduction::reduce;
 use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_solve};
 use super::rule::resolve_code;
 use super::singular::check_regular;
@@ -28,11 +31,6 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         builder.add_root(root, report);
     }
     let drive = resolve_drive(description.drive.as_ref(), &mut builder.values, report);
-    let TreeBuilder {
-        mut templates,
-        values,
-        whole,
-    } = builder;
     let mut resolved = resolve_requests(&description.requests, report);
     resolved.requests.solve = resolve_solve(description.solve.as_ref(), report);
     if description.roots.len() > 1 {
@@ -42,6 +40,15 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         resolved: &resolved,
         observables: !description.observables.is_empty(),
     };
+    let readable = !description.damaged && !description.roots.iter().any(Node::is_damaged);
+    let reduction = readable
+        .then(|| reduce(&description.reductions, &mut builder, &asked, report))
+        .flatten();
+    let TreeBuilder {
+        mut templates,
+        values,
+        whole,
+    } = builder;
     let mut code = resolve_code(description.code.as_ref(), report);
     if let Some(rule) = whole {
         code = rule.code.map(|code| (code, rule.span)).or(code);
@@ -74,7 +81,6 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         }
     }
     // Copies may have stood where the tree was unreadable.
-    let readable = !description.damaged && !description.roots.iter().any(Node::is_damaged);
     if readable {
         check_symmetry(&resolved, &expansion, report);
     }
@@ -91,9 +97,16 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         requirements: values.requirements,
         requests: resolved.requests,
         observables: Vec::new(),
+        reduction,
         layout,
     };
     if readable {
+        if scene.requests.transverse && scene.transverse_sectors().is_empty() {
+            report.error(
+                resolved.transverse.unwrap_or_else(Span::call_site),
+                Message::NoTransverse,
+            );
+        }
         if !scene.groups.is_empty() {
             resolve_small(&resolved.small, &mut scene, report);
         }

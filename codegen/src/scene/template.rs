@@ -18,6 +18,8 @@ pub(super) const MAX_LINKS: usize = 4096;
 #[derive(Debug)]
 pub(super) struct Template {
     pub(super) name: String,
+    /// The node of the description: one for all generations of a rule.
+    pub(super) node: String,
     pub(super) span: Span,
     /// An earlier template.
     pub(super) parent: Option<usize>,
@@ -84,6 +86,7 @@ impl TreeBuilder {
         check_rest(node, report);
         let first = Template {
             name: node.name.to_string(),
+            node: node.name.to_string(),
             span: node.name.span(),
             parent: parent.map(|parent| parent.index),
             copies: node.copies.map_or(1, |copies| copies.count as usize),
@@ -180,6 +183,7 @@ impl TreeBuilder {
             let hanging = above.and_then(|above| self.templates.get(above)?.body.joint.clone());
             self.templates.push(Template {
                 name: format!("{}_{}", first.name, generation + 1),
+                node: first.node.clone(),
                 span,
                 parent: above.or(first.parent),
                 copies: if above.is_some() {

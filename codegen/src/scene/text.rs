@@ -4,7 +4,8 @@ use std::fmt::{self, Display, Formatter};
 
 use super::{
     BudgetRequest, CratePath, Drive, Group, Layout, Link, Observable, Offset, Orbit, Parameter,
-    Requests, Requirement, Scene, Sign, TransferRequest,
+    Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeMotion, WholeOrbit,
+    WholeOrder,
 };
 
 impl Display for Scene {
@@ -21,6 +22,7 @@ impl Display for Scene {
             requirements,
             requests,
             observables,
+            reduction,
             layout,
         } = self;
         writeln!(f, "scene {name}")?;
@@ -44,6 +46,21 @@ impl Display for Scene {
                 "{links} links in generations, {branching} under each; one of each:"
             )?,
             Layout::Links => writeln!(f, "in a loop over the links")?,
+        }
+        if let Some(Reduction {
+            order,
+            links,
+            orbits,
+        }) = reduction
+        {
+            let order = match order {
+                WholeOrder::DepthFirst => "depth first",
+                WholeOrder::Generations => "by generations",
+            };
+            writeln!(f, "stands for {links} links, {order}:")?;
+            for orbit in orbits {
+                writeln!(f, "    {orbit}")?;
+            }
         }
         for link in links {
             self.write_link(link, f)?;
@@ -75,6 +92,20 @@ impl Display for Scene {
     }
 }
 
+impl Display for WholeOrbit {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.name)?;
+        if self.copies > 1 {
+            let how = if self.in_phase { "in phase" } else { "apart" };
+            write!(f, ", {} copies {how}", self.copies)?;
+        }
+        match &self.motion {
+            WholeMotion::Moving { .. } => Ok(()),
+            WholeMotion::Locked { angle } => write!(f, ", locked at {angle}"),
+        }
+    }
+}
+
 impl Scene {
     /// Writes a link and, indented, its properties.
     fn write_link(&self, link: &Link, f: &mut Formatter<'_>) -> fmt::Result {
@@ -86,6 +117,7 @@ impl Scene {
             inertia,
             com,
             pivot,
+            end,
             friction,
             drag,
             spring,
@@ -109,6 +141,9 @@ impl Scene {
         writeln!(f, "    mass {} kg", mass.display(&self.parameters))?;
         writeln!(f, "    inertia {} kg m²", inertia.display(&self.parameters))?;
         writeln!(f, "    com {} m", show(com))?;
+        if self.requests.positions {
+            writeln!(f, "    end {} m", show(end))?;
+        }
         let forces = [
             ("friction", friction, "N m s"),
             ("drag", drag, "N m s"),
@@ -161,6 +196,9 @@ impl Display for Requests {
             transfer,
             budget,
             taylor,
+            positions,
+            transverse,
+            forces,
         } = self;
         write!(f, "accelerations")?;
         if let Some(solve) = solve {
@@ -172,6 +210,9 @@ impl Display for Requests {
             (modes, "modes"),
             (symmetric, "symmetric"),
             (taylor, "taylor"),
+            (positions, "positions"),
+            (transverse, "transverse"),
+            (forces, "forces"),
         ];
         for (wanted, name) in named {
             if *wanted {

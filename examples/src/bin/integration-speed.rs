@@ -1,37 +1,54 @@
-//! What a trajectory to a given error costs.
+//! The cost of a trajectory to a given error.
 //!
 //! `integration-speed --help` says what is measured.
 
+use std::cell::RefCell;
 use std::error::Error;
 use std::process::ExitCode;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorOde;
-use branched_pendulum_examples::exit;
+use branched_pendulum_examples::failure::Failure;
 use branched_pendulum_examples::integration_speed::ensemble::{
     Speed, friction_scan, near_threshold, scan_speeds, speeds,
 };
-use branched_pendulum_examples::integration_speed::measure::{ERRORS, points, time_for};
+use branched_pendulum_examples::integration_speed::measure::{ERRORS, Point, points, time_for};
+use branched_pendulum_examples::program::{self, Job, Progress, Results};
 use branched_pendulum_examples::solvers::scenes::{FifteenRods, Ideal, Rods, ThirtyOneRods};
 use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};
+use clap::{Parser, ValueEnum};
 
-const HELP: &str = "\
-How long does a motion of ten seconds take, to a given error at its end, by the
-generated Taylor series and by two Runge-Kutta methods? Microseconds, the least
-of all tolerances that reach the error. benches/peers measures the same motions
-with heyoka.
+/// How long does a motion of ten seconds take, to a given error at its end, by the
+/// generated Taylor series and by two Runge-Kutta methods? Microseconds, the least
+/// of all tolerances that reach the error. benches/peers measures the same motions
+/// with heyoka.
+#[derive(Parser)]
+#[command(name = "integration-speed", version, verbatim_doc_comment)]
+struct Arguments {
+    /// what is measured
+    #[arg(value_name = "PART", default_value = "motions")]
+    part: Part,
+    #[command(flatten)]
+    results: Results,
+}
 
-With `ensemble`: how many trajectories of the paper's pendulum a second, released
-at angles near its threshold, one by one and in the lanes of vector registers?
-And how many of pendulums each of which has a friction of its own?
+#[derive(Clone, Copy, ValueEnum)]
+enum Part {
+    /// the paper's pendulum and seven rods
+    Motions,
+    /// trajectories a second near the threshold and of many frictions
+    Ensemble,
+    /// fifteen and thirty-one rods, against the series at 1e-16
+    Trees,
+}
 
-With `trees`: the same of fifteen and of thirty-one rods, whose errors are the
-differences from the series at a tolerance of 1e-16.
+impl program::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = None;
 
-Usage: integration-speed [ensemble | trees]
-
-  --help  this text
-";
+    fn results(&self) -> &Results {
+        &self.results
+    }
+}
 
 /// Runs of each tolerance.
 const REPEATS: usize = 25;
@@ -40,62 +57,97 @@ const REPEATS: usize = 25;
 const END: f64 = 10.0;
 
 fn main() -> ExitCode {
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    match words.as_slice() {
-        [] => report(run()),
-        ["ensemble"] => report(ensemble()),
-        ["trees"] => report(trees()),
-        ["--help" | "-h"] => {
-            print!("{HELP}");
-            ExitCode::SUCCESS
-        }
-        _ => exit::wrong_command_line(
-            "integration-speed",
-            &"takes no argument but `ensemble`, `trees` or --help",
-        ),
+    program::main(|arguments: &Arguments, job| {
+        let output = Output {
+            job,
+            text: RefCell::default(),
+        };
+        match arguments.part {
+            Part::Motions => motions(&output),
+            Part::Ensemble => ensemble(&output),
+            Part::Trees => trees(&output),
+        }?;
+        job.write("integration-speed.txt", output.text.borrow().as_bytes())
+    })
+}
+
+/// Prints, and keeps the text for the file.
+struct Output<'a> {
+    job: &'a Job,
+    text: RefCell<String>,
+}
+
+impl Output<'_> {
+    fn line(&self, text: &str) -> Result<(), Failure> {
+        let line = format!("{text}\n");
+        self.text.borrow_mut().push_str(&line);
+        self.job.print(&line)
     }
 }
 
-fn report(end: Result<(), Box<dyn Error>>) -> ExitCode {
-    match end {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("integration-speed: {error}");
-            ExitCode::FAILURE
-        }
-    }
+/// Failure of a motion that does not start from one angle.
+fn failed(error: impl Error + Send + Sync + 'static) -> Failure {
+    Failure::integration(0.0, error)
 }
 
-fn ensemble() -> Result<(), Box<dyn Error>> {
+fn ensemble(output: &Output) -> Result<(), Failure> {
     let (tolerance, count, repeats) = (1e-9, 10_000, 5);
-    println!("{END} s, tolerance {tolerance:e}, on one thread, trajectories a second");
+    output.line(&format!(
+        "{END} s, tolerance {tolerance:e}, on one thread, trajectories a second"
+    ))?;
+    let progress = output.job.progress(2);
     let starts = near_threshold(count);
-    println!("{count} starts");
-    print_speeds(&speeds(&starts, END, tolerance, repeats)?);
+    progress.begin("starts");
+    output.line(&format!("{count} starts"))?;
+    print_speeds(
+        output,
+        &speeds(&starts, END, tolerance, repeats).map_err(failed)?,
+    )?;
+    progress.next();
     let releases = friction_scan(count)?;
-    println!("{count} frictions");
-    print_speeds(&scan_speeds(&releases, END, tolerance, repeats)?);
-    Ok(())
+    progress.begin("frictions");
+    output.line(&format!("{count} frictions"))?;
+    print_speeds(
+        output,
+        &scan_speeds(&releases, END, tolerance, repeats).map_err(failed)?,
+    )
 }
 
-fn print_speeds(speeds: &[Speed]) {
+fn print_speeds(output: &Output, speeds: &[Speed]) -> Result<(), Failure> {
     let first = speeds.first().map_or(f64::NAN, |first| first.per_second);
-    for Speed { way, per_second } in speeds {
+    speeds.iter().try_for_each(|Speed { way, per_second }| {
         let times = per_second / first;
-        println!("  {way:18} {per_second:>8.0}, {times:5.2} times the first");
-    }
+        output.line(&format!(
+            "  {way:18} {per_second:>8.0}, {times:5.2} times the first"
+        ))
+    })
 }
 
-fn trees() -> Result<(), Box<dyn Error>> {
-    heading();
+fn trees(output: &Output) -> Result<(), Failure> {
+    heading(output)?;
+    let progress = output.job.progress(2);
     let (fifteen, thirty_one) = (FifteenRods::new(), ThirtyOneRods::new());
-    tree("fifteen rods, 10 s", &AbsoluteAngles(&fifteen))?;
-    tree("thirty-one rods, 10 s", &AbsoluteAngles(&thirty_one))
+    tree(
+        output,
+        "fifteen rods, 10 s",
+        &AbsoluteAngles(&fifteen),
+        &progress,
+    )?;
+    tree(
+        output,
+        "thirty-one rods, 10 s",
+        &AbsoluteAngles(&thirty_one),
+        &progress,
+    )
 }
 
 /// Rods at rest, the root at 0.08 rad, the others within 0.01 rad of the vertical.
-fn tree<O: TaylorOde<f64>>(name: &'static str, ode: &O) -> Result<(), Box<dyn Error>> {
+fn tree<O: TaylorOde<f64>>(
+    output: &Output,
+    name: &'static str,
+    ode: &O,
+    progress: &Progress,
+) -> Result<(), Failure> {
     let angle = |link: usize| match link {
         0 => 0.08,
         _ => 0.005 * ((7 * link % 5) as f64 - 2.0),
@@ -106,74 +158,69 @@ fn tree<O: TaylorOde<f64>>(name: &'static str, ode: &O) -> Result<(), Box<dyn Er
         ..Options::with_tolerance(1e-16)
     };
     let state = State::at_rest(0.0, &start);
-    let end = Taylor::new(options).sample(ode, &state, &[END], |_, _| {})?;
+    let end = Taylor::new(options).sample(ode, &state, &[END], |_, _| {});
     let problem = Problem {
         name,
         tree: Tree::Rods,
         start,
         end: END,
-        expected: end.state.values,
+        expected: end.map_err(failed)?.state.values,
     };
-    rows(ode, &problem, 3)
+    rows(output, ode, &problem, 3, progress)
 }
 
-fn heading() {
-    print!("{:32}", "error");
-    for error in ERRORS {
-        print!("{error:>9.0e}");
-    }
-    println!();
+fn heading(output: &Output) -> Result<(), Failure> {
+    let errors = ERRORS.map(|error| format!("{error:>9.0e}"));
+    output.line(&format!("{:32}{}", "error", errors.concat()))
 }
 
-fn run() -> Result<(), Box<dyn Error>> {
-    heading();
-    for problem in problems()?.iter().filter(|problem| problem.end == END) {
+fn motions(output: &Output) -> Result<(), Failure> {
+    heading(output)?;
+    let mut problems = problems()?;
+    problems.retain(|problem| problem.end == END);
+    let progress = output.job.progress(problems.len());
+    for problem in &problems {
         match problem.tree {
-            Tree::Paper => rows(&AbsoluteAngles(&Ideal::new()), problem, REPEATS)?,
-            Tree::Rods => rows(&AbsoluteAngles(&Rods::new()), problem, REPEATS)?,
+            Tree::Paper => {
+                let model = Ideal::new();
+                rows(output, &AbsoluteAngles(&model), problem, REPEATS, &progress)?;
+            }
+            Tree::Rods => {
+                let model = Rods::new();
+                rows(output, &AbsoluteAngles(&model), problem, REPEATS, &progress)?;
+            }
         }
     }
     Ok(())
 }
 
+/// The rows of one problem, a part of `progress`.
 fn rows<O: TaylorOde<f64>>(
+    output: &Output,
     ode: &O,
     problem: &Problem,
     repeats: usize,
-) -> Result<(), Box<dyn Error>> {
+    progress: &Progress,
+) -> Result<(), Failure> {
     let options = |tolerance| Options {
         compensated: true,
         ..Options::with_tolerance(tolerance)
     };
-    let methods = [
-        (
-            "Taylor",
-            points(ode, problem, repeats, |tolerance| {
-                Taylor::new(options(tolerance))
-            })?,
-        ),
-        (
-            "Dop853",
-            points(ode, problem, repeats, |tolerance| {
-                Dop853::new(options(tolerance))
-            })?,
-        ),
-        (
-            "Verner98",
-            points(ode, problem, repeats, |tolerance| {
-                Verner98::new(options(tolerance))
-            })?,
-        ),
-    ];
-    for (method, points) in methods {
-        print!("{:32}", format!("{}, {method}", problem.name));
-        for error in ERRORS {
-            match time_for(&points, error) {
-                Some(micros) => print!("{micros:>9.0}"),
-                None => print!("{:>9}", "-"),
-            }
-        }
-        println!();
-    }
-    Ok(())
+    progress.begin(problem.name);
+    let row = |method: &str, points: Result<Vec<Point>, IntegrationError<f64>>| {
+        let points = points.map_err(failed)?;
+        progress.advance(1.0 / 3.0);
+        let times = ERRORS.map(|error| match time_for(&points, error) {
+            Some(micros) => format!("{micros:>9.0}"),
+            None => format!("{:>9}", "-"),
+        });
+        let name = format!("{}, {method}", problem.name);
+        output.line(&format!("{name:32}{}", times.concat()))
+    };
+    let taylor = |tolerance| Taylor::new(options(tolerance));
+    row("Taylor", points(ode, problem, repeats, taylor))?;
+    let dop853 = |tolerance| Dop853::new(options(tolerance));
+    row("Dop853", points(ode, problem, repeats, dop853))?;
+    let verner98 = |tolerance| Verner98::new(options(tolerance));
+    row("Verner98", points(ode, problem, repeats, verner98))
 }

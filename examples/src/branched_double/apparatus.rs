@@ -1,25 +1,45 @@
-//! What is measured on the apparatus at one instant.
+//! Measurements on the apparatus at one instant.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
 use branched_pendulum::{ParameterError, Transfer};
+use clap::Args;
 
 use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
+use crate::program::command_line::{number, plain};
 
 /// Viscous friction in the joints, N m s each: the torque is minus the
 /// coefficient times the angular velocity relative to the parent link (for the
 /// root, to the ground).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Args, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Friction {
-    /// In the pivot of the parent link.
+    /// viscous friction in the parent's pivot, N m s from 0 to 1
+    #[arg(
+        long = "friction-root",
+        id = "friction-root",
+        value_name = "C",
+        default_value = "0",
+        value_parser = number(0.0..=1.0, "N m s"),
+        allow_hyphen_values = true
+    )]
     pub root: f64,
-    /// In the pivot of each child.
+    /// viscous friction in each child's pivot, N m s from 0 to 1; 3.5e-5
+    /// brings onset and peak near the paper's
+    #[arg(
+        verbatim_doc_comment,
+        long = "friction-children",
+        id = "friction-children",
+        value_name = "C",
+        default_value = "0",
+        value_parser = number(0.0..=1.0, "N m s"),
+        allow_hyphen_values = true
+    )]
     pub children: f64,
 }
 
 impl Friction {
-    /// Whether there is none.
+    /// Returns true if there is none.
     pub fn is_zero(self) -> bool {
         self.root == 0.0 && self.children == 0.0
     }
@@ -39,17 +59,8 @@ impl fmt::Display for Friction {
         if self.is_zero() {
             return write!(f, "no friction");
         }
-        let (root, children) = (decimal(root), decimal(children));
+        let (root, children) = (plain(root), plain(children));
         write!(f, "friction {root} (root), {children} (children) N·m·s")
-    }
-}
-
-/// A number as one writes it: with an exponent where it is small.
-pub(super) fn decimal(value: f64) -> String {
-    if value != 0.0 && value.abs() < 1e-3 {
-        format!("{value:e}")
-    } else {
-        value.to_string()
     }
 }
 
@@ -70,9 +81,9 @@ pub struct Apparatus {
 pub struct Flow {
     /// W into H_d in the three forms of [`FORMS`], each by part.
     pub transfer: [Transfer<f64>; 3],
-    /// What friction does to H_d.
+    /// Power of friction on H_d.
     pub antiphase_friction: f64,
-    /// What friction does to the whole energy; never positive.
+    /// Power of friction on the whole energy; never positive.
     pub friction: f64,
 }
 
@@ -218,7 +229,8 @@ impl Flow {
 
 #[cfg(test)]
 mod tests {
-    use super::{Apparatus, EXACT, Friction, decimal};
+    use super::{Apparatus, EXACT, Friction};
+    use crate::program::command_line::plain;
 
     const COORDINATES: [f64; 3] = [0.7, -0.4, 0.3];
     const RATES: [f64; 3] = [1.2, -2.1, 0.9];
@@ -268,9 +280,9 @@ mod tests {
 
     #[test]
     fn numbers_are_written_as_one_writes_them() {
-        assert_eq!(decimal(3e-5), "3e-5");
-        assert_eq!(decimal(0.01), "0.01");
-        assert_eq!(decimal(0.0), "0");
+        assert_eq!(plain(3e-5), "3e-5");
+        assert_eq!(plain(0.01), "0.01");
+        assert_eq!(plain(0.0), "0");
         let friction = Friction {
             root: 0.0,
             children: 3.5e-5,

@@ -1,16 +1,17 @@
 //! The four charts of the paper, as SVG and PNG.
 
 use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
 
 use branched_pendulum::analysis::{Spectrum, SpectrumOptions};
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
 
-use super::apparatus::{DIFFERENCE, EXACT, MEAN, PUBLISHED, Sample, decimal, folded};
+use super::apparatus::{DIFFERENCE, EXACT, MEAN, PUBLISHED, Sample, folded};
 use super::arguments::Arguments;
 use super::experiment::Run;
-use super::failure::Failure;
 use super::findings::Frequencies;
+use crate::failure::Failure;
+use crate::program::Job;
+use crate::program::command_line::plain;
 
 /// Initial angles, in degrees, that the paper compares: just without growth,
 /// and just with it.
@@ -31,37 +32,28 @@ const ONSET: f64 = 10.0;
 const SPECTRUM_SPAN: f64 = 32.0;
 const SPECTRUM_TOP: f64 = 3.0;
 
-/// Draws the charts into `folder` and returns the files. Nothing is drawn
-/// without a run.
+/// Draws the charts. Nothing is drawn without a run.
 ///
 /// # Errors
-/// [`Failure::Chart`] or [`Failure::Spectrum`].
-pub fn write_charts(
-    folder: &Path,
+/// [`Failure::Chart`], [`Failure::Spectrum`] or [`Failure::File`].
+pub fn write(
+    job: &Job,
     arguments: &Arguments,
     frequencies: Frequencies,
     runs: &[Run],
-) -> Result<Vec<PathBuf>, Failure> {
-    let mut files = Vec::new();
+) -> Result<(), Failure> {
     let pair = compared(runs);
     let Some(&growing) = pair.last() else {
-        return Ok(files);
+        return Ok(());
     };
-    for (name, chart) in [
-        ("antiphase-angle", antiphase_angle(arguments, runs)),
-        ("energy-and-transfer", energy_and_transfer(arguments, &pair)),
-        ("transfer-by-part", transfer_by_part(arguments, growing)),
-        ("spectrum", spectrum(arguments, frequencies, runs, &pair)?),
-    ] {
-        let (svg, png) = (
-            folder.join(format!("{name}.svg")),
-            folder.join(format!("{name}.png")),
-        );
-        chart.write_svg(&svg)?;
-        chart.write_png(&png)?;
-        files.extend([svg, png]);
-    }
-    Ok(files)
+    job.chart("antiphase-angle", &antiphase_angle(arguments, runs))?;
+    job.chart(
+        "energy-and-transfer",
+        &energy_and_transfer(arguments, &pair),
+    )?;
+    job.chart("transfer-by-part", &transfer_by_part(arguments, growing))?;
+    let spectrum = spectrum(arguments, frequencies, runs, &pair)?;
+    job.chart("spectrum", &spectrum)
 }
 
 /// The runs nearest to the two angles that the paper compares, by ascending
@@ -263,9 +255,9 @@ fn spectrum(
     )
 }
 
-/// What all runs have in common, for a title.
-fn conditions(arguments: &Arguments) -> String {
-    let disturbance = decimal(arguments.disturbance);
+/// The conditions that all runs share, for a title.
+pub(super) fn conditions(arguments: &Arguments) -> String {
+    let disturbance = plain(arguments.disturbance);
     format!("θ_d(0) = {disturbance} rad, {}", arguments.friction)
 }
 

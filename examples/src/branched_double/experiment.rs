@@ -9,11 +9,11 @@ use branched_pendulum::prelude::{
 
 use super::apparatus::{Apparatus, Flow, Sample};
 use super::arguments::{Arguments, Precision};
-use super::failure::Failure;
 use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
+use crate::failure::Failure;
 use crate::quadrature::GAUSS;
 
-/// What the integrator did.
+/// The integrator's work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Work {
     /// Steps accepted.
@@ -34,7 +34,7 @@ pub struct Run {
     /// Energies in joules that flowed between sample i and sample i + 1:
     /// integrals of W and of the power of friction over the interval.
     pub intervals: Vec<Flow>,
-    /// What the integrator did.
+    /// The integrator's work.
     pub work: Work,
 }
 
@@ -48,7 +48,7 @@ impl Run {
     /// that is measured on the trajectory is computed in double precision.
     ///
     /// # Errors
-    /// [`Failure::Friction`], or [`Failure::Integration`] if the integrator
+    /// [`Failure::Parameter`], or [`Failure::Integration`] if the integrator
     /// does not reach the end.
     pub fn new(
         angle_deg: f64,
@@ -75,10 +75,11 @@ fn run<T: Real>(
         integrate(&ode, angle_deg, arguments, apparatus, progress)
     } else {
         let friction = arguments.friction.parameters();
-        let model = DampedBranchedDouble::<T>::from_parameters(DampedBranchedDoubleParameters {
-            friction_root: T::from_f64(friction.friction_root),
-            friction_children: T::from_f64(friction.friction_children),
-        });
+        let model =
+            DampedBranchedDouble::<T>::from_parameters_unchecked(DampedBranchedDoubleParameters {
+                friction_root: T::from_f64(friction.friction_root),
+                friction_children: T::from_f64(friction.friction_children),
+            });
         let ode = SymmetricCoordinates(&model);
         integrate(&ode, angle_deg, arguments, apparatus, progress)
     };
@@ -151,7 +152,7 @@ struct Recorder<'a> {
     arguments: &'a Arguments,
     samples: Vec<Sample>,
     intervals: Vec<Flow>,
-    /// What has flowed since the last sample.
+    /// Energies that have flowed since the last sample.
     since: Flow,
 }
 
@@ -224,7 +225,8 @@ fn halves<T: Real>(values: &[T]) -> ([f64; 3], [f64; 3]) {
 #[cfg(test)]
 mod tests {
     use super::Run;
-    use crate::branched_double::{Arguments, Failure};
+    use crate::branched_double::Arguments;
+    use crate::failure::Failure;
 
     #[test]
     fn samples_stand_at_even_times_and_intervals_between_them() {

@@ -1,4 +1,4 @@
-//! What a run says: growth, first peak, where the energy came from, and how
+//! Findings of a run: growth, first peak, where the energy came from, and how
 //! far each form of W is from the truth.
 
 use branched_pendulum::Transfer;
@@ -17,7 +17,7 @@ pub const PEAK_REACH: f64 = 2.0;
 /// exact one are made for small θ_d, and mean nothing for children that tumble.
 pub const SMALL_ANGLE: f64 = 0.5;
 
-/// What one run says. `None` stands where a number has no meaning, for example
+/// Findings of one run. `None` stands where a number has no meaning, for example
 /// the growth of a disturbance of zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {

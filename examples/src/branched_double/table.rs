@@ -1,15 +1,15 @@
 //! The findings as text.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
-use super::apparatus::{Apparatus, FORMS, decimal};
+use super::apparatus::{Apparatus, FORMS};
 use super::arguments::Arguments;
 use super::experiment::Run;
 use super::findings::{Findings, Frequencies, Peak};
 use super::terms::{Sizes, TERMS};
+use crate::program::command_line::plain;
 
-/// What stands above the rows: three lines of headings for each column.
+/// The head of a table: three lines of headings for each column.
 type Headings = [[&'static str; 3]];
 
 const MOTION: &Headings = &[
@@ -97,15 +97,6 @@ pub fn report(
     text
 }
 
-/// The list of the files written.
-pub fn file_list(files: &[PathBuf]) -> String {
-    let mut text = String::from("Files written:\n");
-    for file in files {
-        let _ = writeln!(text, "  {}", file.display());
-    }
-    text
-}
-
 fn conditions(arguments: &Arguments) -> String {
     let Arguments {
         angles_deg: _,
@@ -115,13 +106,13 @@ fn conditions(arguments: &Arguments) -> String {
         rate,
         precision,
         tolerance,
-        output: _,
+        results: _,
     } = arguments;
     format!(
         "Branched double pendulum, released from rest with the children vertical\n\
          θ_d(0) = {} rad, {friction}, {duration} s, {rate} samples/s\n\
          Integrated in {precision}, Dormand–Prince 8(5,3), tolerance {tolerance:e}\n",
-        decimal(*disturbance)
+        plain(*disturbance)
     )
 }
 

@@ -1,33 +1,16 @@
 //! Charts: energies by level, and what flowed between the levels.
 
-use std::path::{Path, PathBuf};
-
 use branched_pendulum_charts::{Axis, Chart, Panel};
 
-use super::failure::Failure;
 use super::report::level_matrix;
-use super::run::{PARSEVAL, Run};
+use super::run::{Cascade, PARSEVAL};
 use super::scene::{Level, by_level};
 
 /// Energies below this are not shown on the logarithmic axis, J.
 const LEAST_ENERGY: f64 = 1e-12;
 
-/// Writes the chart as SVG and PNG and returns the files.
-///
-/// # Errors
-/// [`Failure::Chart`].
-pub fn write(folder: &Path, run: &Run) -> Result<Vec<PathBuf>, Failure> {
-    let chart = chart(run);
-    let (svg, png) = (
-        folder.join("energy-cascade.svg"),
-        folder.join("energy-cascade.png"),
-    );
-    chart.write_svg(&svg)?;
-    chart.write_png(&png)?;
-    Ok(vec![svg, png])
-}
-
-fn chart(run: &Run) -> Chart {
+/// Draws energies and flows against time.
+pub fn chart(run: &Cascade) -> Chart {
     let times: Vec<f64> = run.samples.iter().map(|sample| sample.time).collect();
     let energies: Vec<[f64; 4]> = run
         .samples

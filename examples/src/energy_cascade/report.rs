@@ -1,25 +1,25 @@
 //! Tables: sectors, closure of the budgets, who gave what to whom.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
 
 use branched_pendulum::analysis::SectorModes;
-use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum::data::Column;
 
 use super::arguments::Arguments;
-use super::failure::Failure;
-use super::run::{DEFINITIONS, PARSEVAL, Run};
+use super::run::{Cascade, DEFINITIONS, PARSEVAL};
 use super::scene::{Level, SECTORS, by_level, sectors};
+use crate::failure::Failure;
+use crate::program::Job;
 
 /// Everything that is printed, as Markdown.
-pub fn report(arguments: &Arguments, modes: &SectorModes, run: &Run) -> String {
+pub fn report(arguments: &Arguments, modes: &SectorModes, run: &Cascade) -> String {
     let Arguments {
         duration,
         torque,
         frequency,
         difference,
         tolerance,
-        output: _,
+        results: _,
     } = arguments;
     let mut text = format!(
         "Fifteen rods, released from rest with differences of {difference} rad; torque\n\
@@ -39,7 +39,7 @@ fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
 }
 
 /// Sectors with their sizes, frequencies and closures.
-fn sector_table(modes: &SectorModes, run: &Run) -> String {
+fn sector_table(modes: &SectorModes, run: &Cascade) -> String {
     let mut text = format!(
         "Sectors: size, eigenfrequencies, and how well each budget closes, as the\n\
          largest |∫(W+P) dt − ΔE| over the largest energy of all sectors. Entries between\n\
@@ -73,7 +73,7 @@ fn sector_table(modes: &SectorModes, run: &Run) -> String {
 }
 
 /// The time-averaged transfer matrix, with the power of friction and drive.
-fn matrix_table(run: &Run) -> String {
+fn matrix_table(run: &Cascade) -> String {
     let Some(last) = run.samples.last() else {
         return String::new();
     };
@@ -122,29 +122,24 @@ fn milli(watts: f64) -> String {
 /// level got from the others, as CSV.
 ///
 /// # Errors
-/// [`Failure::Csv`].
-pub fn write_samples(folder: &Path, run: &Run) -> Result<PathBuf, Failure> {
-    let path = folder.join("energy-cascade.csv");
+/// [`Failure::Csv`] or [`Failure::File`].
+pub fn write_samples(job: &Job, run: &Cascade) -> Result<(), Failure> {
     let mut columns = vec![Column::new("time", "s")];
     for quantity in ["energy", "given by friction and drive", "given by sectors"] {
         let names = sectors().iter().map(|sector| sector.name);
         columns.extend(names.map(|name| Column::new(format!("{quantity} {name}"), "J")));
     }
-    let mut file = CsvWriter::create(&path, &columns)?;
-    for sample in &run.samples {
-        let mut row = vec![sample.time];
-        row.extend(sample.energies[PARSEVAL]);
-        row.extend(sample.power);
-        row.extend(
-            sample
-                .transfers
-                .iter()
-                .map(|given| given.iter().sum::<f64>()),
-        );
-        file.row(&row)?;
-    }
-    file.finish()?;
-    Ok(path)
+    job.csv("energy-cascade.csv", &columns, |file| {
+        for sample in &run.samples {
+            let mut row = vec![sample.time];
+            row.extend(sample.energies[PARSEVAL]);
+            row.extend(sample.power);
+            let given = sample.transfers.iter();
+            row.extend(given.map(|given| given.iter().sum::<f64>()));
+            file.row(&row)?;
+        }
+        Ok(())
+    })
 }
 
 /// Energy that each level has given each other one by the end: rows receive,

@@ -8,14 +8,14 @@ use branched_pendulum::integrate::DenseError;
 use branched_pendulum::prelude::{DenseStep, Dop853, Options, State, SymmetricCoordinates};
 
 use super::arguments::Arguments;
-use super::failure::Failure;
 use super::scene::{LINKS, SECTORS, Tree, TreeParameters};
+use crate::failure::Failure;
 use crate::quadrature::GAUSS;
 
 /// Samples per second.
 const RATE: f64 = 50.0;
 
-/// The definitions of a sector's energy, in the order of [`Sample::energies`].
+/// The definitions of a sector's energy, in the order of [`Budgets::energies`].
 pub const DEFINITIONS: [&str; 4] = ["rest", "canonical", "velocity", "parseval"];
 
 /// Index of the definition by Parseval in [`DEFINITIONS`].
@@ -23,7 +23,7 @@ pub const PARSEVAL: usize = 3;
 
 /// The budgets at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct Budgets {
     /// Time, s.
     pub time: f64,
     /// Energies of the sectors, J, by definition.
@@ -37,7 +37,7 @@ pub struct Sample {
     pub transfers: [[f64; SECTORS]; SECTORS],
 }
 
-/// What the integrator did.
+/// The integrator's work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Work {
     /// Steps accepted.
@@ -48,21 +48,24 @@ pub struct Work {
 
 /// A run: samples at even times.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Run {
+pub struct Cascade {
     /// The samples, the first at the release.
-    pub samples: Vec<Sample>,
-    /// What the integrator did.
+    pub samples: Vec<Budgets>,
+    /// The integrator's work.
     pub work: Work,
 }
 
-impl Run {
+impl Cascade {
     /// Releases the tree from rest, all differences equal and small, and
     /// follows it. In symmetric coordinates, where small differences keep their
     /// digits.
     ///
+    /// `progress` is called after every step with the part of the duration that
+    /// is done.
+    ///
     /// # Errors
-    /// [`Failure::Drive`] or [`Failure::Integration`].
-    pub fn new(arguments: &Arguments) -> Result<Self, Failure> {
+    /// [`Failure::Parameter`] or [`Failure::Integration`].
+    pub fn new(arguments: &Arguments, mut progress: impl FnMut(f64)) -> Result<Self, Failure> {
         let tree = Tree::new(TreeParameters {
             torque: arguments.torque,
             pace: TAU * arguments.frequency,
@@ -77,17 +80,20 @@ impl Run {
                 &SymmetricCoordinates(&tree),
                 &start,
                 arguments.duration,
-                |step| match recorder.step(step) {
-                    Ok(()) => ControlFlow::Continue(()),
-                    Err(error) => {
-                        failure = Some(error);
-                        ControlFlow::Break(())
+                |step| {
+                    progress(step.end_time() / arguments.duration);
+                    match recorder.step(step) {
+                        Ok(()) => ControlFlow::Continue(()),
+                        Err(error) => {
+                            failure = Some(error);
+                            ControlFlow::Break(())
+                        }
                     }
                 },
             )
-            .map_err(|error| Failure::Integration(error.to_string().into()))?;
+            .map_err(|error| Failure::integration(0.0, error))?;
         if let Some(error) = failure {
-            return Err(Failure::Integration(error.to_string().into()));
+            return Err(Failure::integration(0.0, error));
         }
         Ok(Self {
             samples: recorder.samples,
@@ -104,11 +110,11 @@ impl Run {
         let Some(first) = self.samples.first() else {
             return [f64::NAN; SECTORS];
         };
-        let energies = |sample: &Sample| sample.energies[definition];
+        let energies = |sample: &Budgets| sample.energies[definition];
         let largest = self.samples.iter().flat_map(energies).fold(0.0, f64::max);
         std::array::from_fn(|sector| {
             let start = energies(first)[sector];
-            let gap = |sample: &Sample| {
+            let gap = |sample: &Budgets| {
                 let gained = energies(sample)[sector] - start;
                 (sample.flowed[definition][sector] - gained).abs()
             };
@@ -143,7 +149,7 @@ struct Flow {
 struct Recorder<'a> {
     tree: &'a Tree,
     count: usize,
-    samples: Vec<Sample>,
+    samples: Vec<Budgets>,
     flowed: [[f64; SECTORS]; 4],
     power: [f64; SECTORS],
     transfers: [[f64; SECTORS]; SECTORS],
@@ -226,7 +232,7 @@ impl<'a> Recorder<'a> {
 
     fn sample(&mut self, time: f64, values: &[f64]) {
         let energies = self.budgets(time, values).map(|budget| budget.energies);
-        self.samples.push(Sample {
+        self.samples.push(Budgets {
             time,
             energies,
             flowed: self.flowed,
@@ -253,18 +259,18 @@ fn halves(values: &[f64]) -> ([f64; LINKS], [f64; LINKS]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{PARSEVAL, Run};
+    use super::{Cascade, PARSEVAL};
     use crate::energy_cascade::Arguments;
     use crate::energy_cascade::scene::SECTORS;
 
-    fn short() -> Run {
+    fn short() -> Cascade {
         let arguments = Arguments {
             duration: 1.5,
             difference: 0.1,
             tolerance: 1e-11,
             ..Arguments::default()
         };
-        Run::new(&arguments).unwrap()
+        Cascade::new(&arguments, |_| ()).unwrap()
     }
 
     #[test]
@@ -288,7 +294,7 @@ mod tests {
         }
     }
 
-    /// What moves in phase stays so, to the last bit.
+    /// Motion in phase stays so, to the last bit.
     #[test]
     fn without_differences_nothing_leaves_the_means() {
         let arguments = Arguments {
@@ -296,7 +302,7 @@ mod tests {
             difference: 0.0,
             ..Arguments::default()
         };
-        let run = Run::new(&arguments).unwrap();
+        let run = Cascade::new(&arguments, |_| ()).unwrap();
         let last = run.samples.last().unwrap();
         for energies in last.energies {
             assert!(energies[0] > 0.0);

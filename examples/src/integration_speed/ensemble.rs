@@ -92,7 +92,7 @@ pub fn speeds(
     )
 }
 
-/// The same for models that differ, each from its own start.
+/// Speeds for models that differ, each from its own start.
 ///
 /// # Errors
 /// Those of the integration.

@@ -1,4 +1,4 @@
-//! What a trajectory to a given error costs, for the comparison with heyoka.
+//! The cost of a trajectory to a given error, for the comparison with heyoka.
 //!
 //! `benches/peers/heyoka_trajectory.py` measures the same problems.
 

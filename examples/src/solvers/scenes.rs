@@ -13,7 +13,7 @@ use branched_pendulum::branched_pendulum;
 )]
 pub struct Ideal;
 
-/// The same with viscous friction in every pivot.
+/// The paper's apparatus with viscous friction in every pivot.
 #[branched_pendulum(
     gravity = 9.80665,
     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27, friction = friction) [
@@ -44,10 +44,10 @@ rods! {
     Rods: 3 generations
 }
 rods! {
-    /// The same with one generation more: fifteen rods.
+    /// Seven rods with one generation more: fifteen.
     FifteenRods: 4 generations
 }
 rods! {
-    /// With two more: thirty-one.
+    /// Seven rods with two generations more: thirty-one.
     ThirtyOneRods: 5 generations
 }

@@ -9,17 +9,55 @@ pub mod output;
 pub mod truncation;
 pub mod verdict;
 
-/// The help text.
-pub const HELP: &str = "\
-Where does each method fail? Runs the paper's branched double pendulum with
-every method at many steps (or tolerances), amplitudes and frictions, and maps
-what became of each run: accurate, bounded but wrong, drifting, diverged, or
-refused with an error. Maps the truncated forms of the energy transfer W likewise:
-accurate, bounded but wrong, or useless.
+use clap::Parser;
 
-Usage: stability-map [--output FOLDER]
+use crate::failure::Failure;
+use crate::program::{Job, Results};
 
-  --output FOLDER  where tables and charts go; files of the same name there are
-                   replaced [stability-map-output]
-  --help           this text
-";
+/// Where does each method fail? Runs the paper's branched double pendulum with
+/// every method at many steps (or tolerances), amplitudes and frictions, and maps
+/// what became of each run: accurate, bounded but wrong, drifting, diverged, or
+/// refused with an error. Maps the truncated forms of the energy transfer W likewise:
+/// accurate, bounded but wrong, or useless.
+#[derive(Clone, Debug, Parser, PartialEq)]
+#[command(name = "stability-map", version, verbatim_doc_comment)]
+pub struct Arguments {
+    /// maps of which methods and forms to draw, by the names of their files;
+    /// all by default
+    #[arg(
+        verbatim_doc_comment,
+        long,
+        value_name = "MAP",
+        default_value = "all",
+        value_parser = ["all", "amplitude", "tolerance", "friction", "truncation"]
+    )]
+    pub map: String,
+    /// Folder of results.
+    #[command(flatten)]
+    pub results: Results,
+}
+
+impl crate::program::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = Some("stability-map-output");
+
+    fn results(&self) -> &Results {
+        &self.results
+    }
+}
+
+/// Computes the maps asked for, on all cores; one is there before the next begins.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let asked = |name: &str| arguments.map == "all" || arguments.map == name;
+    for survey in output::SURVEYS {
+        if asked(survey.name) {
+            output::deliver(job, &survey.map(job)?)?;
+        }
+    }
+    if asked("truncation") {
+        truncation::deliver(job, &truncation::map(job)?)?;
+    }
+    Ok(())
+}

@@ -1,14 +1,12 @@
 //! Maps, CSV file and charts.
 
-use std::path::{Path, PathBuf};
-
-use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum::data::{Cell, Column};
 use branched_pendulum::prelude::*;
-use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
+use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series};
 
 use super::verdict::{DAMPED_ANGLE, Verdict, damped, damped_model, damped_reference, ideal};
-use crate::branched_double::Failure;
-use crate::solvers::Method;
+use crate::failure::Failure;
+use crate::program::Job;
 
 /// Methods that take a step.
 pub const FIXED: [Method; 5] = [
@@ -27,32 +25,90 @@ pub const ADAPTIVE: [Method; 4] = [
     Method::Taylor,
 ];
 
-/// A run's place in its map, and what became of it.
+/// A run's trial in its map, and its fate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct Trial {
     /// The method.
     pub method: Method,
     /// Its step or tolerance.
     pub setting: f64,
     /// Angle of release (degrees) or friction (N m s).
     pub height: f64,
-    /// What became of the run.
+    /// The run's fate.
     pub verdict: Verdict,
 }
 
-/// A map: its file name, title, axes, methods and places.
+/// A map: a survey and its runs.
 #[derive(Clone, Debug)]
 pub struct Map {
-    name: &'static str,
-    title: String,
-    x: &'static str,
-    height: &'static str,
+    survey: Survey,
+    /// The runs.
+    pub trials: Vec<Trial>,
+}
+
+/// The runs that make a map.
+#[derive(Clone, Copy, Debug)]
+pub struct Survey {
+    /// Name on the command line.
+    pub name: &'static str,
+    title: &'static str,
+    /// Setting and height, each with its unit.
+    columns: [(&'static str, &'static str); 2],
     /// The y axis of a method's panel.
     y: fn(&str) -> Axis,
-    /// The methods, in the order of the panels.
-    pub methods: Vec<Method>,
-    /// The runs.
-    pub places: Vec<Place>,
+    methods: &'static [Method],
+    settings: fn() -> Vec<f64>,
+    heights: fn() -> Vec<f64>,
+    judge: fn(&[f64]) -> Result<Judge, Failure>,
+}
+
+/// Verdict on a run with this method, setting and height.
+type Judge = Box<dyn Fn(Method, f64, f64) -> Verdict + Sync>;
+
+/// All surveys.
+pub const SURVEYS: [Survey; 3] = [
+    Survey {
+        name: "amplitude",
+        title: "100 s without friction: step against amplitude",
+        columns: [("step", "s"), ("release", "degrees")],
+        y: release_axis,
+        methods: &FIXED,
+        settings: steps,
+        heights: releases,
+        judge: |_| Ok(Box::new(ideal)),
+    },
+    Survey {
+        name: "tolerance",
+        title: "100 s without friction: tolerance against amplitude",
+        columns: [("tolerance", ""), ("release", "degrees")],
+        y: release_axis,
+        methods: &ADAPTIVE,
+        settings: || logarithmic(1e-12, 1e-1, 12),
+        heights: releases,
+        judge: |_| Ok(Box::new(ideal)),
+    },
+    Survey {
+        name: "friction",
+        title: "3 s from 40° with friction in every pivot",
+        columns: [("step", "s"), ("friction", "N m s")],
+        y: |method| Axis::log(format!("{method}: c (N m s)")),
+        methods: &FIXED,
+        settings: steps,
+        heights: || logarithmic(1e-5, 10.0, 13),
+        judge: damped_by_friction,
+    },
+];
+
+fn release_axis(method: &str) -> Axis {
+    Axis::linear(format!("{method}: θ_1(0) (°)"))
+}
+
+fn releases() -> Vec<f64> {
+    (1..=11).map(|k| 15.0 * f64::from(k)).collect()
+}
+
+fn steps() -> Vec<f64> {
+    logarithmic(1e-3, 0.3, 16)
 }
 
 fn logarithmic(low: f64, high: f64, count: u32) -> Vec<f64> {
@@ -62,76 +118,47 @@ fn logarithmic(low: f64, high: f64, count: u32) -> Vec<f64> {
         .collect()
 }
 
-/// Computes all maps, on all cores.
-///
-/// # Errors
-/// [`Failure`]: the reference with friction could not be computed.
-pub fn maps() -> Result<Vec<Map>, Failure> {
-    let angles: Vec<f64> = (1..=11).map(|k| 15.0 * f64::from(k)).collect();
-    let steps = logarithmic(1e-3, 0.3, 16);
-    let tolerances = logarithmic(1e-12, 1e-1, 12);
-    let frictions = logarithmic(1e-5, 10.0, 13);
-    let by_angle = |methods: &[Method], settings: &[f64]| {
-        let grid = grid(methods, settings, &angles);
-        Ensemble::new().map(&grid, |_, &(method, setting, height)| Place {
-            method,
-            setting,
-            height,
-            verdict: ideal(method, setting, height),
-        })
+/// Computes the references of all frictions before the runs.
+fn damped_by_friction(frictions: &[f64]) -> Result<Judge, Failure> {
+    let reference = |&friction: &f64| {
+        let model = damped_model(friction)?;
+        let energy =
+            damped_reference(&model).map_err(|error| Failure::integration(DAMPED_ANGLE, error))?;
+        Ok((friction, model, energy))
     };
-    let references = frictions
-        .iter()
-        .map(|&friction| {
-            let model = damped_model(friction)?;
-            let energy = damped_reference(&model).map_err(|error| Failure::Integration {
-                angle_deg: DAMPED_ANGLE,
-                source: error.to_string().into(),
-            })?;
-            Ok((friction, model, energy))
-        })
-        .collect::<Result<Vec<_>, Failure>>()?;
-    let by_friction = grid(&FIXED, &steps, &frictions);
-    let by_friction = Ensemble::new().map(&by_friction, |_, &(method, setting, height)| {
-        let reference = references.iter().find(|reference| reference.0 == height);
+    let references = frictions.iter().map(reference);
+    let references = references.collect::<Result<Vec<_>, Failure>>()?;
+    Ok(Box::new(move |method, setting, friction| {
+        let reference = references.iter().find(|(own, ..)| *own == friction);
         let verdict = reference.map(|(_, model, energy)| damped(method, setting, model, *energy));
-        Place {
-            method,
-            setting,
-            height,
-            verdict: verdict.unwrap_or(Verdict::Refused),
-        }
-    });
-    let release = |method: &str| Axis::linear(format!("{method}: θ_1(0) (°)")).range(0.0, 180.0);
-    Ok(vec![
-        Map {
-            name: "stability-amplitude",
-            title: "100 s without friction: step against amplitude".to_owned(),
-            x: "step (s)",
-            height: "release (degrees)",
-            y: release,
-            methods: FIXED.to_vec(),
-            places: by_angle(&FIXED, &steps),
-        },
-        Map {
-            name: "stability-tolerance",
-            title: "100 s without friction: tolerance against amplitude".to_owned(),
-            x: "tolerance",
-            height: "release (degrees)",
-            y: release,
-            methods: ADAPTIVE.to_vec(),
-            places: by_angle(&ADAPTIVE, &tolerances),
-        },
-        Map {
-            name: "stability-friction",
-            title: format!("3 s from {DAMPED_ANGLE}° with friction in every pivot"),
-            x: "step (s)",
-            height: "friction (N m s)",
-            y: |method| Axis::log(format!("{method}: c (N m s)")).range(5e-6, 20.0),
-            methods: FIXED.to_vec(),
-            places: by_friction,
-        },
-    ])
+        verdict.unwrap_or(Verdict::Refused)
+    }))
+}
+
+impl Survey {
+    /// Runs the survey, on all cores.
+    ///
+    /// # Errors
+    /// [`Failure`]: the reference with friction could not be computed.
+    pub fn map(self, job: &Job) -> Result<Map, Failure> {
+        let heights = (self.heights)();
+        let grid = grid(self.methods, &(self.settings)(), &heights);
+        let progress = job.progress(grid.len());
+        progress.begin(self.name);
+        let judge = (self.judge)(&heights)?;
+        let trials = Ensemble::new().map(&grid, |_, &(method, setting, height)| {
+            let verdict = judge(method, setting, height);
+            progress.next();
+            Trial {
+                method,
+                setting,
+                height,
+                verdict,
+            }
+        });
+        let survey = self;
+        Ok(Map { survey, trials })
+    }
 }
 
 fn grid(methods: &[Method], settings: &[f64], heights: &[f64]) -> Vec<(Method, f64, f64)> {
@@ -144,95 +171,106 @@ fn grid(methods: &[Method], settings: &[f64], heights: &[f64]) -> Vec<(Method, f
     grid
 }
 
-/// How many runs of each method came to what.
-pub fn table(maps: &[Map]) -> String {
-    let mut text = String::new();
-    for map in maps {
-        text.push_str(&format!("{}\n\n{:24}", map.title, ""));
+/// The table of a map: how many runs of each method met each fate.
+pub fn table(map: &Map) -> String {
+    let mut text = format!("{}\n\n{:24}", map.survey.title, "");
+    for verdict in Verdict::ALL {
+        text.push_str(&format!("{:>18}", verdict.name()));
+    }
+    text.push('\n');
+    for method in map.survey.methods {
+        text.push_str(&format!("{:24}", method.title()));
         for verdict in Verdict::ALL {
-            text.push_str(&format!("{:>18}", verdict.name()));
-        }
-        text.push('\n');
-        for method in &map.methods {
-            text.push_str(&format!("{:24}", method.name()));
-            for verdict in Verdict::ALL {
-                let own = map.places.iter().filter(|place| place.method == *method);
-                let count = own.filter(|place| place.verdict == verdict).count();
-                text.push_str(&format!("{count:>18}"));
-            }
-            text.push('\n');
+            let own = map.trials.iter().filter(|trial| trial.method == *method);
+            let count = own.filter(|trial| trial.verdict == verdict).count();
+            text.push_str(&format!("{count:>18}"));
         }
         text.push('\n');
     }
+    text.push('\n');
     text
 }
 
-/// Writes CSV files and charts, and returns the files.
+/// Prints the table of a map and writes CSV file and chart.
 ///
 /// # Errors
-/// [`Failure::Csv`] or [`Failure::Chart`].
-pub fn write(folder: &Path, maps: &[Map]) -> Result<Vec<PathBuf>, Failure> {
-    let mut files = Vec::new();
-    for map in maps {
-        let file = |extension: &str| folder.join(format!("{}.{extension}", map.name));
-        let (csv, svg, png) = (file("csv"), file("svg"), file("png"));
-        let verdicts = Verdict::ALL.iter().enumerate();
-        let verdicts: Vec<_> = verdicts
-            .map(|(index, verdict)| format!("{index} {}", verdict.name()))
-            .collect();
-        let columns = [
-            Method::legend(&map.methods),
-            map.x.to_owned(),
-            map.height.to_owned(),
-            format!("verdict: {}", verdicts.join("; ")),
-        ];
-        let mut writer = CsvWriter::create(&csv, &columns.map(|name| Column::new(name, "")))?;
-        for place in &map.places {
-            let method = map
-                .methods
-                .iter()
-                .position(|method| *method == place.method);
-            let verdict = Verdict::ALL
-                .iter()
-                .position(|verdict| *verdict == place.verdict);
-            let number = |index: Option<usize>| index.map_or(f64::NAN, |index| index as f64);
-            writer.row(&[number(method), place.setting, place.height, number(verdict)])?;
-        }
-        writer.finish()?;
-        let chart = chart(map);
-        chart.write_svg(&svg)?;
-        chart.write_png(&png)?;
-        files.extend([csv, svg, png]);
-    }
-    Ok(files)
+/// [`Failure`].
+pub fn deliver(job: &Job, map: &Map) -> Result<(), Failure> {
+    let [x, height] = map
+        .survey
+        .columns
+        .map(|(name, unit)| Column::new(name, unit));
+    let columns = [
+        Column::new("method", ""),
+        x,
+        height,
+        Column::new("verdict", ""),
+    ];
+    let name = format!("stability-{}", map.survey.name);
+    job.csv(&format!("{name}.csv"), &columns, |csv| {
+        map.trials.iter().try_for_each(|trial| {
+            csv.row([
+                Cell::from(trial.method.title()),
+                trial.setting.into(),
+                trial.height.into(),
+                trial.verdict.name().into(),
+            ])
+        })
+    })?;
+    job.chart(&name, &chart(map))?;
+    job.print(&table(map))
 }
 
 fn chart(map: &Map) -> Chart {
-    let styles = [
-        (Color::rgb(0x1b, 0x7a, 0x3d), Symbol::Circle),
-        (Color::rgb(0x2b, 0x6c, 0xb8), Symbol::Square),
-        (Color::rgb(0xd9, 0x8a, 0x00), Symbol::Triangle),
-        (Color::rgb(0xc0, 0x2a, 0x2a), Symbol::Cross),
-        (Color::rgb(0x80, 0x80, 0x80), Symbol::Plus),
+    let colors = [
+        Color::rgb(0x1b, 0x7a, 0x3d),
+        Color::rgb(0x56, 0xb4, 0xe9),
+        Color::rgb(0xe6, 0x9f, 0x00),
+        Color::rgb(0xc0, 0x2a, 0x2a),
+        Color::rgb(0xb0, 0xb0, 0xb0),
     ];
-    let height = 120.0 + 190.0 * map.methods.len() as f64;
-    let chart = Chart::new(&map.title, Axis::log(map.x)).size(900.0, height);
-    map.methods.iter().fold(chart, |chart, method| {
-        let panel = Panel::new((map.y)(method.name()));
-        let panel = Verdict::ALL
-            .iter()
-            .zip(styles)
-            .fold(panel, |panel, (verdict, style)| {
-                let own = map.places.iter();
-                let own = own.filter(|place| place.method == *method && place.verdict == *verdict);
-                let (x, y): (Vec<f64>, Vec<f64>) =
-                    own.map(|place| (place.setting, place.height)).unzip();
-                if x.is_empty() {
-                    return panel;
-                }
-                let series = Series::points(verdict.name(), &x, &y);
-                panel.series(series.color(style.0).symbol(style.1))
-            });
+    let Survey {
+        title,
+        columns: [(x, unit), _],
+        y,
+        methods,
+        ..
+    } = map.survey;
+    let x = match unit {
+        "" => x.to_owned(),
+        _ => format!("{x} ({unit})"),
+    };
+    let rows = methods.len().div_ceil(2);
+    let chart = Chart::new(title, Axis::log(x))
+        .columns(2)
+        .size(1000.0, 120.0 + 240.0 * rows as f64);
+    methods.iter().fold(chart, |chart, method| {
+        let panel = Panel::new(y(method.title()));
+        let verdicts = Verdict::ALL.iter().zip(colors);
+        let panel = verdicts.fold(panel, |panel, (verdict, color)| {
+            let own = map.trials.iter();
+            let own = own.filter(|trial| trial.method == *method && trial.verdict == *verdict);
+            let (x, y): (Vec<f64>, Vec<f64>) =
+                own.map(|trial| (trial.setting, trial.height)).unzip();
+            match x.as_slice() {
+                [] => panel,
+                _ => panel.series(Series::cells(verdict.name(), &x, &y).color(color)),
+            }
+        });
         chart.panel(panel)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DAMPED_ANGLE, SURVEYS};
+    use crate::stability_map::verdict::{DAMPED_DURATION, IDEAL_DURATION};
+
+    #[test]
+    fn titles_tell_the_runs() {
+        let [amplitude, tolerance, friction] = SURVEYS.map(|survey| survey.title);
+        let ideal = format!("{IDEAL_DURATION} s without friction");
+        assert!(amplitude.starts_with(&ideal) && tolerance.starts_with(&ideal));
+        assert!(friction.starts_with(&format!("{DAMPED_DURATION} s from {DAMPED_ANGLE}°")));
+    }
 }

@@ -1,15 +1,14 @@
 //! Where does each truncation of W fail: amplitude of what it takes for small
 //! against the size of the motion that feeds it.
 
-use std::path::{Path, PathBuf};
-
 use branched_pendulum::analysis::truncation::{Background, PhaseAverage, logarithmic};
-use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum::data::{Cell, Column};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::{TransferForm, TransferForms};
-use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
+use branched_pendulum_charts::{Axis, Chart, Panel};
 
-use crate::branched_double::Failure;
+use crate::failure::Failure;
+use crate::program::Job;
 use crate::transfer_orders::Apparatus;
 
 /// Random states at each place.
@@ -18,7 +17,7 @@ const STATES: usize = 400;
 /// Time after the release over which the in-phase motion is looked at, s.
 const BACKGROUND: f64 = 10.0;
 
-/// What a form of W is worth.
+/// The worth of a form of W.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Worth {
     /// Within 1 % of the exact form, rms over rms.
@@ -55,7 +54,7 @@ impl Worth {
 
 /// The error of a form at an amplitude after a release.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct FormError {
     /// The form.
     pub form: TransferForm,
     /// Amplitude of θ_d, rad.
@@ -70,9 +69,15 @@ pub struct Place {
 ///
 /// # Errors
 /// [`Failure::Truncation`].
-pub fn map() -> Result<Vec<Place>, Failure> {
+pub fn map(job: &Job) -> Result<Vec<FormError>, Failure> {
     let releases: Vec<f64> = (1..=11).map(|k| 15.0 * f64::from(k)).collect();
-    let places = Ensemble::new().map(&releases, |_, &release| after(release));
+    let progress = job.progress(releases.len());
+    progress.begin("truncation");
+    let places = Ensemble::new().map(&releases, |_, &release| {
+        let places = after(release);
+        progress.next();
+        places
+    });
     let places: Result<Vec<_>, Failure> = places.into_iter().collect();
     Ok(places?.concat())
 }
@@ -81,7 +86,7 @@ pub fn map() -> Result<Vec<Place>, Failure> {
 ///
 /// # Errors
 /// [`Failure::Truncation`].
-pub fn after(release: f64) -> Result<Vec<Place>, Failure> {
+pub fn after(release: f64) -> Result<Vec<FormError>, Failure> {
     let model = Apparatus::new();
     let start = [release.to_radians(), 0.0, 0.0];
     let average = PhaseAverage {
@@ -93,7 +98,7 @@ pub fn after(release: f64) -> Result<Vec<Place>, Failure> {
     for curve in average.curves(&model)? {
         for point in &curve.points {
             let forms = curve.forms.iter().zip(&point.errors);
-            places.extend(forms.map(|(&form, &error)| Place {
+            places.extend(forms.map(|(&form, &error)| FormError {
                 form,
                 amplitude: point.amplitude,
                 release,
@@ -110,7 +115,7 @@ fn forms() -> impl Iterator<Item = TransferForm> {
 }
 
 /// How many places of each form are worth what.
-pub fn table(places: &[Place]) -> String {
+pub fn table(places: &[FormError]) -> String {
     let mut text = format!(
         "Truncations of W: amplitude of θ_d against release\n\n{:24}",
         ""
@@ -132,67 +137,51 @@ pub fn table(places: &[Place]) -> String {
     text
 }
 
-/// Writes CSV file and chart, and returns the files.
+/// Prints the table and writes CSV file and chart.
 ///
 /// # Errors
-/// [`Failure::Csv`] or [`Failure::Chart`].
-pub fn write(folder: &Path, places: &[Place]) -> Result<Vec<PathBuf>, Failure> {
-    let file = |extension: &str| folder.join(format!("stability-truncation.{extension}"));
-    let (csv, svg, png) = (file("csv"), file("svg"), file("png"));
-    let names: Vec<String> = forms()
-        .enumerate()
-        .map(|(index, form)| format!("{index} {form}"))
-        .collect();
-    let mut writer = CsvWriter::create(
-        &csv,
-        &[
-            Column::new(format!("form: {}", names.join("; ")), ""),
-            Column::new("amplitude", "rad"),
-            Column::new("release", "degrees"),
-            Column::new("relative error", ""),
-        ],
-    )?;
-    for place in places {
-        let form = forms().position(|form| form == place.form);
-        let form = form.map_or(f64::NAN, |index| index as f64);
-        writer.row(&[form, place.amplitude, place.release, place.error])?;
-    }
-    writer.finish()?;
-    let chart = chart(places);
-    chart.write_svg(&svg)?;
-    chart.write_png(&png)?;
-    Ok(vec![csv, svg, png])
+/// [`Failure`].
+pub fn deliver(job: &Job, places: &[FormError]) -> Result<(), Failure> {
+    let columns = [
+        Column::new("form", ""),
+        Column::new("amplitude", "rad"),
+        Column::new("release", "degrees"),
+        Column::new("relative error", ""),
+        Column::new("worth", ""),
+    ];
+    job.csv("stability-truncation.csv", &columns, |csv| {
+        places.iter().try_for_each(|place| {
+            let form = place.form.to_string();
+            csv.row([
+                Cell::from(form.as_str()),
+                place.amplitude.into(),
+                place.release.into(),
+                place.error.into(),
+                Worth::of(place.error).name().into(),
+            ])
+        })
+    })?;
+    job.chart("stability-truncation", &chart(places))?;
+    job.print(&table(places))
 }
 
-fn chart(places: &[Place]) -> Chart {
-    let styles = [
-        (Color::rgb(0x1b, 0x7a, 0x3d), Symbol::Circle),
-        (Color::rgb(0x2b, 0x6c, 0xb8), Symbol::Square),
-        (Color::rgb(0xc0, 0x2a, 0x2a), Symbol::Cross),
-    ];
-    let title = "Truncations of W: amplitude of θ_d against release of the in-phase motion";
-    let height = 120.0 + 190.0 * forms().count() as f64;
-    let chart = Chart::new(title, Axis::log("amplitude of θ_d (rad)")).size(900.0, height);
+/// Errors between which the colours of the map change; those of [`Worth`] among
+/// them.
+const LEVELS: [f64; 4] = [1e-4, 0.01, 0.1, 1.0];
+
+fn chart(places: &[FormError]) -> Chart {
+    let title = "Relative error of truncated W: amplitude of θ_d against the release that feeds it";
+    let rows = forms().count().div_ceil(2);
+    let chart = Chart::new(title, Axis::log("amplitude of θ_d (rad)"))
+        .columns(2)
+        .size(1000.0, 120.0 + 240.0 * rows as f64);
     forms().fold(chart, |chart, form| {
-        let panel = Panel::new(Axis::linear(format!("{form}: θ_1(0) (°)")).range(0.0, 180.0));
-        let panel = Worth::ALL
-            .iter()
-            .zip(styles)
-            .fold(panel, |panel, (worth, (color, symbol))| {
-                let own = places.iter().filter(|place| place.form == form);
-                let own = own.filter(|place| Worth::of(place.error) == *worth);
-                let (x, y): (Vec<f64>, Vec<f64>) =
-                    own.map(|place| (place.amplitude, place.release)).unzip();
-                if x.is_empty() {
-                    return panel;
-                }
-                panel.series(
-                    Series::points(worth.name(), &x, &y)
-                        .color(color)
-                        .symbol(symbol),
-                )
-            });
-        chart.panel(panel)
+        let own = || places.iter().filter(|place| place.form == form);
+        let x: Vec<f64> = own().map(|place| place.amplitude).collect();
+        let y: Vec<f64> = own().map(|place| place.release).collect();
+        let errors: Vec<f64> = own().map(|place| place.error).collect();
+        let panel = Panel::new(Axis::linear(format!("{form}: θ_1(0) (°)")));
+        chart.panel(panel.heatmap(&x, &y, &errors, &LEVELS))
     })
 }
 

@@ -1,13 +1,13 @@
-//! What became of a run.
+//! The fates of runs.
 
 use branched_pendulum::integrate::Solver;
 use branched_pendulum::prelude::*;
 
-use crate::branched_double::Failure;
-use crate::solvers::Method;
+use crate::failure::Failure;
+use crate::solvers::configured;
 use crate::solvers::scenes::{Damped, DampedParameters, Ideal};
 
-/// What became of a run.
+/// The fate of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The energy is right within 0.1 % of the first; with friction, within
@@ -74,8 +74,9 @@ pub fn ideal(method: Method, setting: f64, angle_deg: f64) -> Verdict {
     let start = start(angle_deg);
     let initial = energy_of(&model, &start.values);
     let (mut early, mut late) = (0.0_f64, 0.0_f64);
-    let visit = |time: f64, state: &[f64]| {
-        let error = (energy_of(&model, state) / initial - 1.0).abs();
+    let observer = |step: &mut DenseStep<'_, f64>| {
+        let time = step.end_time();
+        let error = (energy_of(&model, step.end()) / initial - 1.0).abs();
         if time < 0.25 * IDEAL_DURATION {
             early = early.max(error);
         } else if time > 0.75 * IDEAL_DURATION {
@@ -87,13 +88,8 @@ pub fn ideal(method: Method, setting: f64, angle_deg: f64) -> Verdict {
             ControlFlow::Break(())
         }
     };
-    match method.integrate(
-        setting,
-        &AbsoluteAngles(&model),
-        &start,
-        IDEAL_DURATION,
-        visit,
-    ) {
+    let ode = AbsoluteAngles(&model);
+    match configured(method, setting).integrate(&ode, &start, IDEAL_DURATION, observer) {
         Err(error) => of_error(&error),
         Ok(solution) if solution.report.stop == StopReason::StoppedByObserver => Verdict::Diverged,
         Ok(_) if early.max(late) < 1e-3 => Verdict::Accurate,
@@ -108,7 +104,7 @@ pub const DAMPED_ANGLE: f64 = 40.0;
 /// The pendulum with the friction `friction` (N m s) in every pivot.
 ///
 /// # Errors
-/// [`Failure::Friction`].
+/// [`Failure::Parameter`].
 pub fn damped_model(friction: f64) -> Result<Damped, Failure> {
     Ok(Damped::new(DampedParameters { friction })?)
 }
@@ -136,21 +132,16 @@ pub fn damped(method: Method, setting: f64, model: &Damped, expected: f64) -> Ve
     let start = start(DAMPED_ANGLE);
     let initial = energy_of(&ideal, &start.values);
     let mut most = initial;
-    let visit = |_: f64, state: &[f64]| {
-        most = most.max(energy_of(&ideal, state));
+    let observer = |step: &mut DenseStep<'_, f64>| {
+        most = most.max(energy_of(&ideal, step.end()));
         if most < 10.0 * initial {
             ControlFlow::Continue(())
         } else {
             ControlFlow::Break(())
         }
     };
-    match method.integrate(
-        setting,
-        &AbsoluteAngles(model),
-        &start,
-        DAMPED_DURATION,
-        visit,
-    ) {
+    let ode = AbsoluteAngles(model);
+    match configured(method, setting).integrate(&ode, &start, DAMPED_DURATION, observer) {
         Err(error) => of_error(&error),
         Ok(solution) => {
             let error = (energy_of(&ideal, &solution.state.values) - expected).abs();

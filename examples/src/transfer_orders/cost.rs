@@ -1,4 +1,4 @@
-//! What one evaluation of W costs.
+//! The cost of one evaluation of W.
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -16,7 +16,26 @@ pub mod output;
 pub mod scenes;
 pub mod study;
 
-pub use arguments::{ArgumentError, Arguments, Request};
+pub use arguments::Arguments;
 pub use cost::Costs;
 pub use scenes::{Apparatus, Arms};
 pub use study::{Settings, Study};
+
+use crate::failure::Failure;
+use crate::program::Job;
+
+/// Studies all trees; prints and writes what one gives before the next begins.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let progress = job.progress(2 * study::PARTS);
+    let paper = Study::of(
+        &Apparatus::new(),
+        scenes::apparatus(arguments.states)?,
+        &progress,
+    )?;
+    output::deliver(job, &paper)?;
+    let arms = Study::of(&Arms::new(), scenes::arms(arguments.states)?, &progress)?;
+    output::deliver(job, &arms)
+}

@@ -1,14 +1,14 @@
 //! The tables, the CSV files and the charts.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
 
 use branched_pendulum::analysis::truncation::ErrorCurve;
-use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum::data::{Cell, Column};
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 
 use super::study::{AMPLITUDES, Study};
-use crate::branched_double::Failure;
+use crate::failure::Failure;
+use crate::program::Job;
 
 /// Levels of the relative error in the table.
 const LEVELS: [(&str, f64); 3] = [("1 %", 0.01), ("10 %", 0.1), ("100 %", 1.0)];
@@ -89,45 +89,45 @@ fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
     let _ = text.write_fmt(arguments);
 }
 
-/// Writes the curves of one tree as CSV, one file for each sector and average,
-/// and the chart as SVG and PNG, and returns the files.
+/// Prints the table of one tree and writes its curves and its chart.
 ///
 /// # Errors
-/// [`Failure::Csv`] or [`Failure::Chart`].
-pub fn write(folder: &Path, study: &Study) -> Result<Vec<PathBuf>, Failure> {
+/// [`Failure`].
+pub fn deliver(job: &Job, study: &Study) -> Result<(), Failure> {
+    write(job, study)?;
+    job.print(&table(study))
+}
+
+/// Writes the curves of one tree as CSV, one file for each sector and average,
+/// and the chart.
+///
+/// # Errors
+/// [`Failure::Csv`], [`Failure::Chart`] or [`Failure::File`].
+pub fn write(job: &Job, study: &Study) -> Result<(), Failure> {
     let name = study.settings.name;
-    let mut files = Vec::new();
     for (kind, curves) in [
         ("phase-average", &study.phase_average),
         ("trajectories", &study.trajectories),
     ] {
         for curve in curves {
-            let file = folder.join(format!("{name}-{}-{kind}.csv", curve.receiver));
-            write_csv(&file, curve)?;
-            files.push(file);
+            let file = format!("{name}-{}-{kind}.csv", curve.receiver);
+            write_csv(job, &file, curve)?;
         }
     }
-    let chart = chart(study);
-    let file = |extension| folder.join(format!("transfer-orders-{name}.{extension}"));
-    let (svg, png) = (file("svg"), file("png"));
-    chart.write_svg(&svg)?;
-    chart.write_png(&png)?;
-    files.extend([svg, png]);
-    Ok(files)
+    job.chart(&format!("transfer-orders-{name}"), &chart(study))
 }
 
-fn write_csv(path: &Path, curve: &ErrorCurve) -> Result<(), Failure> {
+fn write_csv(job: &Job, name: &str, curve: &ErrorCurve) -> Result<(), Failure> {
     let mut columns = vec![Column::new("amplitude", "rad"), Column::new("states", "")];
     let names = curve.forms.iter();
     columns.extend(names.map(|form| Column::new(format!("relative error {form}"), "")));
-    let mut file = CsvWriter::create(path, &columns)?;
-    for point in &curve.points {
-        let mut row = vec![point.amplitude, point.states as f64];
-        row.extend(&point.errors);
-        file.row(&row)?;
-    }
-    file.finish()?;
-    Ok(())
+    job.csv(name, &columns, |file| {
+        curve.points.iter().try_for_each(|point| {
+            let mut row = vec![Cell::from(point.amplitude), Cell::from(point.states)];
+            row.extend(point.errors.iter().map(Cell::from));
+            file.row(row)
+        })
+    })
 }
 
 fn chart(study: &Study) -> Chart {

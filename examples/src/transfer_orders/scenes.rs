@@ -2,13 +2,13 @@
 //!
 //! One more tree is a description that asks for truncated forms of W beside the
 //! exact one (`transfer(…, exact)` where copies are single links,
-//! `budget(canonical, …)` for any tree) and a line in [`all`].
+//! `budget(canonical, …)` for any tree) and two lines in [`run`](super::run).
 
 use branched_pendulum::analysis::truncation::Background;
 use branched_pendulum::branched_pendulum;
 
-use super::study::{Settings, Study};
-use crate::branched_double::Failure;
+use super::study::Settings;
+use crate::failure::Failure;
 
 /// The paper's apparatus with W in every form: to first order in θ_d as
 /// published, to orders 2 to 8 in the amplitude (θ_d and p_d together), and
@@ -36,17 +36,6 @@ pub struct Apparatus;
     )),
 )]
 pub struct Arms;
-
-/// The studies of all trees, with `states` random states at each amplitude.
-///
-/// # Errors
-/// [`Failure::Truncation`].
-pub fn all(states: usize) -> Result<Vec<Study>, Failure> {
-    Ok(vec![
-        Study::of(&Apparatus::new(), apparatus(states)?)?,
-        Study::of(&Arms::new(), arms(states)?)?,
-    ])
-}
 
 /// Released as the paper does, from the angle of the two it compares from which
 /// θ_d grows.

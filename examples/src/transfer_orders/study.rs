@@ -6,7 +6,8 @@ use branched_pendulum::analysis::truncation::{
 };
 
 use super::cost::Costs;
-use crate::branched_double::Failure;
+use crate::failure::Failure;
+use crate::program::Progress;
 
 /// Smallest and largest amplitude looked at, rad.
 pub const AMPLITUDES: [f64; 2] = [1e-3, 1.5];
@@ -23,12 +24,12 @@ const DURATION: f64 = 32.0;
 /// Time over which the background is looked at, s.
 const BACKGROUND: f64 = 10.0;
 
-/// What a study is made of.
+/// The ingredients of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Short name, for files.
     pub name: &'static str,
-    /// What the tree is, and how it was released.
+    /// Description of the tree and of its release.
     pub title: &'static str,
     /// States with random phases.
     pub phase_average: PhaseAverage,
@@ -73,7 +74,7 @@ impl Settings {
 /// Errors and costs of the forms of W of one tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// What was asked.
+    /// The settings asked for.
     pub settings: Settings,
     /// Over states with random phases, one curve for each receiver.
     pub phase_average: Vec<ErrorCurve>,
@@ -83,17 +84,66 @@ pub struct Study {
     pub costs: Costs,
 }
 
+/// Parts of the progress that a study shows.
+pub const PARTS: usize = 3;
+
 impl Study {
-    /// Computes everything, one thing after the other.
+    /// Computes everything, one thing after the other, as the next [`PARTS`] of
+    /// `progress`.
     ///
     /// # Errors
     /// [`Failure::Truncation`].
-    pub fn of<M: TransferForms<f64>>(model: &M, settings: Settings) -> Result<Self, Failure> {
+    pub fn of<M: TransferForms<f64>>(
+        model: &M,
+        settings: Settings,
+        progress: &Progress,
+    ) -> Result<Self, Failure> {
+        let Settings {
+            name,
+            phase_average,
+            trajectories,
+            ..
+        } = &settings;
+        progress.begin(&format!("{name}: phase average"));
+        let average = by_amplitude(model, phase_average, progress)?;
+        progress.begin(&format!("{name}: trajectories"));
+        let along = progress.ticking(|| trajectories.curves(model))?;
+        progress.next();
+        progress.begin(&format!("{name}: cost"));
+        let costs = Costs::measure(model, phase_average)?;
+        progress.next();
         Ok(Self {
-            phase_average: settings.phase_average.curves(model)?,
-            trajectories: settings.trajectories.curves(model)?,
-            costs: Costs::measure(model, &settings.phase_average)?,
+            phase_average: average,
+            trajectories: along,
+            costs,
             settings,
         })
     }
+}
+
+/// The curves of a phase average, one amplitude after the other: each takes the
+/// same random states, so that the points are those of all at once.
+fn by_amplitude<M: TransferForms<f64>>(
+    model: &M,
+    average: &PhaseAverage,
+    progress: &Progress,
+) -> Result<Vec<ErrorCurve>, Failure> {
+    let count = average.amplitudes.len();
+    let mut all: Vec<ErrorCurve> = Vec::new();
+    for &amplitude in &average.amplitudes {
+        let one = PhaseAverage {
+            amplitudes: vec![amplitude],
+            ..average.clone()
+        };
+        let curves = one.curves(model)?;
+        if all.is_empty() {
+            all = curves;
+        } else {
+            for (curve, next) in all.iter_mut().zip(curves) {
+                curve.points.extend(next.points);
+            }
+        }
+        progress.advance(1.0 / count as f64);
+    }
+    Ok(all)
 }

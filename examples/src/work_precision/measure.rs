@@ -6,7 +6,8 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorOde;
 
 use super::reference::{Problem, Tree};
-use crate::solvers::Method;
+use crate::program::Progress;
+use crate::solvers::configured;
 use crate::solvers::scenes::{Ideal, Rods};
 
 /// The methods that are compared.
@@ -55,22 +56,30 @@ fn settings(method: Method) -> Vec<f64> {
     }
 }
 
-/// Measures a problem with every method; runs that fail are left out.
-pub fn measure(problem: &Problem) -> Vec<Measurement> {
+/// Measures a problem with every method, as one part of `progress`; runs that fail
+/// are left out.
+pub fn measure(problem: &Problem, progress: &Progress) -> Vec<Measurement> {
     match problem.tree {
-        Tree::Paper => measure_on(&AbsoluteAngles(&Ideal::new()), problem),
-        Tree::Rods => measure_on(&AbsoluteAngles(&Rods::new()), problem),
+        Tree::Paper => measure_on(&AbsoluteAngles(&Ideal::new()), problem, progress),
+        Tree::Rods => measure_on(&AbsoluteAngles(&Rods::new()), problem, progress),
     }
 }
 
-fn measure_on(ode: &impl TaylorOde<f64>, problem: &Problem) -> Vec<Measurement> {
+fn measure_on(
+    ode: &impl TaylorOde<f64>,
+    problem: &Problem,
+    progress: &Progress,
+) -> Vec<Measurement> {
     let start = State::at_rest(0.0, &problem.start);
     let mut all = Vec::new();
     for method in METHODS {
-        for setting in settings(method) {
+        progress.begin(&format!("{}: {}", problem.name, method.title()));
+        let settings = settings(method);
+        for &setting in &settings {
+            progress.advance(1.0 / (METHODS.len() * settings.len()) as f64);
             let run = || {
-                let observer = |_: f64, _: &[f64]| ControlFlow::Continue(());
-                method.integrate(setting, ode, &start, problem.end, observer)
+                let observer = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
+                configured(method, setting).integrate(ode, &start, problem.end, observer)
             };
             let Ok(solution) = run() else {
                 continue;
@@ -131,11 +140,12 @@ pub struct EnergyDrift {
     pub evaluations: u64,
 }
 
-/// Follows the energy with every method at one setting each.
+/// Follows the energy with every method at one setting each, as one part of
+/// `progress`.
 ///
 /// # Errors
 /// As the methods'.
-pub fn energy_drifts() -> Result<Vec<EnergyDrift>, IntegrationError<f64>> {
+pub fn energy_drifts(progress: &Progress) -> Result<Vec<EnergyDrift>, IntegrationError<f64>> {
     let model = Ideal::new();
     let start = State::at_rest(0.0, &[0.3, 1e-3, -1e-3]);
     let energy = |state: &[f64]| {
@@ -153,21 +163,23 @@ pub fn energy_drifts() -> Result<Vec<EnergyDrift>, IntegrationError<f64>> {
         (Method::Gauss(GaussOrder::Eight), 0.01),
     ];
     let run = |(method, setting): (Method, f64)| {
+        progress.begin(&format!("energy: {}", method.title()));
         let mut errors = vec![0.0_f64; 100];
-        let visit = |time: f64, state: &[f64]| {
-            let part = ((time / 10.0) as usize).min(99);
-            errors[part] = errors[part].max((energy(state) / initial - 1.0).abs());
+        let observer = |step: &mut DenseStep<'_, f64>| {
+            let part = ((step.end_time() / 10.0) as usize).min(99);
+            errors[part] = errors[part].max((energy(step.end()) / initial - 1.0).abs());
             ControlFlow::Continue(())
         };
         let ode = AbsoluteAngles(&model);
-        let solution = method.integrate(setting, &ode, &start, 1000.0, visit)?;
+        let solution = configured(method, setting).integrate(&ode, &start, 1000.0, observer)?;
+        progress.advance(1.0 / cases.len() as f64);
         let unit = if method.is_adaptive() {
             "tolerance"
         } else {
             "step"
         };
         Ok(EnergyDrift {
-            name: format!("{}, {unit} {setting:e}", method.name()),
+            name: format!("{}, {unit} {setting:e}", method.title()),
             times: (1..=100).map(|part| 10.0 * f64::from(part)).collect(),
             errors,
             evaluations: solution.report.evaluations,

@@ -1,4 +1,4 @@
-//! What does a given error cost, with which method?
+//! The cost of a given error with each method.
 //!
 //! The apparatus is that of [`branched_double`](crate::branched_double), beside
 //! seven rods; the equations are those that the macro writes, in absolute angles.
@@ -13,15 +13,44 @@ pub mod measure;
 pub mod output;
 pub mod reference;
 
-/// The help text.
-pub const HELP: &str = "\
-What does a given error cost, with which method? Runs the paper's branched
-double pendulum and seven rods with every method at many tolerances or steps,
-against reference trajectories, and follows the energy over 1,000 s.
+use clap::Parser;
 
-Usage: work-precision [--output FOLDER]
+use crate::failure::Failure;
+use crate::program::{Job, Results};
 
-  --output FOLDER  where tables and charts go; files of the same name there are
-                   replaced [work-precision-output]
-  --help           this text
-";
+/// What does a given error cost, with which method? Runs the paper's branched
+/// double pendulum and seven rods with every method at many tolerances or steps,
+/// against reference trajectories, and follows the energy over 1,000 s.
+#[derive(Clone, Debug, Parser, PartialEq)]
+#[command(name = "work-precision", version, verbatim_doc_comment)]
+pub struct Arguments {
+    /// Folder of results.
+    #[command(flatten)]
+    pub results: Results,
+}
+
+impl crate::program::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = Some("work-precision-output");
+
+    fn results(&self) -> &Results {
+        &self.results
+    }
+}
+
+/// Measures all problems and follows the energy.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(_: &Arguments, job: &Job) -> Result<(), Failure> {
+    let problems = reference::problems()?;
+    let progress = job.progress(problems.len() + 1);
+    let problems: Vec<_> = problems
+        .iter()
+        .map(|problem| (problem.name, measure::measure(problem, &progress)))
+        .collect();
+    output::write_runs(job, &problems)?;
+    let drifts = measure::energy_drifts(&progress)
+        .map_err(|error| Failure::integration(0.3_f64.to_degrees(), error))?;
+    output::write_drifts(job, &drifts)?;
+    job.print(&(output::table(&problems, &drifts) + "\n"))
+}

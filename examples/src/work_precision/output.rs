@@ -1,14 +1,13 @@
 //! Tables, CSV files and charts.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
 
-use branched_pendulum::data::{Column, CsvWriter};
+use branched_pendulum::data::{Cell, Column};
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 
 use super::measure::{EnergyDrift, METHODS, Measurement, time_to_error};
-use crate::branched_double::Failure;
-use crate::solvers::Method;
+use crate::failure::Failure;
+use crate::program::Job;
 
 /// Errors in the table.
 const LEVELS: [f64; 5] = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14];
@@ -27,7 +26,7 @@ pub fn table(problems: &[Runs], drifts: &[EnergyDrift]) -> String {
         text.push('\n');
         let times = METHODS.map(|method| LEVELS.map(|level| time_to_error(runs, method, level)));
         for (method, row) in METHODS.iter().zip(&times) {
-            push(&mut text, format_args!("{:24}", method.name()));
+            push(&mut text, format_args!("{:24}", method.title()));
             for (column, time) in row.iter().enumerate() {
                 let others = times.iter().filter_map(|row| row[column]);
                 let best = others.fold(f64::INFINITY, f64::min);
@@ -61,99 +60,76 @@ fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
     let _ = text.write_fmt(arguments);
 }
 
-/// Writes CSV files and charts, and returns the files.
+/// Writes the runs of all problems as a table and two charts.
 ///
 /// # Errors
-/// [`Failure::Csv`] or [`Failure::Chart`].
-pub fn write(
-    folder: &Path,
-    problems: &[Runs],
-    drifts: &[EnergyDrift],
-) -> Result<Vec<PathBuf>, Failure> {
-    let mut files = vec![
-        folder.join("work-precision.csv"),
-        folder.join("energy-drift.csv"),
+/// [`Failure::Csv`], [`Failure::Chart`] or [`Failure::File`].
+pub fn write_runs(job: &Job, problems: &[Runs]) -> Result<(), Failure> {
+    let columns = [
+        Column::new("problem", ""),
+        Column::new("method", ""),
+        Column::new("tolerance or step", ""),
+        Column::new("error", "rad or rad/s"),
+        Column::new("time", "us"),
+        Column::new("evaluations", ""),
     ];
-    let numbered = problems.iter().enumerate();
-    let names: Vec<_> = numbered
-        .map(|(index, (name, _))| format!("{index} {}", name.replace(',', "")))
-        .collect();
-    let mut csv = CsvWriter::create(
-        &files[0],
-        &[
-            Column::new(format!("problem: {}", names.join("; ")), ""),
-            Column::new(Method::legend(&METHODS), ""),
-            Column::new("tolerance or step", ""),
-            Column::new("error", "rad or rad/s"),
-            Column::new("time", "us"),
-            Column::new("evaluations", ""),
-        ],
-    )?;
-    for (problem, (_, runs)) in problems.iter().enumerate() {
-        for run in runs {
-            let method = METHODS.iter().position(|method| *method == run.method);
-            csv.row(&[
-                problem as f64,
-                method.unwrap_or(METHODS.len()) as f64,
-                run.setting,
-                run.error,
-                run.microseconds,
-                run.evaluations as f64,
-            ])?;
+    job.csv("work-precision.csv", &columns, |csv| {
+        for (problem, runs) in problems {
+            for run in runs {
+                csv.row([
+                    Cell::from(*problem),
+                    run.method.title().into(),
+                    run.setting.into(),
+                    run.error.into(),
+                    run.microseconds.into(),
+                    run.evaluations.into(),
+                ])?;
+            }
         }
-    }
-    csv.finish()?;
-    let mut columns = vec![Column::new("time", "s")];
-    columns.extend(
-        drifts
-            .iter()
-            .map(|drift| Column::new(drift.name.replace(',', ""), "")),
-    );
-    let mut csv = CsvWriter::create(&files[1], &columns)?;
-    for row in 0..drifts.first().map_or(0, |drift| drift.times.len()) {
-        let mut values = vec![drifts[0].times[row]];
-        values.extend(drifts.iter().map(|drift| drift.errors[row]));
-        csv.row(&values)?;
-    }
-    csv.finish()?;
+        Ok(())
+    })?;
     let against_time = "Error at the end against time, absolute angles";
+    let time = chart(against_time, "time (µs)", problems, |run| run.microseconds);
+    job.chart("work-precision-time", &time)?;
     let against_work = "Error at the end against work, absolute angles";
-    let charts = [
-        (
-            "work-precision-time",
-            chart(against_time, "time (µs)", problems, |run| run.microseconds),
-        ),
-        (
-            "work-precision-evaluations",
-            chart(
-                against_work,
-                "evaluations (of Taylor: orders)",
-                problems,
-                |run| run.evaluations as f64,
-            ),
-        ),
-        ("energy-drift", drift_chart(drifts)),
+    let axis = "evaluations (of Taylor: orders)";
+    let work = chart(against_work, axis, problems, |run| run.evaluations as f64);
+    job.chart("work-precision-evaluations", &work)
+}
+
+/// Writes the energy's errors as a table, a row for each method and part of the
+/// motion, and as a chart.
+///
+/// # Errors
+/// [`Failure::Csv`], [`Failure::Chart`] or [`Failure::File`].
+pub fn write_drifts(job: &Job, drifts: &[EnergyDrift]) -> Result<(), Failure> {
+    let columns = [
+        Column::new("run", ""),
+        Column::new("time", "s"),
+        Column::new("relative error of the energy", ""),
     ];
-    for (name, chart) in charts {
-        let (svg, png) = (
-            folder.join(format!("{name}.svg")),
-            folder.join(format!("{name}.png")),
-        );
-        chart.write_svg(&svg)?;
-        chart.write_png(&png)?;
-        files.extend([svg, png]);
-    }
-    Ok(files)
+    job.csv("energy-drift.csv", &columns, |csv| {
+        for drift in drifts {
+            for (&time, &error) in drift.times.iter().zip(&drift.errors) {
+                csv.row([Cell::from(drift.name.as_str()), time.into(), error.into()])?;
+            }
+        }
+        Ok(())
+    })?;
+    job.chart("energy-drift", &drift_chart(drifts))
 }
 
 fn chart(title: &str, x: &str, problems: &[Runs], cost: impl Fn(&Measurement) -> f64) -> Chart {
-    let chart = Chart::new(title, Axis::log(x)).size(900.0, 120.0 + 320.0 * problems.len() as f64);
+    let rows = problems.len().div_ceil(2);
+    let chart = Chart::new(title, Axis::log(x))
+        .columns(2)
+        .size(1100.0, 140.0 + 300.0 * rows as f64);
     problems.iter().fold(chart, |chart, (name, runs)| {
         let panel = Panel::new(Axis::log(format!("error, {name}")).range(1e-14, 10.0));
         let panel = METHODS.iter().fold(panel, |panel, method| {
             let own = runs.iter().filter(|run| run.method == *method);
             let (x, y): (Vec<f64>, Vec<f64>) = own.map(|run| (cost(run), run.error)).unzip();
-            panel.series(Series::line(method.name(), &x, &y).with_symbols())
+            panel.series(Series::line(method.title(), &x, &y).with_symbols())
         });
         chart.panel(panel)
     })

@@ -5,7 +5,7 @@
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 
-use crate::branched_double::Failure;
+use crate::failure::Failure;
 use crate::solvers::scenes::Rods;
 
 /// The file, as it was when the program was built.
@@ -25,7 +25,7 @@ pub enum Tree {
 pub struct Problem {
     /// Name, as the charts show it.
     pub name: &'static str,
-    /// What moves.
+    /// The tree that moves.
     pub tree: Tree,
     /// Angles at the start, rad.
     pub start: Vec<f64>,
@@ -96,10 +96,7 @@ pub fn rods_at(end: f64, tolerance: f64) -> Result<Vec<f64>, Failure> {
     let end = Double::from_f64(end);
     let solution = method
         .integrate(&ode, &start, end, run_on)
-        .map_err(|error| Failure::Integration {
-            angle_deg: RODS[0].to_degrees(),
-            source: error.to_string().into(),
-        })?;
+        .map_err(|error| Failure::integration(RODS[0].to_degrees(), error))?;
     let values = solution.state.values.iter();
     Ok(values.map(|value| value.high()).collect())
 }

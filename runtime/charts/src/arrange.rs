@@ -24,8 +24,10 @@ pub(crate) const TICK_GAP: f64 = 3.0;
 pub(crate) const EDGE: f64 = 12.0;
 /// Space between the label of an axis and its tick labels.
 pub(crate) const LABEL_GAP: f64 = 7.0;
-/// Space between panels, and between panels and the legend below.
+/// Space between panels above each other, between columns of panels, and between
+/// panels and the legend below.
 const PANEL_GAP: f64 = 18.0;
+const COLUMN_GAP: f64 = 20.0;
 pub(crate) const LEGEND_GAP: f64 = 10.0;
 
 const LEAST_SIZE: (f64, f64) = (320.0, 200.0);
@@ -46,13 +48,17 @@ pub(crate) struct XAxis {
     pub(crate) scale: Scale,
     pub(crate) ticks: Ticks,
     pub(crate) label: Vec<Label>,
-    /// What is common to the tick labels has a line of its own, since the
+    /// The part common to the tick labels has a line of its own, since the
     /// label of the axis leaves no room beside it.
     pub(crate) common_below: bool,
 }
 
 pub(crate) struct PanelPlan {
     pub(crate) frame: Rect,
+    /// Left edge of the label of its y axis.
+    pub(crate) outer_left: f64,
+    /// The x axis is labelled below it: it is the last of its column.
+    pub(crate) lowest: bool,
     pub(crate) scale: Scale,
     pub(crate) ticks: Ticks,
     pub(crate) label: Vec<Label>,
@@ -81,7 +87,8 @@ pub(crate) fn arrange(chart: &Chart, font: &Font) -> Result<Plan, ChartError> {
     };
     // Ticks, wrapped labels and legend depend on the height of the panels,
     // which depends on the room they take: estimate, then correct once.
-    let estimate = chart.height / y.len() as f64;
+    let rows = y.len().div_ceil(chart.columns);
+    let estimate = chart.height / rows as f64;
     let first = sketch.plan(&vec![estimate; y.len()])?;
     let heights = first.panels.iter().map(|p| p.frame.height());
     sketch.plan(&heights.collect::<Vec<_>>())
@@ -110,9 +117,15 @@ impl Sketch<'_> {
             .map(|(scale, height)| ticks(scale, most(*height, 42.0)))
             .collect();
         let y_labels = self.y_labels(heights);
-        let left = self.left(&y_ticks, &y_labels);
-        let right = chart.width - EDGE - legend.side_width();
-        let (ticks, right) = self.x_ticks(left, right);
+        let margin = self.margin(&y_ticks, &y_labels);
+        let columns = chart.columns.min(chart.panels.len()) as f64;
+        let outer = chart.width - EDGE - legend.side_width();
+        let column = (outer - EDGE - (columns - 1.0) * COLUMN_GAP) / columns;
+        // From one column to the next.
+        let step = column + COLUMN_GAP;
+        let left = EDGE + margin;
+        let beyond = chart.width - (columns - 1.0) * step;
+        let (ticks, right) = self.x_ticks(left, EDGE + column, beyond);
         let room = right - left;
         if room < LEAST_PANEL.0 {
             return Err(ChartError::NoRoom {
@@ -123,9 +136,9 @@ impl Sketch<'_> {
         let x = self.x_axis(ticks, room);
 
         let mut top = EDGE + title.len() as f64 * TITLE_LINE;
-        let across = Rect {
-            left,
-            right,
+        let across = |index: usize| Rect {
+            left: left + step * (index % chart.columns) as f64,
+            right: right + step * (index % chart.columns) as f64,
             top: 0.0,
             bottom: 0.0,
         };
@@ -133,27 +146,40 @@ impl Sketch<'_> {
             .panels
             .iter()
             .zip(&y_ticks)
-            .map(|(panel, ticks)| self.strip(panel, ticks, &across))
+            .enumerate()
+            .map(|(index, (panel, ticks))| self.strip(panel, ticks, &across(index)))
+            .collect();
+        // The strips of a row are as high as its highest.
+        let strip_heights: Vec<f64> = strips
+            .chunks(chart.columns)
+            .map(|row| row.iter().map(|(_, height)| *height).fold(0.0, f64::max))
             .collect();
         let bottom = x.height() + self.legend_height(&legend, inner) + EDGE;
-        let taken: f64 = strips.iter().map(|(_, height)| height).sum();
-        let gaps = PANEL_GAP * (strips.len() as f64 - 1.0);
-        let free = chart.height - top - bottom - taken - gaps;
-        let height = (free / strips.len() as f64).max(LEAST_PANEL.1);
+        let taken: f64 = strip_heights.iter().sum();
+        let rows = strip_heights.len() as f64;
+        let free = chart.height - top - bottom - taken - PANEL_GAP * (rows - 1.0);
+        let height = (free / rows).max(LEAST_PANEL.1);
 
+        let count = chart.panels.len();
         let mut panels = Vec::new();
         let parts = strips.into_iter().zip(y_ticks).zip(y_labels);
         let axes = self.y.iter().zip(&self.styles);
-        for ((((guides, strip), ticks), label), (scale, styles)) in parts.zip(axes) {
+        for (index, ((((guides, _), ticks), label), (scale, styles))) in parts.zip(axes).enumerate()
+        {
+            let strip = strip_heights[index / chart.columns];
+            let across = across(index);
             let frame = Rect {
-                left,
-                right,
                 top: top + strip,
                 bottom: top + strip + height,
+                ..across
             };
-            top = frame.bottom + PANEL_GAP;
+            if (index + 1) % chart.columns == 0 || index + 1 == count {
+                top = frame.bottom + PANEL_GAP;
+            }
             panels.push(PanelPlan {
                 frame,
+                outer_left: across.left - margin,
+                lowest: index + chart.columns >= count,
                 scale: *scale,
                 ticks,
                 label,
@@ -181,22 +207,22 @@ impl Sketch<'_> {
             .collect()
     }
 
-    /// Left edge of the panels: the widest labels and tick labels stand left
-    /// of it.
-    fn left(&self, ticks: &[Ticks], labels: &[Vec<Label>]) -> f64 {
+    /// Room left of each panel, for the widest labels and tick labels.
+    fn margin(&self, ticks: &[Ticks], labels: &[Vec<Label>]) -> f64 {
         let lines = labels.iter().map(Vec::len).max().unwrap_or(0) as f64;
         let gap = if lines > 0.0 { LABEL_GAP } else { 0.0 };
         let labels = ticks.iter().flat_map(tick_labels);
         let widest = widest(&labels.collect::<Vec<_>>(), self.font, TICK_SIZE);
-        EDGE + lines * LABEL_LINE + gap + widest + TICK + TICK_GAP
+        lines * LABEL_LINE + gap + widest + TICK + TICK_GAP
     }
 
-    /// Ticks of the x axis, as many as fit, and the right edge of the panels,
-    /// moved in where the last label would leave the canvas.
-    fn x_ticks(&self, left: f64, right: f64) -> (Ticks, f64) {
+    /// Ticks of the x axis, as many as fit, and the right edge of the first column,
+    /// moved in where the last label would reach `beyond`: the canvas' edge for
+    /// the last column.
+    fn x_ticks(&self, left: f64, right: f64, beyond: f64) -> (Ticks, f64) {
         let wide = fitting(&self.x, right - left, self.font);
         let half = widest(&tick_labels(&wide), self.font, TICK_SIZE) / 2.0;
-        let right = right.min(self.chart.width - half - 4.0);
+        let right = right.min(beyond - half - 4.0);
         (fitting(&self.x, right - left, self.font), right)
     }
 

@@ -1,3 +1,4 @@
+use crate::cells::Grid;
 use crate::description::{Axis, Chart, Panel, Series};
 use crate::error::ChartError;
 use crate::ticks::rounded_outwards;
@@ -32,7 +33,7 @@ impl Scale {
         if !drawable(self.log, value) {
             return None;
         }
-        Some(self.place(if self.log { value.log10() } else { value }))
+        Some(self.place(coordinate(self.log, value)))
     }
 
     /// Place of a coordinate between the ends.
@@ -54,10 +55,7 @@ impl Scale {
         if !valid || (given && low >= high) {
             return Err(error());
         }
-        let (mut from, mut to) = match axis.log {
-            true => (low.log10(), high.log10()),
-            false => (low, high),
-        };
+        let (mut from, mut to) = (coordinate(axis.log, low), coordinate(axis.log, high));
         if !given {
             let pad = padding(axis.log, from, to, margin);
             (from, to) = (from - pad, to + pad);
@@ -79,6 +77,15 @@ impl Scale {
     }
 }
 
+/// The value at a coordinate.
+fn value(log: bool, coordinate: f64) -> f64 {
+    if log {
+        10.0_f64.powf(coordinate)
+    } else {
+        coordinate
+    }
+}
+
 /// How far an axis reaches beyond the data. Data that are constant, as far as
 /// ticks could tell, stand in the middle of an axis of a tenth of their
 /// magnitude, of -1 to 1, or of one decade.
@@ -95,7 +102,12 @@ fn padding(log: bool, from: f64, to: f64, margin: f64) -> f64 {
     }
 }
 
-/// Whether an axis has such a value.
+/// The coordinate of a value along an axis: itself, or its logarithm to base 10.
+pub(crate) fn coordinate(log: bool, value: f64) -> f64 {
+    if log { value.log10() } else { value }
+}
+
+/// Returns true if an axis has such a value.
 pub(crate) fn drawable(log: bool, value: f64) -> bool {
     value.is_finite() && (!log || value > 0.0)
 }
@@ -114,6 +126,10 @@ pub(crate) fn scales(chart: &Chart) -> Result<(Scale, Vec<Scale>), ChartError> {
             samples(series, chart.x.log, panel.y.log).for_each(|(x, _)| x_extent.add(x));
         }
         panel.verticals.iter().for_each(|(x, _)| x_extent.add(*x));
+        if let Some([(low, high), _]) = Grid::of(panel, chart.x.log).extent() {
+            x_extent.add(value(chart.x.log, low));
+            x_extent.add(value(chart.x.log, high));
+        }
     }
     // Lines may touch the frame; symbols would be cut in half.
     let x_margin = if any_symbols { 0.6 * MARGIN } else { 0.0 };
@@ -139,7 +155,14 @@ fn y_scale(chart: &Chart, panel: &Panel, x: &Scale) -> Result<Scale, ChartError>
     if panel.zero_line {
         extent.add(0.0);
     }
-    Scale::showing(&panel.y, extent.ends(), MARGIN)
+    // Cells fill their panel.
+    let mut margin = MARGIN;
+    if let Some([_, (low, high)]) = Grid::of(panel, chart.x.log).extent() {
+        extent.add(value(panel.y.log, low));
+        extent.add(value(panel.y.log, high));
+        margin = 0.0;
+    }
+    Scale::showing(&panel.y, extent.ends(), margin)
 }
 
 fn check(chart: &Chart, panel: &Panel, index: usize) -> Result<(), ChartError> {
@@ -147,12 +170,14 @@ fn check(chart: &Chart, panel: &Panel, index: usize) -> Result<(), ChartError> {
         return Err(ChartError::Empty { panel: Some(index) });
     }
     for series in &panel.series {
-        if series.x.len() != series.y.len() {
-            return Err(ChartError::LengthMismatch {
-                series: series.label.clone(),
-                x: series.x.len(),
-                y: series.y.len(),
-            });
+        for y in [Some(&series.y), series.low.as_ref()].into_iter().flatten() {
+            if series.x.len() != y.len() {
+                return Err(ChartError::LengthMismatch {
+                    series: series.label.clone(),
+                    x: series.x.len(),
+                    y: y.len(),
+                });
+            }
         }
         if samples(series, chart.x.log, panel.y.log).next().is_none() {
             return Err(ChartError::NothingToDraw {
@@ -178,9 +203,12 @@ fn check(chart: &Chart, panel: &Panel, index: usize) -> Result<(), ChartError> {
     Ok(())
 }
 
-/// The samples that the axes can show.
+/// The samples that the axes can show, both edges of a band.
 fn samples(series: &Series, x_log: bool, y_log: bool) -> impl Iterator<Item = (f64, f64)> {
-    let pairs = series.x.iter().copied().zip(series.y.iter().copied());
+    let low = series.low.iter().flatten();
+    let high = series.x.iter().zip(&series.y);
+    let pairs = high.chain(series.x.iter().zip(low));
+    let pairs = pairs.map(|(x, y)| (*x, *y));
     pairs.filter(move |(x, y)| drawable(x_log, *x) && drawable(y_log, *y))
 }
 

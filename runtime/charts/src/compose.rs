@@ -1,7 +1,9 @@
+use crate::areas;
 use crate::arrange::{
     EDGE, LABEL_GAP, LABEL_LINE, LABEL_SIZE, LEGEND_GAP, PanelPlan, Plan, TICK, TICK_GAP,
     TICK_LINE, TICK_SIZE, TITLE_LINE, TITLE_SIZE,
 };
+use crate::cells::Grid;
 use crate::clip::{self, Rect};
 use crate::decimate;
 use crate::description::{Chart, Panel, Series};
@@ -24,17 +26,23 @@ pub(crate) fn draw(chart: &Chart, plan: &Plan) -> Drawing {
     let mut marks = Vec::new();
     for (panel, place) in chart.panels.iter().zip(&plan.panels) {
         draw_grid(plan, place, &mut marks);
+        let grid = Grid::of(panel, chart.x.log);
+        let all = || panel.series.iter().zip(&place.styles);
+        for (series, style) in all().filter(|(series, _)| series.cells) {
+            areas::cells(series, *style, &grid, plan, place, &mut marks);
+        }
         draw_guides(panel, place, &mut marks);
-        for (series, style) in panel.series.iter().zip(&place.styles) {
+        for (series, style) in all() {
+            areas::band(series, *style, plan, place, &mut marks);
             draw_series(series, *style, plan, place, &mut marks);
         }
         draw_axes(plan, place, &mut marks);
         draw_y_text(place, &mut marks);
+        if place.lowest {
+            draw_x_text(plan, &place.frame, &mut marks);
+        }
     }
     draw_title(plan, &mut marks);
-    if let Some(last) = plan.panels.last() {
-        draw_x_text(plan, &last.frame, &mut marks);
-    }
     draw_legend(plan, &mut marks);
     Drawing {
         width: plan.width,
@@ -197,7 +205,7 @@ fn draw_y_text(place: &PanelPlan, marks: &mut Vec<Mark>) {
     }
     let middle = (frame.top + frame.bottom) / 2.0;
     for (index, line) in place.label.iter().enumerate() {
-        let baseline = EDGE + (index as f64 + 0.75) * LABEL_LINE;
+        let baseline = place.outer_left + (index as f64 + 0.75) * LABEL_LINE;
         marks.push(Mark::Text(Text {
             label: line.clone(),
             at: (baseline, middle),
@@ -279,7 +287,11 @@ fn draw_entry(entry: &Entry, (x, y): Point, marks: &mut Vec<Mark>) {
         color,
         dash,
         symbol,
+        fill,
     } = entry.style;
+    if let Some(fill) = fill {
+        marks.push(areas::sample((x, middle), color, fill));
+    }
     if let Some(dash) = dash {
         marks.push(Mark::Lines {
             lines: vec![vec![(x, middle), (x + legend::SAMPLE, middle)]],

@@ -1,4 +1,4 @@
-/// Whether `digits` times ten to the power `exponent`, with its leading digit
+/// Returns true if `digits` times ten to the power `exponent`, with its leading digit
 /// in the decade `leading`, reads better written out than with a power of ten.
 pub(crate) const fn reads_plain(leading: i32) -> bool {
     -3 <= leading && leading <= 4

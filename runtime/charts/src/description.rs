@@ -5,7 +5,7 @@ use crate::arrange;
 use crate::compose;
 use crate::error::ChartError;
 use crate::font::Font;
-use crate::style::{Color, Dash, Symbol};
+use crate::style::{Color, Dash, Symbol, ramp};
 use crate::{png, svg};
 
 /// Description of a chart: plain data until it is rendered.
@@ -14,6 +14,7 @@ pub struct Chart {
     pub(crate) title: String,
     pub(crate) x: Axis,
     pub(crate) panels: Vec<Panel>,
+    pub(crate) columns: usize,
     pub(crate) width: f64,
     pub(crate) height: f64,
     pub(crate) scale: f64,
@@ -36,12 +37,15 @@ pub struct Panel {
     pub(crate) zero_line: bool,
 }
 
-/// Samples drawn as a line, as symbols, or as both.
+/// Samples drawn as a line, as symbols, as both, as a band or as cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     pub(crate) label: String,
     pub(crate) x: Vec<f64>,
     pub(crate) y: Vec<f64>,
+    /// Lower edge of a band, whose upper edge is `y`.
+    pub(crate) low: Option<Vec<f64>>,
+    pub(crate) cells: bool,
     pub(crate) joined: bool,
     pub(crate) symbols: bool,
     pub(crate) color: Option<Color>,
@@ -83,6 +87,8 @@ impl Series {
             label: label.into(),
             x: x.to_vec(),
             y: y.to_vec(),
+            low: None,
+            cells: false,
             joined: true,
             symbols: false,
             color: None,
@@ -96,6 +102,26 @@ impl Series {
         Self {
             joined: false,
             symbols: true,
+            ..Self::line(label, x, y)
+        }
+    }
+
+    /// The area between `(x[i], low[i])` and `(x[i], high[i])`: an interval of
+    /// confidence, or errors. What is added after it is drawn over it.
+    pub fn band(label: impl Into<String>, x: &[f64], low: &[f64], high: &[f64]) -> Self {
+        Self {
+            joined: false,
+            low: Some(low.to_vec()),
+            ..Self::line(label, x, high)
+        }
+    }
+
+    /// Samples `(x[i], y[i])`, each of which fills its cell: half way to its
+    /// neighbours among all cells of the panel.
+    pub fn cells(label: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
+        Self {
+            joined: false,
+            cells: true,
             ..Self::line(label, x, y)
         }
     }
@@ -153,6 +179,43 @@ impl Panel {
         self.series(Series::points(label, x, y))
     }
 
+    /// Adds [`Series::band`].
+    pub fn band(self, label: impl Into<String>, x: &[f64], low: &[f64], high: &[f64]) -> Self {
+        self.series(Series::band(label, x, low, high))
+    }
+
+    /// Adds a heatmap: [`Series::cells`] at `(x[i], y[i])` whose colour tells
+    /// between which of the ascending `levels` their value lies, dark where it is
+    /// low. Each class is a series of its own, named in the legend; a value that
+    /// is not a number leaves its cell empty.
+    pub fn heatmap(self, x: &[f64], y: &[f64], values: &[f64], levels: &[f64]) -> Self {
+        let classes = levels.len() + 1;
+        let class = |value: f64| levels.partition_point(|level| *level <= value);
+        let samples: Vec<(f64, f64, f64)> = x
+            .iter()
+            .zip(y)
+            .zip(values)
+            .map(|((x, y), value)| (*x, *y, *value))
+            .filter(|(.., value)| !value.is_nan())
+            .collect();
+        let colors = ramp(classes).into_iter().enumerate();
+        colors.fold(self, |panel, (index, color)| {
+            let own = samples.iter().filter(|(.., value)| class(*value) == index);
+            let (x, y): (Vec<f64>, Vec<f64>) = own.map(|&(x, y, _)| (x, y)).unzip();
+            if x.is_empty() {
+                return panel;
+            }
+            let level = |index: usize| levels.get(index).map_or(String::new(), f64::to_string);
+            let label = match index {
+                _ if levels.is_empty() => String::new(),
+                0 => format!("below {}", level(0)),
+                _ if index == classes - 1 => format!("from {}", level(index - 1)),
+                _ => format!("{} to {}", level(index - 1), level(index)),
+            };
+            panel.series(Series::cells(label, &x, &y).color(color))
+        })
+    }
+
     /// Adds a vertical marker line at `x`, its label above the panel. The x
     /// axis extends to it, unless its range is given: then a line outside the
     /// range is left out.
@@ -177,13 +240,21 @@ impl Chart {
             title: title.into(),
             x,
             panels: Vec::new(),
+            columns: 1,
             width: 900.0,
             height: 560.0,
             scale: 2.0,
         }
     }
 
-    /// Adds a panel below those already there.
+    /// Arranges the panels in rows of `columns`, over one x axis each; the legend
+    /// then stands below all of them.
+    pub fn columns(mut self, columns: usize) -> Self {
+        self.columns = columns.max(1);
+        self
+    }
+
+    /// Adds a panel after those already there.
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self

@@ -1,5 +1,5 @@
 use crate::label::Label;
-use crate::style::{Color, Dash, Symbol};
+use crate::style::{Color, Dash, Fill, Symbol};
 
 /// Longest side of a canvas in px, and of a PNG in pixels.
 pub(crate) const LARGEST_SIDE: f64 = 16384.0;
@@ -7,7 +7,7 @@ pub(crate) const LARGEST_SIDE: f64 = 16384.0;
 /// A point of the canvas in px, y down.
 pub(crate) type Point = (f64, f64);
 
-/// What both file formats draw, in this order, on white.
+/// The picture that both file formats draw, in this order, on white.
 #[derive(Debug)]
 pub(crate) struct Drawing {
     pub(crate) width: f64,
@@ -30,6 +30,12 @@ pub(crate) enum Mark {
         at: Vec<Point>,
         radius: f64,
         color: Color,
+    },
+    /// Filled polygons.
+    Areas {
+        polygons: Vec<Vec<Point>>,
+        color: Color,
+        fill: Fill,
     },
     Text(Text),
 }

@@ -1,19 +1,20 @@
 use std::error::Error;
-use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
 /// Why a chart could not be drawn or written.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartError {
     /// The chart has no panel, or the panel of this index has no series.
+    #[error("{}", empty(.panel))]
     Empty {
         /// Index of the empty panel, counted from the top; `None` where the
         /// chart has no panel at all.
         panel: Option<usize>,
     },
     /// A series has different numbers of x and y values.
+    #[error("series `{series}` has {x} x values and {y} y values")]
     LengthMismatch {
         /// Label of the series.
         series: String,
@@ -24,6 +25,10 @@ pub enum ChartError {
     },
     /// No sample of a series can be drawn: there is none, or none is finite
     /// (and positive, where an axis is logarithmic).
+    #[error(
+        "none of the {samples} samples of series `{series}` can be drawn: they must be \
+         finite, and positive on a logarithmic axis"
+    )]
     NothingToDraw {
         /// Label of the series.
         series: String,
@@ -33,6 +38,7 @@ pub enum ChartError {
     /// An axis cannot span this range: a given range is empty, not finite or
     /// not positive on a logarithmic axis, or the span of a linear axis lies
     /// outside 1e-290 to 1e290 or vanishes beside the magnitude of its ends.
+    #[error("axis `{axis}` cannot span {low:e} to {high:e}")]
     Range {
         /// Label of the axis.
         axis: String,
@@ -42,6 +48,7 @@ pub enum ChartError {
         high: f64,
     },
     /// A marker line cannot stand at this value of its axis.
+    #[error("marker line `{label}` cannot stand at {value:e}")]
     MarkerLine {
         /// Label of the marker line, or of its axis where it has none.
         label: String,
@@ -49,6 +56,10 @@ pub enum ChartError {
         value: f64,
     },
     /// Width, height (px) or scale of the output is not usable.
+    #[error(
+        "a chart of {width} x {height} px at scale {scale} cannot be drawn: the least size \
+         is 320 x 200, the PNG's sides may have 16384 pixels"
+    )]
     Size {
         /// Width in px.
         width: f64,
@@ -58,6 +69,9 @@ pub enum ChartError {
         scale: f64,
     },
     /// Axis labels and legend leave no room for the panels.
+    #[error(
+        "labels leave {left:.0} of {width:.0} px for the panels; shorten them or widen the chart"
+    )]
     NoRoom {
         /// Width in px.
         width: f64,
@@ -65,10 +79,13 @@ pub enum ChartError {
         left: f64,
     },
     /// The embedded font cannot be read, which is a defect of this crate.
+    #[error("the embedded font cannot be read")]
     Font,
     /// The PNG encoder failed.
-    Encode(Box<dyn Error + Send + Sync>),
+    #[error("cannot encode the PNG")]
+    Encode(#[source] Box<dyn Error + Send + Sync>),
     /// A file could not be written.
+    #[error("cannot write {}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
@@ -77,55 +94,9 @@ pub enum ChartError {
     },
 }
 
-impl fmt::Display for ChartError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Empty { panel: None } => write!(f, "the chart has no panel"),
-            Self::Empty { panel: Some(panel) } => {
-                write!(f, "panel {panel} of the chart has no series")
-            }
-            Self::LengthMismatch { series, x, y } => {
-                write!(f, "series `{series}` has {x} x values and {y} y values")
-            }
-            Self::NothingToDraw { series, samples } => write!(
-                f,
-                "none of the {samples} samples of series `{series}` can be \
-                 drawn: they must be finite, and positive on a logarithmic axis"
-            ),
-            Self::Range { axis, low, high } => {
-                write!(f, "axis `{axis}` cannot span {low:e} to {high:e}")
-            }
-            Self::MarkerLine { label, value } => {
-                write!(f, "marker line `{label}` cannot stand at {value:e}")
-            }
-            Self::Size {
-                width,
-                height,
-                scale,
-            } => write!(
-                f,
-                "a chart of {width} x {height} px at scale {scale} cannot be \
-                 drawn: the least size is 320 x 200, the PNG's sides may have \
-                 16384 pixels"
-            ),
-            Self::NoRoom { width, left } => write!(
-                f,
-                "labels leave {left:.0} of {width:.0} px for the panels; \
-                 shorten them or widen the chart"
-            ),
-            Self::Font => write!(f, "the embedded font cannot be read"),
-            Self::Encode(_) => write!(f, "cannot encode the PNG"),
-            Self::Io { path, source: _ } => write!(f, "cannot write {}", path.display()),
-        }
-    }
-}
-
-impl Error for ChartError {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        match self {
-            Self::Encode(source) => Some(source.as_ref()),
-            Self::Io { source, .. } => Some(source),
-            _ => None,
-        }
+fn empty(panel: &Option<usize>) -> String {
+    match panel {
+        None => "the chart has no panel".to_owned(),
+        Some(panel) => format!("panel {panel} of the chart has no series"),
     }
 }

@@ -85,7 +85,7 @@ fn is_combining(character: char) -> bool {
     ('\u{300}'..='\u{36f}').contains(&character)
 }
 
-/// What takes outlines, in px with y down.
+/// A receiver of outlines, in px with y down.
 pub(crate) trait Outline {
     fn move_to(&mut self, x: f32, y: f32);
     fn line_to(&mut self, x: f32, y: f32);

@@ -161,7 +161,7 @@ impl Label {
     }
 }
 
-/// What a `_` or `^` acts on, and what follows it.
+/// The text that a `_` or `^` acts on, and the text that follows it.
 fn script(rest: &str) -> Option<(&str, &str)> {
     if let Some(group) = rest.strip_prefix('{') {
         return group.split_once('}');

@@ -1,7 +1,7 @@
 use crate::description::{Chart, Series};
 use crate::font::Font;
 use crate::label::{Label, widest};
-use crate::style::{Dash, Style, automatic};
+use crate::style::{Dash, Fill, Style, automatic};
 
 /// Font size, line height, and sizes of the sample in front of the text, px.
 pub(crate) const SIZE: f64 = 12.5;
@@ -38,8 +38,9 @@ impl Entry {
 }
 
 impl Legend {
-    /// The legend of panels as high as `heights`: at the right if it is narrow
-    /// enough and no panel's entries are higher than the panel, else below.
+    /// The legend of panels as high as `heights`: at the right if the panels are in
+    /// one column, it is narrow enough and no panel's entries are higher than the
+    /// panel, else below.
     pub(crate) fn plan(
         chart: &Chart,
         styles: &[Vec<Style>],
@@ -52,7 +53,7 @@ impl Legend {
             at_right.lists.iter().zip(heights).all(|(list, height)| {
                 list.iter().map(Entry::height).sum::<f64>() <= *height + ROW_GAP
             });
-        if fits && at_right.cell <= WIDEST_SIDE * chart.width {
+        if chart.columns == 1 && fits && at_right.cell <= WIDEST_SIDE * chart.width {
             return at_right;
         }
         let text_width = width - SAMPLE - GAP;
@@ -143,10 +144,15 @@ fn automatic_for<'a>(series: &'a Series, known: &mut Vec<&'a str>) -> Style {
             series.dash.unwrap_or(dash)
         }),
         symbol: series.symbols.then(|| series.symbol.unwrap_or(symbol)),
+        fill: match series {
+            Series { cells: true, .. } => Some(Fill::Crisp),
+            Series { low: Some(_), .. } => Some(Fill::Sheer),
+            _ => None,
+        },
     }
 }
 
-/// Whether a line turns so often that dashes would be lost in it: about once
+/// Returns true if a line turns so often that dashes would be lost in it: about once
 /// in 4 px of a panel of usual width.
 fn is_noisy(series: &Series) -> bool {
     let turns = series.y.windows(3).filter(|y| match y {

@@ -1,7 +1,8 @@
-//! Line charts from one description, as SVG and as PNG.
+//! Charts from one description, as SVG and as PNG.
 //!
-//! A [`Chart`] is a title, a shared x axis and one or more [`Panel`]s stacked
-//! above each other; a panel holds [`Series`], marker lines and a y axis.
+//! A [`Chart`] is a title, a shared x axis and one or more [`Panel`]s, above each
+//! other or in columns; a panel holds [`Series`] (lines, symbols, bands, the cells
+//! of a map), marker lines and a y axis.
 //!
 //! ```no_run
 //! use branched_pendulum_charts::{Axis, Chart, ChartError, Panel};
@@ -49,13 +50,16 @@
 //! gives the same bytes.
 //!
 //! # Why not a plotting library
-//! plotters 0.3 sets no sub- and superscripts, places legends over the data and
-//! draws thick bitmap lines without smoothing, so layout is ours, while paths
-//! are filled by tiny-skia and glyphs read by ttf-parser: 17 small crates in
-//! pure Rust, where an SVG renderer (resvg) needs 50.
+//! kuva, plotive, plotkit and ruviz were tried on work-precision data and plotters
+//! read: none of them sets `θ_d` and `W_K`, keeps errors of 1e-14 on a logarithmic
+//! axis and compiles with this crate's oldest compiler. So layout is ours, while
+//! paths are filled by tiny-skia and glyphs read by ttf-parser. The crate is
+//! finished: for other kinds of charts write tables and draw them elsewhere.
 
+mod areas;
 mod arrange;
 mod axis;
+mod cells;
 mod clip;
 mod compose;
 mod decimal;

@@ -5,7 +5,7 @@ use tiny_skia::{
 use crate::drawing::{Drawing, LARGEST_SIDE, Mark, Point, Text};
 use crate::error::ChartError;
 use crate::font::{Font, Outline};
-use crate::style::{Color, Dash, Symbol};
+use crate::style::{Color, Dash, Fill, Symbol};
 
 const BLACK: Color = Color::rgb(0, 0, 0);
 
@@ -42,6 +42,11 @@ pub(crate) fn encode(drawing: &Drawing, font: &Font, scale: f64) -> Result<Vec<u
                 radius,
                 color,
             } => canvas.symbols(*symbol, at, *radius, *color),
+            Mark::Areas {
+                polygons,
+                color,
+                fill,
+            } => canvas.areas(polygons, *color, *fill),
             Mark::Text(text) => canvas.text(text, font),
         }
     }
@@ -90,6 +95,22 @@ impl Canvas {
         }
         if let Some(path) = path.finish() {
             self.fill(&path, color, self.view);
+        }
+    }
+
+    fn areas(&mut self, polygons: &[Vec<Point>], color: Color, fill: Fill) {
+        let mut path = PathBuilder::new();
+        for polygon in polygons {
+            push_polygon(&mut path, polygon.iter().copied());
+            path.close();
+        }
+        let mut paint = paint(color);
+        let alpha = (255.0 * fill.opacity()).round() as u8;
+        paint.set_color_rgba8(color.red, color.green, color.blue, alpha);
+        paint.anti_alias = fill == Fill::Sheer;
+        if let Some(path) = path.finish() {
+            self.pixmap
+                .fill_path(&path, &paint, FillRule::Winding, self.view, None);
         }
     }
 

@@ -18,6 +18,7 @@ impl Color {
 
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Dash {
     /// Without gaps.
     Solid,
@@ -43,6 +44,7 @@ impl Dash {
 
 /// Shape of the symbol at a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Symbol {
     /// A disc.
     Circle,
@@ -108,13 +110,58 @@ impl Symbol {
     }
 }
 
-/// What distinguishes one series from the others.
+/// The look of a series, by which it is told from the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Style {
     pub(crate) color: Color,
     /// `None` where the samples are not joined.
     pub(crate) dash: Option<Dash>,
     pub(crate) symbol: Option<Symbol>,
+    pub(crate) fill: Option<Fill>,
+}
+
+/// How an area is filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fill {
+    /// So that what lies behind shows through.
+    Sheer,
+    /// Opaque and without smoothed edges, which would show between neighbours.
+    Crisp,
+}
+
+impl Fill {
+    /// Part of the light that it keeps back.
+    pub(crate) const fn opacity(self) -> f64 {
+        match self {
+            Self::Sheer => 0.25,
+            Self::Crisp => 1.0,
+        }
+    }
+}
+
+/// Colours of `count` classes from low to high: from blue over grey to yellow, in
+/// equal steps of lightness for all common forms of colour vision (cividis: J. R.
+/// Nuñez, C. R. Anderton and R. S. Renslow, PLoS ONE 13 (2018) e0199239).
+pub(crate) fn ramp(count: usize) -> Vec<Color> {
+    const STOPS: [(f64, f64, f64); 5] = [
+        (0.0, 34.0, 78.0),
+        (66.0, 78.0, 108.0),
+        (125.0, 124.0, 120.0),
+        (187.0, 173.0, 108.0),
+        (254.0, 232.0, 56.0),
+    ];
+    let mix = |a: f64, b: f64, part: f64| (a + part * (b - a)).round() as u8;
+    let color = |index: usize| {
+        let place = index as f64 / (count.max(2) - 1) as f64 * (STOPS.len() - 1) as f64;
+        let below = (place as usize).min(STOPS.len() - 2);
+        let (part, a, b) = (place - below as f64, STOPS[below], STOPS[below + 1]);
+        Color::rgb(
+            mix(a.0, b.0, part),
+            mix(a.1, b.1, part),
+            mix(a.2, b.2, part),
+        )
+    };
+    (0..count).map(color).collect()
 }
 
 /// The colours of Okabe and Ito, which people with any of the common forms of

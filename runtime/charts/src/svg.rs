@@ -2,7 +2,7 @@ use std::fmt::Write;
 
 use crate::drawing::{Anchor, Drawing, Mark, Point, Text};
 use crate::label::{Label, Level};
-use crate::style::{Color, Dash, Symbol};
+use crate::style::{Color, Dash, Fill, Symbol};
 
 /// DejaVu Sans first, of which the layout knows the widths; those after it are
 /// as wide or narrower. Kerning, which the layout leaves out, stays off.
@@ -32,6 +32,11 @@ pub(crate) fn document(drawing: &Drawing) -> String {
                 radius,
                 color,
             } => push_symbols(&mut out, *symbol, at, *radius, *color),
+            Mark::Areas {
+                polygons,
+                color,
+                fill,
+            } => push_areas(&mut out, polygons, *color, *fill),
             Mark::Text(text) => push_text(&mut out, text),
         }
     }
@@ -52,10 +57,7 @@ fn push_lines(out: &mut String, lines: &[Vec<Point>], color: Color, width: f64, 
     }
     out.push_str("<path d=\"");
     for line in lines {
-        for (index, (x, y)) in line.iter().enumerate() {
-            let command = if index == 0 { "M" } else { " " };
-            put!(out, "{command}{} {}", Px(*x), Px(*y));
-        }
+        push_points(out, line.iter().copied());
     }
     put!(
         out,
@@ -81,15 +83,40 @@ fn push_symbols(out: &mut String, symbol: Symbol, at: &[Point], radius: f64, col
             put!(out, "M{} {}", Px(x - radius), Px(*y));
             put!(out, "a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0z");
         } else {
-            for (index, (dx, dy)) in symbol.corners().iter().enumerate() {
-                let command = if index == 0 { "M" } else { " " };
-                let (x, y) = (x + dx * radius, y + dy * radius);
-                put!(out, "{command}{} {}", Px(x), Px(y));
-            }
+            let corners = symbol.corners().iter();
+            push_points(
+                out,
+                corners.map(|(dx, dy)| (x + dx * radius, y + dy * radius)),
+            );
             out.push('z');
         }
     }
     put!(out, "\" fill=\"{}\"/>\n", Hex(color));
+}
+
+fn push_areas(out: &mut String, polygons: &[Vec<Point>], color: Color, fill: Fill) {
+    if polygons.is_empty() {
+        return;
+    }
+    out.push_str("<path d=\"");
+    for polygon in polygons {
+        push_points(out, polygon.iter().copied());
+        out.push('z');
+    }
+    put!(out, "\" fill=\"{}\"", Hex(color));
+    match fill {
+        Fill::Sheer => {
+            put!(out, " fill-opacity=\"{}\"/>\n", fill.opacity());
+        }
+        Fill::Crisp => out.push_str(" shape-rendering=\"crispEdges\"/>\n"),
+    }
+}
+
+fn push_points(out: &mut String, points: impl Iterator<Item = Point>) {
+    for (index, (x, y)) in points.enumerate() {
+        let command = if index == 0 { "M" } else { " " };
+        put!(out, "{command}{} {}", Px(x), Px(y));
+    }
 }
 
 fn push_text(out: &mut String, text: &Text) {

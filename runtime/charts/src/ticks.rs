@@ -16,7 +16,7 @@ pub(crate) struct Ticks {
     pub(crate) major: Vec<Tick>,
     /// Coordinates of ticks without label.
     pub(crate) minor: Vec<f64>,
-    /// What is common to all labels, as label markup: a power of ten that
+    /// The part common to all labels, as label markup: a power of ten that
     /// multiplies them, and a number to be added after that.
     pub(crate) common: Option<String>,
 }
@@ -145,7 +145,7 @@ fn labels(digits: &[i64], exponent: i32) -> (Vec<String>, Option<String>) {
     (labels.collect(), common)
 }
 
-/// What to subtract so that the labels are short, where ticks lie close to each
+/// The number to subtract so that the labels are short, where ticks lie close to each
 /// other and far from zero: the roundest number between the first and the last.
 fn offset(digits: &[i64], largest: i64) -> i64 {
     let (Some(&first), Some(&last)) = (digits.first(), digits.last()) else {

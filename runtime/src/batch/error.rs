@@ -21,9 +21,16 @@ pub enum BatchError {
         argument: &'static str,
         /// Index of the link.
         link: usize,
-        /// Length of the first slice of angles.
+        /// Length of the first slice of all.
         expected: usize,
         /// Length of this slice.
+        found: usize,
+    },
+    /// There are more or fewer slices than values of the function.
+    Values {
+        /// Number of values.
+        expected: usize,
+        /// Number of slices.
         found: usize,
     },
 }
@@ -46,7 +53,11 @@ impl fmt::Display for BatchError {
                 found,
             } => write!(
                 f,
-                "`{argument}[{link}]` holds {found} states, but `theta[0]` holds {expected}"
+                "`{argument}[{link}]` holds {found} states, but the first slice of all holds {expected}"
+            ),
+            Self::Values { expected, found } => write!(
+                f,
+                "the function has {expected} values, which need one slice each, but there are {found}"
             ),
         }
     }

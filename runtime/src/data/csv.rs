@@ -1,6 +1,7 @@
-//! Writing comma-separated values: one row of numbers a sample.
+//! Writing comma-separated values: one row of numbers and names a sample.
 
 use core::fmt;
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -35,39 +36,91 @@ impl fmt::Display for Column {
     }
 }
 
+/// One cell of a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Cell<'a> {
+    /// A number, written with the fewest digits that read back as the same
+    /// `f64`; `NaN`, `inf` and `-inf` stand for themselves.
+    Number(f64),
+    /// A number of things.
+    Count(u64),
+    /// Text, quoted where it holds commas, quotes or line breaks (RFC 4180).
+    Text(&'a str),
+}
+
+impl From<f64> for Cell<'_> {
+    fn from(value: f64) -> Self {
+        Self::Number(value)
+    }
+}
+
+impl From<&f64> for Cell<'_> {
+    fn from(value: &f64) -> Self {
+        Self::Number(*value)
+    }
+}
+
+impl From<u64> for Cell<'_> {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl<'a> From<&'a str> for Cell<'a> {
+    fn from(text: &'a str) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl fmt::Display for Cell<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            // `Debug` writes very large and small numbers with an exponent,
+            // where `Display` would write hundreds of zeros.
+            Self::Number(value) => write!(f, "{value:?}"),
+            Self::Count(count) => write!(f, "{count}"),
+            Self::Text(text) => f.write_str(&quoted(text)),
+        }
+    }
+}
+
 /// A CSV file being written.
 ///
 /// The first line names the columns with their units, `theta_1 [rad]`; each
-/// further line is a row of numbers, written with the fewest digits that read
-/// back as the same `f64`; `NaN`, `inf` and `-inf` stand for themselves. Lines
-/// end with a line feed. Names that hold commas, quotes or line breaks are
-/// quoted (RFC 4180).
+/// further line is a row of [`Cell`]s. Lines end with a line feed.
 ///
 /// # Examples
 ///
 /// ```
-/// use branched_pendulum::data::{Column, CsvWriter};
+/// use branched_pendulum::data::{Cell, Column, CsvWriter};
+///
+/// let columns = [Column::new("method", ""), Column::new("time", "s"), Column::new("H", "J")];
+/// let mut csv = CsvWriter::new(Vec::new(), "memory", &columns)?;
+/// csv.row([Cell::from("8(5,3)"), 0.0.into(), 0.1.into()])?;
+/// csv.row([Cell::from("Taylor"), 0.5.into(), 1e-9.into()])?;
+/// let text = String::from_utf8(csv.finish()?).unwrap();
+/// assert_eq!(text, "method,time [s],H [J]\n\"8(5,3)\",0.0,0.1\nTaylor,0.5,1e-9\n");
 ///
 /// let path = std::env::temp_dir().join("branched-pendulum-csv-example.csv");
-/// let mut csv = CsvWriter::create(&path, &[Column::new("time", "s"), Column::new("H", "J")])?;
-/// csv.row(&[0.0, 0.1])?;
+/// let mut csv = CsvWriter::create(&path, &columns[1..])?;
 /// csv.row(&[0.5, 1e-9])?;
 /// csv.finish()?;
-/// let text = std::fs::read_to_string(&path).unwrap();
-/// assert_eq!(text, "time [s],H [J]\n0.0,0.1\n0.5,1e-9\n");
 /// # std::fs::remove_file(&path).unwrap();
 /// # Ok::<(), branched_pendulum::data::CsvError>(())
 /// ```
 #[derive(Debug)]
-pub struct CsvWriter {
+pub struct CsvWriter<W: Write = BufWriter<File>> {
     path: PathBuf,
-    file: BufWriter<File>,
+    file: W,
     columns: usize,
     rows: u64,
 }
 
 impl CsvWriter {
-    /// Creates the file, or empties it if it exists, and writes its header.
+    /// Creates the file, or empties it if it exists, and writes its header. A
+    /// writer that is dropped before [`CsvWriter::finish`] writes what it holds
+    /// too, but cannot say if it failed.
     ///
     /// # Errors
     ///
@@ -75,22 +128,32 @@ impl CsvWriter {
     /// created or written.
     pub fn create(path: impl AsRef<Path>, columns: &[Column]) -> Result<Self, CsvError> {
         let path = path.as_ref();
-        if columns.is_empty() {
-            return Err(CsvError::NoColumns {
-                path: path.to_path_buf(),
-            });
-        }
+        require_columns(path, columns)?;
         let file = File::create(path).map_err(|source| CsvError::io(path, "create", source))?;
+        Self::new(BufWriter::new(file), path, columns)
+    }
+}
+
+impl<W: Write> CsvWriter<W> {
+    /// Writes a table to `file`, its header first; `path` stands for it in
+    /// errors.
+    ///
+    /// # Errors
+    ///
+    /// [`CsvError::NoColumns`], or [`CsvError::Io`] if it cannot be written.
+    pub fn new(file: W, path: impl AsRef<Path>, columns: &[Column]) -> Result<Self, CsvError> {
+        let path = path.as_ref();
+        require_columns(path, columns)?;
         let mut writer = Self {
             path: path.to_path_buf(),
-            file: BufWriter::new(file),
+            file,
             columns: columns.len(),
             rows: 0,
         };
-        let header: Vec<String> = columns
+        let header = columns
             .iter()
-            .map(|column| quoted(column.to_string()))
-            .collect();
+            .map(|column| quoted(&column.to_string()).into_owned());
+        let header: Vec<String> = header.collect();
         writer.write(|file| writeln!(file, "{}", header.join(",")))?;
         Ok(writer)
     }
@@ -99,23 +162,25 @@ impl CsvWriter {
     ///
     /// # Errors
     ///
-    /// [`CsvError::ColumnCount`] unless there is one value for each column;
+    /// [`CsvError::ColumnCount`] unless there is one cell for each column;
     /// [`CsvError::Io`] if it cannot be written.
-    pub fn row(&mut self, values: &[f64]) -> Result<(), CsvError> {
-        if values.len() != self.columns {
+    pub fn row<'a, C: Into<Cell<'a>>>(
+        &mut self,
+        cells: impl IntoIterator<Item = C>,
+    ) -> Result<(), CsvError> {
+        let cells: Vec<Cell<'a>> = cells.into_iter().map(Into::into).collect();
+        if cells.len() != self.columns {
             return Err(CsvError::ColumnCount {
                 path: self.path.clone(),
                 row: self.rows,
                 expected: self.columns,
-                found: values.len(),
+                found: cells.len(),
             });
         }
         self.write(|file| {
-            for (column, value) in values.iter().enumerate() {
+            for (column, cell) in cells.iter().enumerate() {
                 let separator = if column == 0 { "" } else { "," };
-                // `Debug` writes very large and small numbers with an exponent,
-                // where `Display` would write hundreds of zeros.
-                write!(file, "{separator}{value:?}")?;
+                write!(file, "{separator}{cell}")?;
             }
             writeln!(file)
         })?;
@@ -128,29 +193,35 @@ impl CsvWriter {
         self.rows
     }
 
-    /// Writes what is still in memory and closes the file. A writer that is
-    /// dropped instead does so too, but cannot say if it failed.
+    /// Writes what is still in memory and returns what was written to.
     ///
     /// # Errors
     ///
     /// [`CsvError::Io`] if that fails.
-    pub fn finish(mut self) -> Result<(), CsvError> {
-        self.write(|file| file.flush())
+    pub fn finish(mut self) -> Result<W, CsvError> {
+        self.write(|file| file.flush())?;
+        Ok(self.file)
     }
 
-    fn write(
-        &mut self,
-        write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-    ) -> Result<(), CsvError> {
+    fn write(&mut self, write: impl FnOnce(&mut W) -> io::Result<()>) -> Result<(), CsvError> {
         write(&mut self.file).map_err(|source| CsvError::io(&self.path, "write", source))
     }
 }
 
-fn quoted(text: String) -> String {
+fn require_columns(path: &Path, columns: &[Column]) -> Result<(), CsvError> {
+    if columns.is_empty() {
+        return Err(CsvError::NoColumns {
+            path: path.to_path_buf(),
+        });
+    }
+    Ok(())
+}
+
+fn quoted(text: &str) -> Cow<'_, str> {
     if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
+        format!("\"{}\"", text.replace('"', "\"\"")).into()
     } else {
-        text
+        text.into()
     }
 }
 
@@ -164,7 +235,7 @@ pub enum CsvError {
         path: PathBuf,
         /// `"create"` or `"write"`.
         action: &'static str,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// A table without columns.

@@ -2,4 +2,4 @@
 
 pub mod csv;
 
-pub use csv::{Column, CsvError, CsvWriter};
+pub use csv::{Cell, Column, CsvError, CsvWriter};

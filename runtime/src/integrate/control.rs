@@ -48,6 +48,12 @@ impl<T: Real> StepControl<T> {
         }
     }
 
+    /// Forgets earlier steps.
+    pub(crate) fn forget(&mut self) {
+        self.previous_error = T::from_f64(SMALLEST_REMEMBERED_ERROR);
+        self.after_rejection = false;
+    }
+
     /// Judges a step by its scaled error: it was `made` long and `planned` to be,
     /// unless it is the `last` one, which the end of the run cuts short.
     #[inline(always)]

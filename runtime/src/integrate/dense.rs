@@ -3,26 +3,25 @@
 use alloc::vec::Vec;
 use core::fmt;
 
+use super::error::FirstNumbers;
+use super::evaluator::NonFinite;
+use super::piece::Piece;
 use super::report::Report;
 use crate::scalar::Real;
 
 /// A step that a method has made.
-pub(crate) trait Interpolant<T> {
-    /// State at the start of the step.
-    fn start(&self) -> &[T];
+pub(crate) trait Made<T> {
+    /// Times at its start and at its end.
+    fn times(&self) -> [T; 2];
 
-    /// State at the end of the step.
-    fn end(&self) -> &[T];
+    /// The step and its polynomial.
+    fn piece(&self) -> Piece<'_, T>;
 
-    /// Prepares [`value`](Self::value); called once, before the first of them.
-    /// Returns the number of evaluations of the right-hand side: none, unless the
-    /// method says otherwise.
-    fn prepare(&mut self) -> Result<u64, DenseError<T>> {
-        Ok(0)
-    }
+    /// Computes what the polynomial needs, if that has not been done.
+    fn prepare(&mut self) -> Result<(), NonFinite<T>>;
 
-    /// Writes the solution at the fraction `fraction` of the step, from 0 to 1.
-    fn value(&self, fraction: T, out: &mut [T]);
+    /// The account of the run.
+    fn report(&self) -> &Report<T>;
 }
 
 /// An accepted step: its two ends, and the solution between them.
@@ -32,57 +31,42 @@ pub(crate) trait Interpolant<T> {
 /// beyond the step itself is spent when the first value is asked for and never
 /// before.
 pub struct DenseStep<'a, T> {
-    interpolant: &'a mut dyn Interpolant<T>,
-    report: &'a mut Report<T>,
-    start_time: T,
-    end_time: T,
-    prepared: bool,
+    made: &'a mut dyn Made<T>,
 }
 
 impl<'a, T: Real> DenseStep<'a, T> {
-    pub(crate) fn new(
-        interpolant: &'a mut dyn Interpolant<T>,
-        report: &'a mut Report<T>,
-        start_time: T,
-        end_time: T,
-    ) -> Self {
-        Self {
-            interpolant,
-            report,
-            start_time,
-            end_time,
-            prepared: false,
-        }
+    pub(crate) fn new(made: &'a mut dyn Made<T>) -> Self {
+        Self { made }
     }
 
     /// Time at which the step starts.
     pub fn start_time(&self) -> T {
-        self.start_time
+        self.made.times()[0]
     }
 
     /// Time at which the step ends; before the start when running backwards.
     pub fn end_time(&self) -> T {
-        self.end_time
+        self.made.times()[1]
     }
 
     /// State at the start of the step.
     pub fn start(&self) -> &[T] {
-        self.interpolant.start()
+        self.made.piece().start
     }
 
     /// State at the end of the step.
     pub fn end(&self) -> &[T] {
-        self.interpolant.end()
+        self.made.piece().end
     }
 
     /// The run's account up to and with this step.
     pub fn report(&self) -> &Report<T> {
-        self.report
+        self.made.report()
     }
 
     /// Returns true if `time` lies within the step, its ends included.
     pub fn contains(&self, time: T) -> bool {
-        let (start, end) = (self.start_time, self.end_time);
+        let [start, end] = self.made.times();
         (start <= time && time <= end) || (end <= time && time <= start)
     }
 
@@ -95,56 +79,102 @@ impl<'a, T: Real> DenseStep<'a, T> {
     /// has not the length of the state, or if the right-hand side is not finite
     /// at one of the additional points that the method needs.
     pub fn eval(&mut self, time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
-        let dimension = self.start().len();
-        if out.len() != dimension {
+        let ends = self.made.times();
+        let piece = self.made.piece();
+        let fraction = piece.fraction(ends, time, out)?;
+        if time == ends[1] {
+            out.copy_from_slice(piece.end);
+        } else if time == ends[0] {
+            out.copy_from_slice(piece.start);
+        } else {
+            self.made.prepare()?;
+            self.made.piece().value(fraction, out);
+        }
+        Ok(())
+    }
+
+    /// Writes the derivative of the solution at `time` to `out`: of the dense output,
+    /// whose order is one less than that of its values.
+    ///
+    /// # Errors
+    ///
+    /// As [`eval`](Self::eval).
+    pub fn derivative(&mut self, time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
+        let ends = self.made.times();
+        self.made.piece().fraction(ends, time, out)?;
+        self.made.prepare()?;
+        self.made.piece().derivative_at(ends, time, out)
+    }
+
+    /// The polynomial of the step.
+    pub(crate) fn polynomial(&mut self) -> Result<Piece<'_, T>, DenseError<T>> {
+        self.made.prepare()?;
+        Ok(self.made.piece())
+    }
+}
+
+impl<T: Real> Piece<'_, T> {
+    /// Writes the solution at `time` in a step between the times `ends`.
+    pub(crate) fn at(&self, ends: [T; 2], time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
+        let fraction = self.fraction(ends, time, out)?;
+        if time == ends[1] {
+            out.copy_from_slice(self.end);
+        } else if time == ends[0] {
+            out.copy_from_slice(self.start);
+        } else {
+            self.value(fraction, out);
+        }
+        Ok(())
+    }
+
+    /// Writes the derivative of the solution at `time` in a step between the times
+    /// `ends`.
+    pub(crate) fn derivative_at(
+        &self,
+        ends: [T; 2],
+        time: T,
+        out: &mut [T],
+    ) -> Result<(), DenseError<T>> {
+        let fraction = self.fraction(ends, time, out)?;
+        self.slope(fraction, out);
+        for rate in out {
+            *rate = *rate / (ends[1] - ends[0]);
+        }
+        Ok(())
+    }
+
+    /// The fraction of a step between the times `ends` at `time`.
+    fn fraction(&self, [start, end]: [T; 2], time: T, out: &[T]) -> Result<T, DenseError<T>> {
+        if out.len() != self.start.len() {
             return Err(DenseError::Length {
-                expected: dimension,
+                expected: self.start.len(),
                 found: out.len(),
             });
         }
-        if !self.contains(time) {
-            return Err(DenseError::OutsideStep {
-                time,
-                start: self.start_time,
-                end: self.end_time,
-            });
+        let inside = (start <= time && time <= end) || (end <= time && time <= start);
+        if !inside {
+            return Err(DenseError::OutsideStep { time, start, end });
         }
-        if time == self.end_time {
-            out.copy_from_slice(self.end());
-            return Ok(());
-        }
-        if time == self.start_time {
-            out.copy_from_slice(self.start());
-            return Ok(());
-        }
-        if !self.prepared {
-            self.report.evaluations += self.interpolant.prepare()?;
-            self.prepared = true;
-        }
-        let fraction = (time - self.start_time) / (self.end_time - self.start_time);
-        self.interpolant.value(fraction, out);
-        Ok(())
+        Ok((time - start) / (end - start))
     }
 }
 
 impl<T: Real> fmt::Debug for DenseStep<'_, T> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            interpolant,
-            report,
-            start_time,
-            end_time,
-            prepared,
-        } = self;
         formatter
             .debug_struct("DenseStep")
-            .field("start_time", start_time)
-            .field("end_time", end_time)
-            .field("start", &interpolant.start())
-            .field("end", &interpolant.end())
-            .field("report", report)
-            .field("prepared", prepared)
+            .field("start_time", &self.start_time())
+            .field("end_time", &self.end_time())
+            .field("start", &self.start())
+            .field("end", &self.end())
+            .field("report", self.report())
             .finish_non_exhaustive()
+    }
+}
+
+impl<T> From<NonFinite<T>> for DenseError<T> {
+    fn from(NonFinite { time, values }: NonFinite<T>) -> Self {
+        Self::NonFinite { time, values }
     }
 }
 
@@ -191,7 +221,8 @@ impl<T: Real> fmt::Display for DenseError<T> {
                 )
             }
             Self::NonFinite { time, values } => {
-                write!(f, "rates are not finite at t = {time}, y = {values:?}")
+                let values = FirstNumbers(values);
+                write!(f, "rates are not finite at t = {time}, y = {values}")
             }
         }
     }

@@ -3,6 +3,8 @@
 mod input;
 
 use alloc::vec::Vec;
+use core::convert::Infallible;
+use core::error::Error;
 use core::fmt;
 
 use super::report::Report;
@@ -142,8 +144,9 @@ impl<T: Real> fmt::Display for IntegrationError<T> {
                 report: _,
             } => write!(
                 f,
-                "state or rates are not finite at t = {time}, y = {values:?}; \
+                "state or rates are not finite at t = {time}, y = {}; \
                  last good state at t = {}",
+                FirstNumbers(values),
                 last.time
             ),
             Self::StepTooSmall {
@@ -201,11 +204,77 @@ impl<T: Real> fmt::Display for IntegrationError<T> {
     }
 }
 
-impl<T: Real> core::error::Error for IntegrationError<T> {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Input(error) => Some(error),
-            _ => None,
+/// The message tells all: that of [`Input`](IntegrationError::Input) is the fault of the
+/// request itself.
+impl<T: Real> Error for IntegrationError<T> {}
+
+/// Why a run ended before its goal whose observer may fail.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RunError<T, E> {
+    /// The integration failed.
+    Integration(IntegrationError<T>),
+    /// The observer failed.
+    Observer {
+        /// Its error.
+        error: E,
+        /// The state that it saw, to continue from.
+        last: State<T>,
+        /// Account of the run so far.
+        report: Report<T>,
+    },
+}
+
+impl<T, E> From<IntegrationError<T>> for RunError<T, E> {
+    fn from(error: IntegrationError<T>) -> Self {
+        Self::Integration(error)
+    }
+}
+
+impl<T> From<RunError<T, Infallible>> for IntegrationError<T> {
+    fn from(error: RunError<T, Infallible>) -> Self {
+        match error {
+            RunError::Integration(error) => error,
+            RunError::Observer { error, .. } => match error {},
         }
+    }
+}
+
+impl<T: Real, E: fmt::Display> fmt::Display for RunError<T, E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Integration(error) => error.fmt(f),
+            Self::Observer { error, .. } => error.fmt(f),
+        }
+    }
+}
+
+/// Its messages are those of the error that it holds.
+impl<T: Real, E: Error> Error for RunError<T, E> {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Integration(error) => error.source(),
+            Self::Observer { error, .. } => error.source(),
+        }
+    }
+}
+
+/// The numbers of a state in a message, of which a tree has a million: the first ones,
+/// and how many there are.
+pub(super) struct FirstNumbers<'a, T>(pub(super) &'a [T]);
+
+/// Numbers that a message shows.
+const SHOWN: usize = 6;
+
+impl<T: Real> fmt::Display for FirstNumbers<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(first) = self.0.get(..SHOWN).filter(|_| self.0.len() > SHOWN + 1) else {
+            return write!(f, "{:?}", self.0);
+        };
+        write!(f, "[")?;
+        for number in first {
+            write!(f, "{number:?}, ")?;
+        }
+        write!(f, "… ({} components)]", self.0.len())
     }
 }

@@ -1,44 +1,31 @@
 //! Evaluations of a right-hand side.
 
+// A sealed trait names the types.
+#![allow(unreachable_pub)]
+
 use alloc::vec::Vec;
 
-use super::error::IntegrationError;
-use super::report::{Report, StopReason};
+use super::report::Report;
 use super::request::all_finite;
 use crate::scalar::Real;
-use crate::system::{Ode, State, Workspace};
+use crate::system::{Ode, Workspace};
 
-/// A system, with the memory that its evaluations need.
-pub(crate) struct Evaluator<'a, T, O: ?Sized> {
-    ode: &'a O,
-    dimension: usize,
-    /// Number of evaluations so far.
-    pub(crate) evaluations: u64,
-    workspace: Workspace<T>,
+/// A system under way: its equations, the memory that they need, and the account of
+/// its run.
+#[derive(Debug)]
+pub struct Evaluator<'r, T, O: ?Sized> {
+    pub(crate) ode: &'r O,
+    pub(crate) dimension: usize,
+    pub(crate) workspace: &'r mut Workspace<T>,
+    pub(crate) report: &'r mut Report<T>,
 }
 
-impl<'a, T: Real, O: Ode<T> + ?Sized> Evaluator<'a, T, O> {
-    /// Evaluates `ode` for states of `dimension` components.
-    pub(crate) fn new(ode: &'a O, dimension: usize) -> Self {
-        Self {
-            ode,
-            dimension,
-            evaluations: 0,
-            workspace: Workspace::new(),
-        }
-    }
-
-    /// Number of components of a state.
-    #[inline(always)]
-    pub(crate) fn dimension(&self) -> usize {
-        self.dimension
-    }
-
+impl<T: Real, O: Ode<T> + ?Sized> Evaluator<'_, T, O> {
     /// Writes the rates of `state`, finite or not.
     #[inline(always)]
     pub(crate) fn write(&mut self, time: T, state: &[T], rates: &mut [T]) {
-        self.evaluations += 1;
-        self.ode.rates_with(&mut self.workspace, time, state, rates);
+        self.report.evaluations += 1;
+        self.ode.rates_with(self.workspace, time, state, rates);
     }
 
     /// Writes the rates of `state`.
@@ -63,7 +50,6 @@ impl<'a, T: Real, O: Ode<T> + ?Sized> Evaluator<'a, T, O> {
 
 /// A place where state or rates are not finite.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(unreachable_pub)]
 pub struct NonFinite<T> {
     /// Time of the evaluation.
     pub(crate) time: T,
@@ -77,19 +63,5 @@ impl<T: Real> NonFinite<T> {
     pub(crate) fn new(time: T, values: &[T]) -> Self {
         let values = values.to_vec();
         Self { time, values }
-    }
-
-    /// The error of a run that ends here; `last` is its last good state.
-    #[cold]
-    pub(crate) fn error(self, last: State<T>, report: Report<T>) -> IntegrationError<T> {
-        IntegrationError::NonFinite {
-            time: self.time,
-            values: self.values,
-            last,
-            report: Report {
-                stop: StopReason::NonFinite,
-                ..report
-            },
-        }
     }
 }

@@ -1,12 +1,19 @@
 //! Zero crossings of functions of time and state.
 
 use alloc::vec::Vec;
+use core::borrow::Borrow;
 use core::fmt;
+use core::ops::ControlFlow;
 
 use super::dense::{DenseError, DenseStep};
+use super::error::{IntegrationError, RunError};
+use super::report::{Solution, StopReason};
+use super::run::Run;
+use super::steps::Steps;
 use crate::scalar::Real;
+use crate::system::Ode;
 
-/// Which zero crossings of a function count, seen along the run: backwards in
+/// The zero crossings of a function that count, seen along the run: backwards in
 /// time for a run that goes backwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crossing {
@@ -81,7 +88,7 @@ pub struct Occurrence<'a, T> {
 }
 
 /// Why a step could not be searched.
-pub(super) enum SearchError<T> {
+enum SearchError<T> {
     /// The step has no value to give.
     Dense(DenseError<T>),
     /// A function is NaN.
@@ -96,14 +103,14 @@ impl<T> From<DenseError<T>> for SearchError<T> {
 
 /// A crossing within the step being searched.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found<T> {
-    pub(super) event: usize,
-    pub(super) time: T,
-    pub(super) rising: bool,
+struct Found<T> {
+    event: usize,
+    time: T,
+    rising: bool,
 }
 
 /// The search along a run.
-pub(super) struct Search<'a, T> {
+struct Search<'a, T> {
     events: &'a [Event<'a, T>],
     /// Last value of each function; zero has no side, so that nothing is
     /// reported where a run starts on a zero.
@@ -111,9 +118,9 @@ pub(super) struct Search<'a, T> {
     /// True once `values` are set.
     begun: bool,
     /// Crossings of the current step, in their order along the run.
-    pub(super) found: Vec<Found<T>>,
+    found: Vec<Found<T>>,
     /// State at the last place looked at.
-    pub(super) state: Vec<T>,
+    state: Vec<T>,
 }
 
 /// A place of a step and the value of a function there.
@@ -124,7 +131,7 @@ struct Place<T> {
 }
 
 impl<'a, T: Real> Search<'a, T> {
-    pub(super) fn new(events: &'a [Event<'a, T>], state: &[T]) -> Self {
+    fn new(events: &'a [Event<'a, T>], state: &[T]) -> Self {
         Self {
             events,
             values: alloc::vec![T::ZERO; events.len()],
@@ -134,8 +141,40 @@ impl<'a, T: Real> Search<'a, T> {
         }
     }
 
+    /// Visits the crossings within `step`. Returns the time of the one at which the run
+    /// is to end, the state there being that of the search, and why: it is asked for, or
+    /// the visitor failed.
+    #[allow(clippy::type_complexity)]
+    fn visit<E>(
+        &mut self,
+        step: &mut DenseStep<'_, T>,
+        visit: &mut impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
+    ) -> Result<Option<(T, Result<(), E>)>, SearchError<T>> {
+        self.step(step)?;
+        for index in 0..self.found.len() {
+            let Found {
+                event,
+                time,
+                rising,
+            } = self.found[index];
+            step.eval(time, &mut self.state)?;
+            let flow = visit(Occurrence {
+                event,
+                time,
+                state: &self.state,
+                rising,
+            });
+            match flow {
+                Ok(ControlFlow::Continue(())) => {}
+                Ok(ControlFlow::Break(())) => return Ok(Some((time, Ok(())))),
+                Err(error) => return Ok(Some((time, Err(error)))),
+            }
+        }
+        Ok(None)
+    }
+
     /// Finds the crossings within `step`, in their order.
-    pub(super) fn step(&mut self, step: &mut DenseStep<'_, T>) -> Result<(), SearchError<T>> {
+    fn step(&mut self, step: &mut DenseStep<'_, T>) -> Result<(), SearchError<T>> {
         self.found.clear();
         let (start, end) = (step.start_time(), step.end_time());
         for index in 0..self.events.len() {
@@ -260,5 +299,41 @@ impl<'a, T: Real> Search<'a, T> {
             }
             bisect = (right.time - left.time).abs() > half * width;
         }
+    }
+}
+
+impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> {
+    /// Goes on to the time `end` and visits the events on the way.
+    pub(super) fn find<E>(
+        mut self,
+        end: T,
+        events: &[Event<'_, T>],
+        mut visit: impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
+    ) -> Result<Solution<T>, RunError<T, E>> {
+        let mut search = Search::new(events, self.state());
+        let goal = self.goal(end);
+        while let Some(mut step) = self.step_to(goal)? {
+            let (time, flow) = match search.visit(&mut step, &mut visit) {
+                Ok(None) => continue,
+                Ok(Some(stop)) => stop,
+                Err(SearchError::Dense(error)) => return Err(self.dense_failure(error).into()),
+                Err(SearchError::Undefined { event, time }) => {
+                    let Solution { state, report } = self.solution(StopReason::NonFinite);
+                    let error = IntegrationError::Event {
+                        event,
+                        time,
+                        last: state,
+                        report,
+                    };
+                    return Err(error.into());
+                }
+            };
+            flow.map_err(|error| self.stopped_at(time, &search.state, error))?;
+            let mut solution = self.solution(StopReason::StoppedByEvent);
+            solution.state.time = time;
+            solution.state.values.copy_from_slice(&search.state);
+            return Ok(solution);
+        }
+        Ok(self.solution(StopReason::EndReached))
     }
 }

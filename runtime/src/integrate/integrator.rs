@@ -1,12 +1,17 @@
 //! The trait that all methods have in common.
 
+use alloc::vec::Vec;
+use core::convert::Infallible;
 use core::ops::ControlFlow;
 
-use super::dense::{DenseError, DenseStep};
-use super::error::IntegrationError;
-use super::events::{Event, Found, Occurrence, Search, SearchError};
-use super::report::{Report, Solution, StopReason};
-use super::request::{check_start, check_times};
+use super::dense::DenseStep;
+use super::error::{InputError, IntegrationError, RunError};
+use super::events::{Event, Occurrence};
+use super::report::{Solution, StopReason};
+use super::run::Run;
+use super::stepper::Stepper;
+use super::steps::Steps;
+use super::trajectory::Trajectory;
 use crate::scalar::Real;
 use crate::system::{Ode, State};
 
@@ -15,6 +20,8 @@ use crate::system::{Ode, State};
 /// The system is a parameter of the trait, not of its functions, so that a
 /// method may ask for more than rates: one that works on Taylor coefficients
 /// serves the systems that offer them.
+///
+/// No other crate can implement it.
 ///
 /// # Examples
 ///
@@ -39,6 +46,32 @@ use crate::system::{Ode, State};
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
+    /// The method at work.
+    #[doc(hidden)]
+    type Steps: Steps<T, O>;
+
+    /// Its memory for a run from `start`, which has been checked.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError`]: the method cannot do what its options ask for.
+    #[doc(hidden)]
+    fn steps(&self, ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>>;
+
+    /// Begins a motion that goes on step by step, or frame by frame, as the caller
+    /// asks: [`Stepper`].
+    ///
+    /// # Errors
+    ///
+    /// [`IntegrationError::Input`].
+    fn start(&self, ode: O, start: &State<T>) -> Result<Stepper<Self, O, T>, IntegrationError<T>>
+    where
+        Self: Sized,
+        O: Sized,
+    {
+        Stepper::new(self, ode, start)
+    }
+
     /// Integrates from `start` to the time `end`, which may lie before it.
     ///
     /// `observer` sees every accepted step and ends the run with
@@ -55,8 +88,38 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         ode: &O,
         start: &State<T>,
         end: T,
-        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>>;
+        mut observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Solution<T>, IntegrationError<T>> {
+        let observer = |step: &mut DenseStep<'_, T>| Ok::<_, Infallible>(observer(step));
+        Ok(self.try_integrate(ode, start, end, observer)?)
+    }
+
+    /// [`integrate`](Self::integrate) with an observer that may fail: that ends the run.
+    ///
+    /// # Errors
+    ///
+    /// As [`integrate`](Self::integrate), and [`RunError::Observer`] with the error of
+    /// the observer and the state at the end of the step that it saw.
+    fn try_integrate<E>(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        end: T,
+        mut observer: impl FnMut(&mut DenseStep<'_, T>) -> Result<ControlFlow<()>, E>,
+    ) -> Result<Solution<T>, RunError<T, E>> {
+        let mut run = Run::new(self, ode, start, &[end])?;
+        let goal = run.goal(end);
+        while let Some(mut step) = run.step_to(goal)? {
+            match observer(&mut step) {
+                Ok(ControlFlow::Continue(())) => {}
+                Ok(ControlFlow::Break(())) => {
+                    return Ok(run.solution(StopReason::StoppedByObserver));
+                }
+                Err(error) => return Err(run.stopped_at(run.time(), run.state(), error)),
+            }
+        }
+        Ok(run.solution(StopReason::EndReached))
+    }
 
     /// Integrates from `start` through the given times, in their order, and
     /// calls `visit` with each time and the state there.
@@ -102,35 +165,110 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         times: &[T],
         mut visit: impl FnMut(T, &[T]),
     ) -> Result<Solution<T>, IntegrationError<T>> {
-        check_start(ode, start)?;
-        check_times(start.time, times)?;
-        let end = times.last().copied().unwrap_or(start.time);
+        let visit = |time, values: &[T]| {
+            visit(time, values);
+            Ok::<_, Infallible>(())
+        };
+        Ok(self.try_sample(ode, start, times, visit)?)
+    }
+
+    /// [`sample`](Self::sample) with a visitor that may fail: that ends the run.
+    ///
+    /// # Errors
+    ///
+    /// As [`sample`](Self::sample), and [`RunError::Observer`] with the error of the
+    /// visitor and the state that it saw.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use branched_pendulum::integrate::RunError;
+    /// use branched_pendulum::prelude::*;
+    /// use branched_pendulum::system::OdeFn;
+    ///
+    /// let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| rates[0] = -y[0]);
+    /// let start = State::new(0.0, vec![1.0]);
+    /// let method = Dop853::new(Options::with_tolerance(1e-10));
+    /// let mut room = 2;
+    /// let write = |_: f64, _: &[f64]| {
+    ///     room -= 1;
+    ///     if room > 0 { Ok(()) } else { Err("the disk is full") }
+    /// };
+    /// let run = method.try_sample(&decay, &start, &[0.0, 0.5, 1.0], write);
+    /// let Err(RunError::Observer { error, last, .. }) = run else {
+    ///     panic!("there is no room for three");
+    /// };
+    /// assert_eq!((error, last.time), ("the disk is full", 0.5));
+    /// ```
+    fn try_sample<E>(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        times: &[T],
+        mut visit: impl FnMut(T, &[T]) -> Result<(), E>,
+    ) -> Result<Solution<T>, RunError<T, E>> {
+        let mut run = Run::new(self, ode, start, times)?;
         let mut pending = times.iter().copied().peekable();
+        while let Some(time) = pending.next_if(|&time| time == start.time) {
+            visit(time, &start.values)
+                .map_err(|error| run.stopped_at(time, &start.values, error))?;
+        }
+        let goal = run.goal(times.last().copied().unwrap_or(start.time));
         let mut values = start.values.clone();
-        let mut failure = None;
-        let outcome = self.integrate(ode, start, end, |step| {
+        while let Some(mut step) = run.step_to(goal)? {
             while let Some(time) = pending.next_if(|&time| step.contains(time)) {
-                match step.eval(time, &mut values) {
-                    Ok(()) => visit(time, &values),
-                    Err(error) => {
-                        failure = Some(error);
-                        return ControlFlow::Break(());
-                    }
+                if let Err(error) = step.eval(time, &mut values) {
+                    return Err(run.dense_failure(error).into());
+                }
+                if let Err(error) = visit(time, &values) {
+                    return Err(run.stopped_at(time, &values, error));
                 }
             }
-            ControlFlow::Continue(())
-        });
-        if !matches!(outcome, Err(IntegrationError::Input(_))) {
-            // Where no step was made, the start has not been seen.
-            while pending.next_if(|&time| time == start.time).is_some() {
-                visit(start.time, &start.values);
+        }
+        Ok(run.solution(StopReason::EndReached))
+    }
+
+    /// The states at the given times, one for each: [`sample`](Self::sample) into a
+    /// vector.
+    ///
+    /// # Errors
+    ///
+    /// As [`sample`](Self::sample).
+    fn sample_to_vec(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        times: &[T],
+    ) -> Result<Vec<State<T>>, IntegrationError<T>> {
+        let mut states = Vec::with_capacity(times.len());
+        self.sample(ode, start, times, |time, values| {
+            states.push(State::new(time, values.to_vec()));
+        })?;
+        Ok(states)
+    }
+
+    /// The motion from `start` to the time `end`, to be asked for its state at any time
+    /// between.
+    ///
+    /// # Errors
+    ///
+    /// As [`integrate`](Self::integrate). To keep what came before an error,
+    /// [`push`](Trajectory::push) the steps in an observer.
+    fn trajectory(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        end: T,
+    ) -> Result<Trajectory<T>, IntegrationError<T>> {
+        let mut run = Run::new(self, ode, start, &[end])?;
+        let mut trajectory = Trajectory::new(start.clone());
+        let goal = run.goal(end);
+        while let Some(mut step) = run.step_to(goal)? {
+            if let Err(error) = trajectory.push(&mut step) {
+                return Err(run.dense_failure(error));
             }
         }
-        let solution = outcome?;
-        match failure {
-            Some(error) => Err(dense_failure(error, solution)),
-            None => Ok(solution),
-        }
+        Ok(trajectory)
     }
 
     /// Integrates from `start` to the time `end` and calls `visit` with every
@@ -185,84 +323,26 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         events: &[Event<'_, T>],
         mut visit: impl FnMut(Occurrence<'_, T>) -> ControlFlow<()>,
     ) -> Result<Solution<T>, IntegrationError<T>> {
-        let mut search = Search::new(events, &start.values);
-        let mut outcome = Ok(None);
-        let mut solution = self.integrate(ode, start, end, |step| {
-            outcome = search_step(&mut search, step, &mut visit);
-            match outcome {
-                Ok(None) => ControlFlow::Continue(()),
-                _ => ControlFlow::Break(()),
-            }
-        })?;
-        match outcome {
-            Ok(None) => Ok(solution),
-            Ok(Some(time)) => {
-                solution.state.time = time;
-                solution.state.values.copy_from_slice(&search.state);
-                solution.report.stop = StopReason::StoppedByEvent;
-                Ok(solution)
-            }
-            Err(SearchError::Dense(error)) => Err(dense_failure(error, solution)),
-            Err(SearchError::Undefined { event, time }) => Err(IntegrationError::Event {
-                event,
-                time,
-                last: solution.state,
-                report: Report {
-                    stop: StopReason::NonFinite,
-                    ..solution.report
-                },
-            }),
-        }
+        let visit = |occurrence: Occurrence<'_, T>| Ok::<_, Infallible>(visit(occurrence));
+        Ok(self.try_integrate_with_events(ode, start, end, events, visit)?)
     }
-}
 
-/// Visits the crossings within `step`; gives the time of the one at which the
-/// run is to end, the state there being that of the search.
-fn search_step<T: Real>(
-    search: &mut Search<'_, T>,
-    step: &mut DenseStep<'_, T>,
-    visit: &mut impl FnMut(Occurrence<'_, T>) -> ControlFlow<()>,
-) -> Result<Option<T>, SearchError<T>> {
-    search.step(step)?;
-    for index in 0..search.found.len() {
-        let Found {
-            event,
-            time,
-            rising,
-        } = search.found[index];
-        step.eval(time, &mut search.state)?;
-        let flow = visit(Occurrence {
-            event,
-            time,
-            state: &search.state,
-            rising,
-        });
-        if flow.is_break() {
-            return Ok(Some(time));
-        }
-    }
-    Ok(None)
-}
-
-/// The end of a run that `solution` describes, whose last step had no value to
-/// give: time and length were right, so the rates were not finite.
-pub(crate) fn dense_failure<T: Real>(
-    error: DenseError<T>,
-    solution: Solution<T>,
-) -> IntegrationError<T> {
-    let (time, values) = match error {
-        DenseError::NonFinite { time, values } => (time, values),
-        DenseError::OutsideStep { .. } | DenseError::Length { .. } => {
-            (solution.state.time, solution.state.values.clone())
-        }
-    };
-    IntegrationError::NonFinite {
-        time,
-        values,
-        last: solution.state,
-        report: Report {
-            stop: StopReason::NonFinite,
-            ..solution.report
-        },
+    /// [`integrate_with_events`](Self::integrate_with_events) with a visitor that may
+    /// fail: that ends the run.
+    ///
+    /// # Errors
+    ///
+    /// As [`integrate_with_events`](Self::integrate_with_events), and
+    /// [`RunError::Observer`] with the error of the visitor and the state at the
+    /// crossing.
+    fn try_integrate_with_events<E>(
+        &self,
+        ode: &O,
+        start: &State<T>,
+        end: T,
+        events: &[Event<'_, T>],
+        visit: impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
+    ) -> Result<Solution<T>, RunError<T, E>> {
+        Run::new(self, ode, start, &[end])?.find(end, events, visit)
     }
 }

@@ -15,6 +15,8 @@
 //!
 //! [`Projected`] holds the state of [`Gauss`] and [`Rk4`] to a first integral.
 //!
+//! [`Method`] is a method by its name, as users of a program write it.
+//!
 //! Every run ends with a [`Report`]; a run that fails ends with an
 //! [`IntegrationError`] that carries the last good state.
 
@@ -28,20 +30,29 @@ mod fixed;
 mod integrator;
 #[cfg(feature = "std")]
 pub(crate) mod lanes;
+mod method;
 mod options;
+mod piece;
 mod report;
 mod request;
+mod run;
+mod stepper;
+mod steps;
 mod sum;
 mod taylor;
+mod trajectory;
 
 pub use dense::{DenseError, DenseStep};
-pub use error::{InputError, Inseparable, IntegrationError};
+pub use error::{InputError, Inseparable, IntegrationError, RunError};
 pub use events::{Crossing, Event, Occurrence};
 pub use explicit::*;
 pub use fixed::{Gauss, GaussOrder, Projected, Rk4, Solver, StoermerVerlet};
 pub use integrator::Integrator;
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;
+pub use method::{AnyIntegrator, Method, UnknownMethod};
 pub use options::{Options, Tolerance};
 pub use report::{Report, Solution, StopReason};
+pub use stepper::Stepper;
 pub use taylor::Taylor;
+pub use trajectory::Trajectory;

@@ -8,6 +8,7 @@ use crate::scalar::Real;
 /// Tolerance of the error of one step: one number for all components, or one
 /// for each.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Tolerance<T> {
     /// One for all components.
     Uniform(T),
@@ -47,6 +48,7 @@ impl<T: Copy> Tolerance<T> {
 /// assert_eq!(options.step_limit, 1_000_000);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Options<T> {
     /// Relative tolerance; zero is allowed where the absolute one is positive.
     pub relative: Tolerance<T>,

@@ -7,6 +7,7 @@ use crate::system::State;
 
 /// Why a run stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum StopReason {
     /// The end of the span was reached.
@@ -44,6 +45,7 @@ impl fmt::Display for StopReason {
 
 /// The account of a run: its steps, its evaluations, and why it stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report<T> {
     /// Steps accepted.
     pub accepted: u64,
@@ -113,6 +115,7 @@ impl<T: Real> fmt::Display for Report<T> {
 
 /// Where a run ended, and its account.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Solution<T> {
     /// The last state: at the end of the span, where the observer stopped, or
     /// at the event that ended the run.

@@ -2,19 +2,17 @@
 
 #[cfg(not(target_arch = "x86_64"))]
 use super::Lanes;
+use super::kind::{ByKind, Compiled};
 use super::lanes::{Lane, Sealed};
-use super::{InstructionSet, Real, Scalar, sincos};
+use super::{Real, Scalar, sincos};
 #[cfg(target_arch = "x86_64")]
 use crate::simd as register;
-use crate::simd::{Kernel, dispatch};
-use crate::simd::{PackKernel, StateKernel, run_f64};
+use crate::simd::{PackKernel, StateKernel, dispatch, run_f32, run_f64};
 
 macro_rules! implement_scalar {
     ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
-     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident $(, $packs:path)?) => {
+     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident, $compiled:ident, $packs:path) => {
         impl Scalar for $float {
-            const PLAIN: bool = true;
-
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
             fn from_f64(value: f64) -> Self {
@@ -40,28 +38,10 @@ macro_rules! implement_scalar {
                 return libm::$sqrt(self);
             }
 
-            #[inline]
-            fn dispatch<K: Kernel<Self>>(kernel: K) -> K::Output {
-                dispatch::run_wide(InstructionSet::widest(), kernel)
-            }
-
             #[inline(always)]
-            fn run_state<K: StateKernel<Self>>(
-                model: &K::Model,
-                time: Self,
-                theta: &[Self],
-                omega: &[Self],
-                out: &mut [Self],
-            ) -> bool {
-                dispatch::run_state::<Self, K>(model, time, theta, omega, out)
+            fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
+                question.of_plain()
             }
-
-            $(
-                #[inline(always)]
-                fn run_packs<K: PackKernel<Self>>(kernel: K) {
-                    $packs(kernel);
-                }
-            )?
         }
 
         impl Lane for $float {
@@ -80,6 +60,27 @@ macro_rules! implement_scalar {
             type Avx512 = register::$avx512;
             #[cfg(not(target_arch = "x86_64"))]
             type Build = Lanes<$float, $lanes>;
+
+            #[inline(always)]
+            fn compiled<C: Compiled>() -> C::Function<Self> {
+                C::$compiled()
+            }
+
+            #[inline(always)]
+            fn run_state<K: StateKernel<Self>>(
+                model: &K::Model,
+                time: Self,
+                theta: &[Self],
+                omega: &[Self],
+                out: &mut [Self],
+            ) -> bool {
+                dispatch::run_state::<Self, K>(model, time, theta, omega, out)
+            }
+
+            #[inline(always)]
+            fn run_packs<K: PackKernel<Self>>(kernel: K) {
+                $packs(kernel);
+            }
         }
 
         impl Real for $float {
@@ -124,6 +125,7 @@ implement_scalar!(
     F64x2,
     F64x4,
     F64x8,
+    of_f64,
     run_f64
 );
 implement_scalar!(
@@ -135,7 +137,9 @@ implement_scalar!(
     8,
     F32x4,
     F32x8,
-    F32x16
+    F32x16,
+    of_f32,
+    run_f32
 );
 
 #[cfg(test)]

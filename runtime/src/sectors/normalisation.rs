@@ -17,14 +17,14 @@ pub enum Normalisation {
     Orthonormal,
 }
 
-/// Kind of the transformed quantity: momenta go the other way than coordinates.
+/// StateKind of the transformed quantity: momenta go the other way than coordinates.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum StateKind {
     Coordinates,
     Momenta,
 }
 
-impl Kind {
+impl StateKind {
     /// Σ weight · absolute times this is the symmetric value.
     fn inward<T: Scalar>(self, norm: f64, normalisation: Normalisation) -> T {
         let one = T::from_f64(1.0);
@@ -63,7 +63,7 @@ fn fits<T: Scalar>(sectors: &'static [Sector], from: usize, to: &mut [T]) -> boo
 
 pub(super) fn inward<T: Scalar>(
     sectors: &'static [Sector],
-    kind: Kind,
+    kind: StateKind,
     normalisation: Normalisation,
     absolute: &[T],
     symmetric: &mut [T],
@@ -84,7 +84,7 @@ pub(super) fn inward<T: Scalar>(
 
 pub(super) fn outward<T: Scalar>(
     sectors: &'static [Sector],
-    kind: Kind,
+    kind: StateKind,
     normalisation: Normalisation,
     symmetric: &[T],
     absolute: &mut [T],
@@ -105,7 +105,7 @@ pub(super) fn outward<T: Scalar>(
 
 pub(super) fn renormalise<T: Scalar>(
     sectors: &'static [Sector],
-    kind: Kind,
+    kind: StateKind,
     [from, to]: [Normalisation; 2],
     values: &mut [T],
 ) {
@@ -114,7 +114,7 @@ pub(super) fn renormalise<T: Scalar>(
     }
     for (value, coordinate) in values.iter_mut().zip(coordinates(sectors)) {
         let root = T::from_f64(coordinate.norm()).sqrt();
-        let grows = (to == Normalisation::Orthonormal) == (kind == Kind::Coordinates);
+        let grows = (to == Normalisation::Orthonormal) == (kind == StateKind::Coordinates);
         *value = if grows { *value * root } else { *value / root };
     }
 }

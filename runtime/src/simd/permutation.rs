@@ -1,4 +1,4 @@
-//! Which word of a register goes where.
+//! Words of a register: where each goes, and which are meant.
 
 /// Where each word of a register comes from for
 /// [`rotate_lanes`](super::Simd::rotate_lanes), for each lane that may be the first;
@@ -21,6 +21,19 @@ pub(super) const fn tiled<const N: usize, const WORDS: usize>() -> [[u32; WORDS]
     while i < N * WORDS {
         let (count, word) = (i / WORDS + 1, i % WORDS);
         table[count - 1][word] = (word % (count * (WORDS / N))) as u32;
+        i += 1;
+    }
+    table
+}
+
+/// All bits of the words in the first lanes, for each count of these, and none of the
+/// others.
+pub(super) const fn first_lanes<const N: usize, const WORDS: usize>() -> [[u32; WORDS]; N] {
+    let mut table = [[0; WORDS]; N];
+    let mut i = 0;
+    while i < N * WORDS {
+        let (count, word) = (i / WORDS, i % WORDS);
+        table[count][word] = if word < count * (WORDS / N) { !0 } else { 0 };
         i += 1;
     }
     table

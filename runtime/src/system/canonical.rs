@@ -1,6 +1,6 @@
 //! Hamiltonian systems in canonical variables.
 
-use super::{LengthMismatch, Ode, State};
+use super::{Cast, CastOde, LengthMismatch, Ode, State};
 use crate::scalar::Scalar;
 
 /// Hamilton's equations, q' = ∂H/∂p, p' = −∂H/∂q + Q, in canonical variables.
@@ -39,6 +39,10 @@ use crate::scalar::Scalar;
 /// assert!(end.state.values[0].abs() <= 1.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no canonical equations in `{T}`",
+    note = "a model has them with `emit(momenta)` in its attribute"
+)]
 pub trait Canonical<T> {
     /// Number of coordinates, and of momenta.
     fn degrees_of_freedom(&self) -> usize;
@@ -51,12 +55,35 @@ pub trait Canonical<T> {
     fn canonical_rates(&self, time: T, q: &[T], p: &[T], q_rates: &mut [T], p_rates: &mut [T]);
 }
 
-/// A [`Canonical`] system as a first-order system: the state is the
-/// coordinates followed by the momenta.
-#[derive(Clone, Copy, Debug)]
-pub struct CanonicalVariables<'a, C>(pub &'a C);
+impl<T, C: Canonical<T>> Canonical<T> for &C {
+    fn degrees_of_freedom(&self) -> usize {
+        (**self).degrees_of_freedom()
+    }
 
-impl<T: Scalar, C: Canonical<T>> Ode<T> for CanonicalVariables<'_, C> {
+    #[inline]
+    fn canonical_rates(&self, time: T, q: &[T], p: &[T], q_rates: &mut [T], p_rates: &mut [T]) {
+        (**self).canonical_rates(time, q, p, q_rates, p_rates);
+    }
+}
+
+/// A [`Canonical`] system as a first-order system: the state is the
+/// coordinates followed by the momenta. Holds the system, or a reference to it.
+#[derive(Clone, Copy, Debug)]
+pub struct CanonicalVariables<C>(pub C);
+
+impl<T: Scalar, S: Scalar, C> CastOde<T, S> for CanonicalVariables<C>
+where
+    C: Cast<T> + Canonical<T>,
+    C::Of<S>: Canonical<S>,
+{
+    type Of = CanonicalVariables<C::Of<S>>;
+
+    fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
+        CanonicalVariables(self.0.cast(convert))
+    }
+}
+
+impl<T: Scalar, C: Canonical<T>> Ode<T> for CanonicalVariables<C> {
     fn dimension(&self) -> usize {
         2 * self.0.degrees_of_freedom()
     }

@@ -4,7 +4,7 @@ use super::{Canonical, Energy};
 use crate::scalar::Scalar;
 
 /// A function of the state that is constant along every motion, with its
-/// gradient: what [`Projected`](crate::integrate::Projected) holds a state to.
+/// gradient. [`Projected`](crate::integrate::Projected) holds states to one.
 ///
 /// A function `(state, gradient) -> value` is one.
 pub trait FirstIntegral<T> {
@@ -50,8 +50,17 @@ impl<T, F: Fn(&[T], &mut [T]) -> T> FirstIntegral<T> for F {
 /// assert!((energy.evaluate(&end.values, &mut [0.0; 4]) - level).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct CanonicalEnergy<'a, P>(pub &'a P);
+
+// Whatever the pendulum is: a reference is copied.
+impl<P> Clone for CanonicalEnergy<'_, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P> Copy for CanonicalEnergy<'_, P> {}
 
 impl<T: Scalar, P: Canonical<T> + Energy<T>> FirstIntegral<T> for CanonicalEnergy<'_, P> {
     fn evaluate(&self, state: &[T], gradient: &mut [T]) -> T {

@@ -1,11 +1,15 @@
 //! Systems that know the Taylor coefficients of their motion.
 
-use super::{AbsoluteAngles, Cast, Ode};
+use super::{AbsoluteAngles, Cast, Ode, Workspace};
 use crate::scalar::Scalar;
 use crate::simd::Quad;
 
-/// A pendulum whose motion is expanded in powers of the time: what emitted code
-/// implements where `emit(taylor)` asks for it.
+/// A pendulum whose motion is expanded in powers of the time. Emitted code
+/// implements it where `emit(taylor)` asks for it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know the Taylor coefficients of its motion",
+    note = "a model knows them with `emit(taylor)` in its attribute"
+)]
 pub trait TaylorPendulum<T: Scalar>: Cast<T> {
     /// Groups of four numbers that an expansion to order `order` works in.
     fn taylor_workspace(order: usize) -> usize;
@@ -45,8 +49,42 @@ pub trait TaylorPendulum<T: Scalar>: Cast<T> {
     );
 }
 
+impl<T: Scalar, P: TaylorPendulum<T>> TaylorPendulum<T> for &P {
+    fn taylor_workspace(order: usize) -> usize {
+        P::taylor_workspace(order)
+    }
+
+    #[inline]
+    fn taylor_coefficients_into(
+        &self,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        coefficients: &mut [T],
+        work: &mut [Quad<T>],
+    ) {
+        (**self).taylor_coefficients_into(time, theta, omega, coefficients, work);
+    }
+
+    #[inline(always)]
+    fn taylor_coefficients_of<S: Scalar>(
+        pendulum: &Self::Of<S>,
+        time: S,
+        theta: &[S],
+        omega: &[S],
+        coefficients: &mut [S],
+        work: &mut [Quad<S>],
+    ) {
+        P::taylor_coefficients_of(pendulum, time, theta, omega, coefficients, work);
+    }
+}
+
 /// A first-order system y' = f(t, y) whose solution is expanded in powers of the
 /// time.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know the Taylor coefficients of its solution",
+    note = "the method `Taylor` takes `AbsoluteAngles(&model)` of a model with `emit(taylor)` in its attribute, or a `TaylorOde` of your own"
+)]
 ///
 /// # Examples
 ///
@@ -88,6 +126,12 @@ pub trait TaylorPendulum<T: Scalar>: Cast<T> {
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 pub trait TaylorOde<T>: Ode<T> {
+    /// Returns false if the coefficients are not known: a run of
+    /// [`Taylor`](crate::integrate::Taylor) is refused then.
+    fn has_series(&self) -> bool {
+        true
+    }
+
     /// Groups of four numbers that an expansion to order `order` works in.
     fn workspace(&self, order: usize) -> usize;
 
@@ -104,6 +148,10 @@ pub trait TaylorOde<T>: Ode<T> {
 }
 
 impl<T, O: TaylorOde<T> + ?Sized> TaylorOde<T> for &O {
+    fn has_series(&self) -> bool {
+        (**self).has_series()
+    }
+
     fn workspace(&self, order: usize) -> usize {
         (**self).workspace(order)
     }
@@ -114,7 +162,7 @@ impl<T, O: TaylorOde<T> + ?Sized> TaylorOde<T> for &O {
     }
 }
 
-impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<'_, P> {
+impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<P> {
     fn workspace(&self, order: usize) -> usize {
         P::taylor_workspace(order)
     }
@@ -128,5 +176,40 @@ impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<'_, P> {
         let (theta, omega) = state.split_at(P::LINKS);
         self.0
             .taylor_coefficients_into(time, theta, omega, coefficients, work);
+    }
+}
+
+/// A system whose Taylor coefficients are not known, where a [`TaylorOde`] is
+/// asked for: for methods that are chosen by name.
+#[derive(Clone, Copy, Debug)]
+pub struct RatesOnly<'a, O: ?Sized>(pub &'a O);
+
+impl<T, O: Ode<T> + ?Sized> Ode<T> for RatesOnly<'_, O> {
+    fn dimension(&self) -> usize {
+        self.0.dimension()
+    }
+
+    #[inline]
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        self.0.rates(time, state, rates);
+    }
+
+    #[inline]
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        self.0.rates_with(workspace, time, state, rates);
+    }
+}
+
+impl<T: Scalar, O: Ode<T> + ?Sized> TaylorOde<T> for RatesOnly<'_, O> {
+    fn has_series(&self) -> bool {
+        false
+    }
+
+    fn workspace(&self, _order: usize) -> usize {
+        0
+    }
+
+    fn taylor(&self, _time: T, _state: &[T], coefficients: &mut [T], _work: &mut [Quad<T>]) {
+        coefficients.fill(T::from_f64(f64::NAN));
     }
 }

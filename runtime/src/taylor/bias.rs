@@ -1,4 +1,4 @@
-//! What else stands in the equation of motion, order by order.
+//! Bias terms of the equation of motion, order by order.
 
 use super::expand::KnownOrder;
 
@@ -12,9 +12,9 @@ pub(super) trait Bias<T, const N: usize> {
 }
 
 /// Those that a function gives.
-pub(super) struct Moving<F>(pub(super) F);
+pub(super) struct MovingBias<F>(pub(super) F);
 
-impl<T, F: FnMut(&KnownOrder<T, N>) -> [T; N], const N: usize> Bias<T, N> for Moving<F> {
+impl<T, F: FnMut(&KnownOrder<T, N>) -> [T; N], const N: usize> Bias<T, N> for MovingBias<F> {
     const MOVES: bool = true;
 
     #[inline(always)]
@@ -24,9 +24,9 @@ impl<T, F: FnMut(&KnownOrder<T, N>) -> [T; N], const N: usize> Bias<T, N> for Mo
 }
 
 /// None: a type of its own, so that nothing of it is left in the loop.
-pub(super) struct Constant;
+pub(super) struct ConstantBias;
 
-impl<T: Copy, const N: usize> Bias<T, N> for Constant {
+impl<T: Copy, const N: usize> Bias<T, N> for ConstantBias {
     const MOVES: bool = false;
 
     #[inline(always)]

@@ -20,7 +20,7 @@
 //! τ = X − q C + T, f = F − g C + n τ, t = −r·f, e = −r × f,
 //! S = τ/J − n·a, Y = K C + q τ/J − (g + q n)·a + Σ e_c.
 //!
-//! What a link hands up without its children, and all that comes after the passes, is
+//! The share of a link alone in what it hands up, and all that comes after the passes, is
 //! computed for several links at once; what goes from link to link is no more than the
 //! sums of what they hand up, and a. A single state waits for that: it is written so that
 //! few operations follow each other.
@@ -28,6 +28,7 @@
 // One index into all arrays at once.
 #![allow(clippy::needless_range_loop)]
 
+use super::eliminated_link::EliminatedLink;
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::linear::LinearSystem;
 use crate::scalar::Scalar;
@@ -40,7 +41,7 @@ pub(super) type Column<T, const Q: usize> = [Quad<T>; Q];
 type Vectors<T, const Q: usize> = [Column<T, Q>; 2];
 
 /// The factors at a start.
-pub(super) struct Elimination<T, const Q: usize> {
+pub(super) struct TaylorElimination<T, const Q: usize> {
     /// 1/J
     inverse_inertia: Column<T, Q>,
     /// K
@@ -61,7 +62,7 @@ pub(super) struct Elimination<T, const Q: usize> {
     of_cosine: Vectors<T, Q>,
 }
 
-impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Elimination<T, Q> {
+impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for TaylorElimination<T, Q> {
     /// Eliminates from the leaves to the root, link by link.
     #[inline(always)]
     fn new<C: Connectivity<N>, W: Pack<T>>(
@@ -80,12 +81,12 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Eliminati
             of_force: [empty; 2],
             of_cosine: [empty; 2],
         };
-        let mut links = [Link::<W::Single>::none(); N];
+        let mut links = [EliminatedLink::<W::Single>::none(); N];
         for i in 0..N {
             let inertia = W::Single::splat(constants.inertias[i]);
             let turn = [start.cosines[i], start.sines[i]].map(W::Single::splat);
             let moment = turned::<T, W::Single>(constants.moments[i], turn, C::LATERAL);
-            links[i] = Link::alone::<T>(inertia, moment);
+            links[i] = EliminatedLink::alone::<T>(inertia, moment);
         }
         for i in (0..N).rev() {
             let mut link = links[i];
@@ -177,7 +178,7 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Eliminati
     }
 }
 
-impl<T: Scalar, const Q: usize> Elimination<T, Q> {
+impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
     /// From the leaves to the root: the sums of what the children of each link hand up,
     /// from what each would hand up without children.
     #[inline(always)]
@@ -255,7 +256,7 @@ impl<T: Scalar, const Q: usize> Elimination<T, Q> {
     }
 }
 
-/// What links hand to their parents, or the sums of what they get.
+/// Numbers that links hand to their parents, or the sums of those that they get.
 struct Handed<T, const Q: usize> {
     /// t
     torque: Column<T, Q>,
@@ -263,101 +264,6 @@ struct Handed<T, const Q: usize> {
     along: Column<T, Q>,
     /// f
     pull: Vectors<T, Q>,
-}
-
-/// A link during the elimination: what it feels of itself and of its children.
-#[derive(Clone, Copy)]
-struct Link<P> {
-    /// J
-    inertia: P,
-    /// K
-    inertia_along: P,
-    /// q
-    product: P,
-    /// b
-    moment: [P; 2],
-    /// g
-    moment_along: [P; 2],
-    /// N_xx, N_xy, N_yy
-    deficit: [P; 3],
-}
-
-impl<P: Copy> Link<P> {
-    #[inline(always)]
-    fn none<T: Scalar>() -> Self
-    where
-        P: Pack<T>,
-    {
-        let zero = P::splat(T::from_f64(0.0));
-        Self::alone(zero, [zero; 2])
-    }
-
-    /// A link without children.
-    #[inline(always)]
-    fn alone<T: Scalar>(inertia: P, [m_x, m_y]: [P; 2]) -> Self
-    where
-        P: Pack<T>,
-    {
-        let zero = P::splat(T::from_f64(0.0));
-        Self {
-            inertia,
-            inertia_along: inertia,
-            product: zero,
-            moment: [m_x, m_y],
-            moment_along: [zero.minus(m_y), m_x],
-            deficit: [zero; 3],
-        }
-    }
-
-    /// Adds b bᵀ/J, where `response` is b/J.
-    #[inline(always)]
-    fn relieve<T: Scalar>(&mut self, [n_x, n_y]: [P; 2])
-    where
-        P: Pack<T>,
-    {
-        let ([b_x, b_y], [xx, xy, yy]) = (self.moment, self.deficit);
-        self.deficit = [
-            xx.plus_product(b_x, n_x),
-            xy.plus_product(b_x, n_y),
-            yy.plus_product(b_y, n_y),
-        ];
-    }
-
-    /// Takes what a child with this N, at this r, does to it.
-    #[inline(always)]
-    fn carry<T: Scalar>(&mut self, [xx, xy, yy]: [P; 3], [r_x, r_y]: [P; 2])
-    where
-        P: Pack<T>,
-    {
-        // N r and N i r.
-        let across = [
-            xx.times(r_x).plus_product(xy, r_y),
-            xy.times(r_x).plus_product(yy, r_y),
-        ];
-        let along = [
-            xy.times(r_x).minus_product(xx, r_y),
-            yy.times(r_x).minus_product(xy, r_y),
-        ];
-        self.inertia = self
-            .inertia
-            .minus_product(r_x, across[0])
-            .minus_product(r_y, across[1]);
-        self.inertia_along = self
-            .inertia_along
-            .minus_product(r_x, along[1])
-            .plus_product(r_y, along[0]);
-        self.product = self
-            .product
-            .plus_product(r_x, across[1])
-            .minus_product(r_y, across[0]);
-        for x in 0..2 {
-            self.moment[x] = self.moment[x].minus(across[x]);
-            self.moment_along[x] = self.moment_along[x].minus(along[x]);
-        }
-        for (sum, own) in self.deficit.iter_mut().zip([xx, xy, yy]) {
-            *sum = sum.plus(own);
-        }
-    }
 }
 
 /// (p + i q) e^(iθ) of a link in this direction.

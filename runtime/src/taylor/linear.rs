@@ -1,4 +1,4 @@
-//! What an order asks of the equations of motion.
+//! The linear system of one order of the equations of motion.
 
 use super::expand::{Connectivity, LinkConstants, Start};
 use crate::simd::Pack;

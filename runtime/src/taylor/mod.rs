@@ -1,4 +1,4 @@
-//! What emitted recurrences of Taylor coefficients are made of.
+//! Parts of emitted recurrences of Taylor coefficients.
 //!
 //! [`expand`] has the recurrences of a tree: emitted code hands it the
 //! constants of its equation of motion. What else moves the tree, functions of
@@ -11,6 +11,7 @@
 
 mod bias;
 mod dense;
+mod eliminated_link;
 mod elimination;
 mod expand;
 mod linear;

@@ -5,6 +5,8 @@ use alloc::vec::Vec;
 
 use super::sum::Sum;
 use crate::scalar::Scalar;
+use crate::scalar::kind::{compiled, compiled_once};
+use crate::system::Workspace;
 
 /// What each link hangs from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,24 +19,17 @@ pub enum Shape {
 }
 
 impl Shape {
-    fn links(self) -> usize {
+    pub(super) fn links(self) -> usize {
         match self {
             Self::Parents(parents) => parents.len(),
-            Self::Generations(copies) => {
-                let mut count = 1;
-                let counts = copies.iter().map(|copies| {
-                    count *= copies;
-                    count
-                });
-                counts.sum()
-            }
+            Self::Generations(copies) => super::links(copies),
         }
     }
 
     /// Goes from the root to the leaves: the link, its parent but for the root,
     /// and the number of its row.
     #[inline(always)]
-    fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
+    pub(super) fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
         match self {
             Self::Parents(parents) => {
                 for (link, &parent) in parents.iter().enumerate() {
@@ -66,22 +61,25 @@ const ROW: usize = 13;
 /// The links of a tree in loops as bodies. Emitted models hold them where there is
 /// a drive or a lateral offset, and energies are asked for.
 ///
-/// All functions take O(links), and allocate some numbers for each link.
+/// All functions take O(links), with memory that the caller keeps: up to four numbers
+/// for each link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bodies<T> {
     shape: Shape,
-    rows: Vec<[T; ROW]>,
+    /// Rows of all links or generations, one after the other.
+    rows: Vec<T>,
 }
 
 impl<T: Scalar> Bodies<T> {
-    /// Bodies with the constants of each link or of each generation, in SI units:
+    /// Bodies with the constants of each link or of each generation, one after the
+    /// other, in SI units:
     ///
     /// half of the mass; first moments m d and m e about the pivot along and across
     /// the link, half of the moment of inertia I + m (d² + e²); the pivot's place ℓ,
     /// w on the parent along and across it; weight m g; g m d and g m e; half of the
     /// stiffness of the torsion spring, its rest angle; friction in the pivot, drag.
     #[must_use]
-    pub fn new(shape: Shape, rows: Vec<[T; ROW]>) -> Self {
+    pub fn new(shape: Shape, rows: Vec<T>) -> Self {
         Self { shape, rows }
     }
 
@@ -90,7 +88,7 @@ impl<T: Scalar> Bodies<T> {
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<S> {
         Bodies {
             shape: self.shape,
-            rows: self.rows.iter().map(|row| row.map(&convert)).collect(),
+            rows: self.rows.iter().map(|&value| convert(value)).collect(),
         }
     }
 
@@ -99,36 +97,30 @@ impl<T: Scalar> Bodies<T> {
     /// with the root's pivot. NaN for slices of another length than there are
     /// links.
     #[must_use]
-    pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
-        let mut sum = Sum::new();
-        let whole = self.moving(theta, omega, |row, [x, y], [turn_x, turn_y], rate| {
-            let &[half_mass, _, _, half_inertia, ..] = row;
-            let own = half_mass * (x * x + y * y) + half_inertia * rate * rate;
-            sum.add(own + (x * turn_x + y * turn_y));
-        });
-        Self::or_nan(whole, sum.total())
+    pub fn kinetic_energy(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> T {
+        compiled::<KineticEnergy, T>()(self, workspace, theta, omega)
     }
 
     /// Linear momentum Σ m (V + **W** ω), kg m/s, to the side in which positive
     /// angles move a link's end, and upwards. NaN for slices of another length than
     /// there are links.
     #[must_use]
-    pub fn momentum(&self, theta: &[T], omega: &[T]) -> [T; 2] {
-        let (mut sum_x, mut sum_y) = (Sum::new(), Sum::new());
-        let whole = self.moving(theta, omega, |row, [x, y], [turn_x, turn_y], _| {
-            let mass = row[0] + row[0];
-            sum_x.add(mass * x + turn_x);
-            sum_y.add(mass * y + turn_y);
-        });
-        [sum_x, sum_y].map(|sum| Self::or_nan(whole, sum.total()))
+    pub fn momentum(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> [T; 2] {
+        compiled::<Momentum, T>()(self, workspace, theta, omega)
     }
 
     /// Power τ ω₀ − **a**·**P**, W, of a torque τ on the root and an acceleration
     /// **a** of its pivot, **P** the momentum: of the inertial forces −m **a** in the
     /// centres of mass. NaN for slices of another length than there are links.
     #[must_use]
-    pub fn drive_power(&self, [x, y, torque]: [T; 3], theta: &[T], omega: &[T]) -> T {
-        let [momentum_x, momentum_y] = self.momentum(theta, omega);
+    pub fn drive_power(
+        &self,
+        workspace: &mut Workspace<T>,
+        [x, y, torque]: [T; 3],
+        theta: &[T],
+        omega: &[T],
+    ) -> T {
+        let [momentum_x, momentum_y] = self.momentum(workspace, theta, omega);
         torque * at(omega, 0) - (x * momentum_x + y * momentum_y)
     }
 
@@ -136,11 +128,53 @@ impl<T: Scalar> Bodies<T> {
     /// of another length than there are links.
     #[must_use]
     pub fn friction_power(&self, omega: &[T]) -> T {
+        compiled::<FrictionPower, T>()(self, omega)
+    }
+
+    /// Potential energy, J, zero where all angles are zero and springs at rest: Σ m g H
+    /// + m g d (1 − cos θ) + m g e sin θ + ½ κ (θ − θ_parent − ρ)², the height of a
+    /// link's pivot H = H_parent + ℓ (1 − cos θ_parent) + w sin θ_parent. NaN for a
+    /// slice of another length than there are links.
+    #[must_use]
+    pub fn potential_energy(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
+        compiled::<PotentialEnergy, T>()(self, workspace, theta)
+    }
+
+    /// Returns a row, if there is one.
+    #[inline(always)]
+    fn row(&self, number: usize) -> Option<&[T; ROW]> {
+        let (rows, _) = self.rows.as_chunks();
+        rows.get(number)
+    }
+
+    fn sum_of_kinetic_energies(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> T {
+        let mut sum = Sum::new();
+        let tell = |row: &[T; ROW], [x, y]: [T; 2], [turn_x, turn_y]: [T; 2], rate| {
+            let &[half_mass, _, _, half_inertia, ..] = row;
+            let own = half_mass * (x * x + y * y) + half_inertia * rate * rate;
+            sum.add(own + (x * turn_x + y * turn_y));
+        };
+        let whole = self.moving(workspace, theta, omega, tell);
+        Self::or_nan(whole, sum.total())
+    }
+
+    fn sum_of_momenta(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> [T; 2] {
+        let (mut sum_x, mut sum_y) = (Sum::new(), Sum::new());
+        let tell = |row: &[T; ROW], [x, y]: [T; 2], [turn_x, turn_y]: [T; 2], _| {
+            let mass = row[0] + row[0];
+            sum_x.add(mass * x + turn_x);
+            sum_y.add(mass * y + turn_y);
+        };
+        let whole = self.moving(workspace, theta, omega, tell);
+        [sum_x, sum_y].map(|sum| Self::or_nan(whole, sum.total()))
+    }
+
+    fn sum_of_friction_powers(&self, omega: &[T]) -> T {
         let mut sum = Sum::new();
         let whole = omega.len() == self.shape.links();
         if whole {
             self.shape.each(|link, parent, row| {
-                if let Some(&[.., friction, drag]) = self.rows.get(row) {
+                if let Some(&[.., friction, drag]) = self.row(row) {
                     let rate = at(omega, link);
                     let relative = match parent {
                         Some(parent) => rate - at(omega, parent),
@@ -153,61 +187,53 @@ impl<T: Scalar> Bodies<T> {
         Self::or_nan(whole, -sum.total())
     }
 
-    /// Potential energy, J, zero where all angles are zero and springs at rest: Σ m g H
-    /// + m g d (1 − cos θ) + m g e sin θ + ½ κ (θ − θ_parent − ρ)², the height of a link's pivot
-    /// H = H_parent + ℓ (1 − cos θ_parent) + w sin θ_parent. NaN for a slice of
-    /// another length than there are links.
-    #[must_use]
-    pub fn potential_energy(&self, theta: &[T]) -> T {
+    fn sum_of_potential_energies(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
         let links = self.shape.links();
         if theta.len() != links {
             return T::from_f64(f64::NAN);
         }
         let (one, zero) = (T::from_f64(1.0), T::from_f64(0.0));
         let mut sum = Sum::new();
-        {
-            let buffer = &mut *alloc::vec![zero; 3 * links];
-            let (heights, buffer) = buffer.split_at_mut(links);
-            let (rises, shifts) = buffer.split_at_mut(links);
-            self.shape.each(|link, parent, row| {
-                let Some(row) = self.rows.get(row) else {
-                    return;
-                };
-                let &[
-                    _,
-                    _,
-                    _,
-                    _,
-                    along,
-                    across,
-                    weight,
-                    gravity,
-                    lateral,
-                    spring,
-                    rest,
-                    ..,
-                ] = row;
-                let angle = at(theta, link);
-                let (height, bend) = match parent {
-                    Some(parent) => {
-                        let rise = along * at(rises, parent);
-                        (
-                            at(heights, parent) + rise + across * at(shifts, parent),
-                            angle - at(theta, parent),
-                        )
-                    }
-                    None => (zero, angle),
-                };
-                let (shift, cosine) = angle.sin_cos();
-                let rise = one - cosine;
-                let own = gravity * rise + lateral * shift;
-                let strain = bend - rest;
-                sum.add(weight * height + own + spring * strain * strain);
-                put(heights, link, height);
-                put(rises, link, rise);
-                put(shifts, link, shift);
-            });
-        }
+        let (heights, others) = workspace.numbers(3 * links).split_at_mut(links);
+        let (rises, shifts) = others.split_at_mut(links);
+        self.shape.each(|link, parent, row| {
+            let Some(row) = self.row(row) else {
+                return;
+            };
+            let &[
+                _,
+                _,
+                _,
+                _,
+                along,
+                across,
+                weight,
+                gravity,
+                lateral,
+                spring,
+                rest,
+                ..,
+            ] = row;
+            let angle = at(theta, link);
+            let (height, joint_angle) = match parent {
+                Some(parent) => {
+                    let rise = along * at(rises, parent);
+                    (
+                        at(heights, parent) + rise + across * at(shifts, parent),
+                        angle - at(theta, parent),
+                    )
+                }
+                None => (zero, angle),
+            };
+            let (shift, cosine) = angle.sin_cos();
+            let rise = one - cosine;
+            let own = gravity * rise + lateral * shift;
+            let strain = joint_angle - rest;
+            sum.add(weight * height + own + spring * strain * strain);
+            put(heights, link, height);
+            put(rises, link, rise);
+            put(shifts, link, shift);
+        });
         sum.total()
     }
 
@@ -216,6 +242,7 @@ impl<T: Scalar> Bodies<T> {
     #[inline(always)]
     fn moving(
         &self,
+        workspace: &mut Workspace<T>,
         theta: &[T],
         omega: &[T],
         mut tell: impl FnMut(&[T; ROW], [T; 2], [T; 2], T),
@@ -225,41 +252,38 @@ impl<T: Scalar> Bodies<T> {
             return false;
         }
         let zero = T::from_f64(0.0);
-        {
-            let buffer = &mut *alloc::vec![zero; 4 * links];
-            // Velocities of pivots, and ω v.
-            let (pivots_x, buffer) = buffer.split_at_mut(links);
-            let (pivots_y, buffer) = buffer.split_at_mut(links);
-            let (turns_x, turns_y) = buffer.split_at_mut(links);
-            self.shape.each(|link, parent, row| {
-                let Some(row) = self.rows.get(row) else {
-                    return;
-                };
-                let &[_, moment, lateral, _, along, across, ..] = row;
-                let [x, y] = match parent {
-                    Some(parent) => {
-                        let (x, y) = (at(turns_x, parent), at(turns_y, parent));
-                        [
-                            at(pivots_x, parent) + (along * x - across * y),
-                            at(pivots_y, parent) + (along * y + across * x),
-                        ]
-                    }
-                    None => [zero, zero],
-                };
-                let (sine, cosine) = at(theta, link).sin_cos();
-                let rate = at(omega, link);
-                let (turn_x, turn_y) = (rate * cosine, rate * sine);
-                let own = [
-                    moment * turn_x - lateral * turn_y,
-                    moment * turn_y + lateral * turn_x,
-                ];
-                tell(row, [x, y], own, rate);
-                put(pivots_x, link, x);
-                put(pivots_y, link, y);
-                put(turns_x, link, turn_x);
-                put(turns_y, link, turn_y);
-            });
-        }
+        // Velocities of pivots, and ω v.
+        let (pivots, slopes) = workspace.numbers(4 * links).split_at_mut(2 * links);
+        let (pivots_x, pivots_y) = pivots.split_at_mut(links);
+        let (slopes_x, slopes_y) = slopes.split_at_mut(links);
+        self.shape.each(|link, parent, row| {
+            let Some(row) = self.row(row) else {
+                return;
+            };
+            let &[_, moment, lateral, _, along, across, ..] = row;
+            let [x, y] = match parent {
+                Some(parent) => {
+                    let (x, y) = (at(slopes_x, parent), at(slopes_y, parent));
+                    [
+                        at(pivots_x, parent) + (along * x - across * y),
+                        at(pivots_y, parent) + (along * y + across * x),
+                    ]
+                }
+                None => [zero, zero],
+            };
+            let (sine, cosine) = at(theta, link).sin_cos();
+            let rate = at(omega, link);
+            let (slope_x, slope_y) = (rate * cosine, rate * sine);
+            let own = [
+                moment * slope_x - lateral * slope_y,
+                moment * slope_y + lateral * slope_x,
+            ];
+            tell(row, [x, y], own, rate);
+            put(pivots_x, link, x);
+            put(pivots_y, link, y);
+            put(slopes_x, link, slope_x);
+            put(slopes_y, link, slope_y);
+        });
         true
     }
 
@@ -269,6 +293,25 @@ impl<T: Scalar> Bodies<T> {
             false => T::from_f64(f64::NAN),
         }
     }
+}
+
+compiled_once! {
+    KineticEnergy<T> = Bodies::sum_of_kinetic_energies:
+        fn(&Bodies<T>, &mut Workspace<T>, &[T], &[T]) -> T
+}
+
+compiled_once! {
+    Momentum<T> = Bodies::sum_of_momenta:
+        fn(&Bodies<T>, &mut Workspace<T>, &[T], &[T]) -> [T; 2]
+}
+
+compiled_once! {
+    FrictionPower<T> = Bodies::sum_of_friction_powers: fn(&Bodies<T>, &[T]) -> T
+}
+
+compiled_once! {
+    PotentialEnergy<T> = Bodies::sum_of_potential_energies:
+        fn(&Bodies<T>, &mut Workspace<T>, &[T]) -> T
 }
 
 /// The number of a link, zero where there is none.

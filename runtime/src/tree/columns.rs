@@ -15,8 +15,9 @@ use crate::simd::Simd;
 #[derive(Debug)]
 pub(super) struct Columns<'a, T, const N: usize> {
     start: *mut T,
-    /// From one column to the next.
+    /// From one column to the next, and from one row to the next.
     stride: usize,
+    row: usize,
     rows: usize,
     slice: PhantomData<&'a mut [T]>,
 }
@@ -38,7 +39,35 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         Self {
             start: slice.as_mut_ptr(),
             stride: length,
+            row: 1,
             rows: length,
+            slice: PhantomData,
+        }
+    }
+
+    /// As `N` columns of rows of `width` numbers, one behind the other, from number
+    /// `first` of each on; none where a row has not so many.
+    #[inline(always)]
+    pub(super) fn of_rows(slice: &'a mut [T], width: usize, first: usize) -> Self {
+        let fit = first + N <= width;
+        Self {
+            start: slice.as_mut_ptr().wrapping_add(first),
+            stride: 1,
+            row: width,
+            rows: if fit { slice.len() / width } else { 0 },
+            slice: PhantomData,
+        }
+    }
+
+    /// `M` other columns of the same rows, from number `first` of each on.
+    #[inline(always)]
+    pub(super) fn beside<const M: usize>(self, first: usize) -> Columns<'a, T, M> {
+        let fit = N + first + M <= self.row;
+        Columns {
+            start: self.start.wrapping_add(N + first),
+            stride: 1,
+            row: self.row,
+            rows: if fit { self.rows } else { 0 },
             slice: PhantomData,
         }
     }
@@ -51,8 +80,7 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
             return None;
         }
         Some(Self {
-            // SAFETY: `at` rows lie behind the start.
-            start: unsafe { self.start.add(at) },
+            start: self.start.wrapping_add(at * self.row),
             rows,
             ..self
         })
@@ -70,7 +98,9 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
 
     #[inline(always)]
     fn has<V: Simd<T>>(self, at: usize) -> bool {
-        V::LANES <= self.rows && at <= self.rows - V::LANES
+        // Of rows, the numbers of several links do not stand side by side.
+        let side_by_side = V::LANES == 1 || self.row == 1;
+        side_by_side && V::LANES <= self.rows && at <= self.rows - V::LANES
     }
 
     /// Writes the vectors at `at` of the first `M` columns; none where they would
@@ -86,12 +116,72 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
             return None;
         }
         // SAFETY: in the slice there are `N` columns, `stride` apart, of which each has
-        // `rows` numbers from `start` on; by `new`, and kept by `window`. `has` has
-        // seen that `LANES` from `at` on are among them. The slice is borrowed mutably
-        // for as long as the views live, which are all in one thread, and no other
-        // reference is there now.
-        unsafe { write(vectors, self.start.add(at), self.stride) };
+        // `rows` numbers from `start` on, `row` apart; by `new` and `of_rows`, and kept by
+        // `window` and `beside`. `has` has seen that `LANES` from `at` on are among them.
+        // The slice is borrowed mutably for as long as the views live, which are all in
+        // one thread, and no other reference is there now.
+        unsafe { write(vectors, self.start.add(at * self.row), self.stride) };
         Some(())
+    }
+}
+
+/// Where the numbers of links stand: number `i` of link `at` is at `at · row +
+/// i · stride`. In columns, links are side by side; in rows, the numbers of a link are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cells<T> {
+    start: *mut T,
+    row: usize,
+    stride: usize,
+}
+
+impl<T: Copy> Cells<T> {
+    /// In columns, so far apart.
+    #[inline(always)]
+    pub(super) fn columns(start: *mut T, stride: usize) -> Self {
+        Self {
+            start,
+            row: 1,
+            stride,
+        }
+    }
+
+    /// In rows of so many numbers.
+    #[inline(always)]
+    pub(super) fn rows(start: *mut T, row: usize) -> Self {
+        Self {
+            start,
+            row,
+            stride: 1,
+        }
+    }
+
+    /// The links from `at` on.
+    #[inline(always)]
+    pub(super) fn from(self, at: usize) -> Self {
+        Self {
+            start: self.start.wrapping_add(at * self.row),
+            ..self
+        }
+    }
+
+    /// Reads numbers of the link `at`, or of as many links as `V` has lanes.
+    ///
+    /// # Safety
+    /// They may be read there.
+    #[inline(always)]
+    pub(super) unsafe fn read<V: Simd<T>, A: Row<V>>(self, at: usize) -> A {
+        // SAFETY: the caller's.
+        unsafe { read(self.from(at).start, self.stride) }
+    }
+
+    /// Writes numbers of the link `at`, or of as many links as `V` has lanes.
+    ///
+    /// # Safety
+    /// They may be written there.
+    #[inline(always)]
+    pub(super) unsafe fn write<V: Simd<T>, A: Row<V>>(self, at: usize, vectors: &A) {
+        // SAFETY: the caller's.
+        unsafe { write(vectors, self.from(at).start, self.stride) }
     }
 }
 
@@ -101,7 +191,7 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
 /// They may be read there.
 // A plain loop: iterators are many lines to compile, with each model.
 #[inline(always)]
-pub(super) unsafe fn read<T, V: Simd<T>, A: Row<V>>(start: *const T, stride: usize) -> A {
+unsafe fn read<T, V: Simd<T>, A: Row<V>>(start: *const T, stride: usize) -> A {
     let mut vectors = A::filled(V::from_f64(0.0));
     let mut i = 0;
     while i < A::LENGTH {
@@ -117,7 +207,7 @@ pub(super) unsafe fn read<T, V: Simd<T>, A: Row<V>>(start: *const T, stride: usi
 /// # Safety
 /// They may be written there.
 #[inline(always)]
-pub(super) unsafe fn write<T, V: Simd<T>, A: Row<V>>(vectors: &A, start: *mut T, stride: usize) {
+unsafe fn write<T, V: Simd<T>, A: Row<V>>(vectors: &A, start: *mut T, stride: usize) {
     let mut i = 0;
     while i < A::LENGTH {
         // SAFETY: the caller's.

@@ -4,7 +4,6 @@
 use core::ops::Range;
 
 use super::block::{Block, WIDEST};
-use super::equations::LinkEquations;
 use super::interface::Interface;
 use super::layout;
 use super::memory::{LINE, Room, line, odd_lines, take};
@@ -13,36 +12,25 @@ use super::partition::Partition;
 use super::root::RootDrive;
 use super::shared::Shared;
 use super::skeleton::Skeleton;
-use super::sweep::{self, Sweep, View};
+use super::sweep::{Sweep, View, Way};
 use crate::scalar::Scalar;
+use crate::simd::dispatch::in_widest;
 use crate::system::Workspace;
 
-/// The ways through a block, compiled for one set of equations.
-pub(super) struct Kernels<T: 'static> {
-    pub(super) up: fn(&View<'_, T, T>),
-    pub(super) down: fn(&View<'_, T, T>, Shared<'_, T>),
-}
-
-impl<T: Scalar> Kernels<T> {
-    pub(super) const fn of<E: LinkEquations>() -> Self {
-        Self {
-            up: sweep::up::<E, T>,
-            down: sweep::down::<E, T>,
-        }
-    }
-}
+/// The equations of one tree, taken through a block: compiled with every model.
+pub(super) type SweepFn<T> = fn(&View<'_, T, T>, Way<'_, T>);
 
 /// One evaluation.
 struct Evaluation<'a, T: 'static> {
     tree: &'a Skeleton<T>,
-    kernels: &'a Kernels<T>,
+    sweep: SweepFn<T>,
     drive: Option<RootDrive<T>>,
     theta: &'a [T],
     omega: &'a [T],
 }
 
 impl<T: Scalar> Evaluation<'_, T> {
-    fn sweep<'a>(
+    fn block<'a>(
         &'a self,
         block: Block<'a>,
         room: &Room,
@@ -52,7 +40,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             block,
             constants: &self.tree.constants,
             omega: self.omega,
-            storage: room.storage(lasting, passing),
+            storage: room.storage(lasting, passing, false),
             root: None,
             torque: None,
         }
@@ -70,7 +58,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             below.load_responses(sweep);
         }
         let ends = sweep.block.ends;
-        T::dispatch(Motions {
+        in_widest::<T, _>(Motions {
             sweep: &mut *sweep,
             theta: self.theta,
             omega: self.omega,
@@ -100,7 +88,11 @@ impl<T: Scalar> Evaluation<'_, T> {
     ) {
         self.prepare(sweep, below, alpha);
         if let Some(view) = sweep.view() {
-            (self.kernels.up)(&view);
+            let way = Way {
+                up: true,
+                down: None,
+            };
+            (self.sweep)(&view, way);
         }
     }
 
@@ -112,11 +104,31 @@ impl<T: Scalar> Evaluation<'_, T> {
         alpha: Shared<'_, T>,
     ) {
         let (start, reach) = (sweep.block.start, sweep.block.strips.reach());
-        if let (Some(view), Some(alpha)) = (sweep.view(), alpha.window(start, reach.whole)) {
-            (self.kernels.down)(&view, alpha);
+        let down = alpha.window(start, reach.whole);
+        if let (Some(view), true) = (sweep.view(), down.is_some()) {
+            (self.sweep)(&view, Way { up: false, down });
         }
         if let Some(below) = below {
             below.store_pivots(sweep);
+        }
+    }
+
+    /// Up and down again: the whole tree, or what is above all partitions, of which the
+    /// last one starts with the generation `below`.
+    fn top(&self, below: Option<Interface<'_, T>>, buffer: &mut [T], alpha: Shared<'_, T>) {
+        let Skeleton { plan, layout, .. } = self.tree;
+        let mut buffer = buffer;
+        let lasting = take(&mut buffer, layout.top.lasting());
+        let mut sweep = self.block(plan.top(), &layout.top, [lasting, buffer]);
+        sweep.torque = self.drive.map(|drive| drive.torque);
+        sweep.root = Some(RootDrive::above(self.tree.root, self.drive));
+        self.prepare(&mut sweep, below, alpha);
+        let down = alpha.window(0, sweep.block.strips.reach().whole);
+        if let (Some(view), true) = (sweep.view(), down.is_some()) {
+            (self.sweep)(&view, Way { up: true, down });
+        }
+        if let Some(below) = below {
+            below.store_pivots(&mut sweep);
         }
     }
 
@@ -140,20 +152,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             plan.partitions.get(partitions),
             layout.blocks.get(partitions),
         ) else {
-            let lasting = take(&mut buffer, layout.top.lasting());
-            let mut sweep = self.sweep(plan.top(), &layout.top, [lasting, buffer]);
-            sweep.torque = self.drive.map(|drive| drive.torque);
-            sweep.root = Some(RootDrive::above(self.tree.root, self.drive));
-            self.prepare(&mut sweep, below, alpha);
-            let reach = sweep.block.strips.reach();
-            if let (Some(view), Some(alpha)) = (sweep.view(), alpha.window(0, reach.whole)) {
-                (self.kernels.up)(&view);
-                (self.kernels.down)(&view, alpha);
-            }
-            if let Some(below) = below {
-                below.store_pivots(&mut sweep);
-            }
-            return;
+            return self.top(below, buffer, alpha);
         };
         let threads = self.tree.threads();
         let interface = Interface::<T>::room(partition.count, *sizes);
@@ -185,7 +184,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             ..
         } = blocks.level;
         for block in partition.windows(&blocks.links) {
-            let mut sweep = self.block(block, &mut blocks);
+            let mut sweep = self.next_block(block, &mut blocks);
             self.up(&mut sweep, below, alpha);
             start.store_responses(&mut sweep);
         }
@@ -203,7 +202,7 @@ impl<T: Scalar> Evaluation<'_, T> {
         } = blocks.level;
         for mut block in partition.windows(&blocks.links) {
             block.ends = true;
-            let mut sweep = self.block(block, &mut blocks);
+            let mut sweep = self.next_block(block, &mut blocks);
             if !partition.keeps {
                 self.up(&mut sweep, below, alpha);
             }
@@ -212,7 +211,11 @@ impl<T: Scalar> Evaluation<'_, T> {
         }
     }
 
-    fn block<'a>(&'a self, block: Block<'a>, blocks: &'a mut Blocks<'_, T>) -> Sweep<'a, T, T> {
+    fn next_block<'a>(
+        &'a self,
+        block: Block<'a>,
+        blocks: &'a mut Blocks<'_, T>,
+    ) -> Sweep<'a, T, T> {
         let Level {
             partition, room, ..
         } = blocks.level;
@@ -220,7 +223,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             true => take(&mut blocks.lasting, room.lasting()),
             false => &mut *blocks.lasting,
         };
-        self.sweep(block, room, [lasting, &mut *blocks.passing])
+        self.block(block, room, [lasting, &mut *blocks.passing])
     }
 }
 
@@ -277,9 +280,9 @@ struct Blocks<'a, T> {
 
 /// Writes the accelerations of one state to `alpha`: NaN for slices of another length
 /// than there are links.
-pub(super) fn accelerations<T: Scalar>(
+pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
     tree: &Skeleton<T>,
-    kernels: &Kernels<T>,
+    sweep: SweepFn<T>,
     drive: Option<RootDrive<T>>,
     [theta, omega]: [&[T]; 2],
     alpha: &mut [T],
@@ -297,12 +300,16 @@ pub(super) fn accelerations<T: Scalar>(
     if order.is_empty() {
         let evaluation = Evaluation {
             tree,
-            kernels,
+            sweep,
             drive,
             theta,
             omega,
         };
-        evaluation.solve(0, None, buffer, Shared::new(alpha));
+        // Blocks come with threads, which small trees do without.
+        match BLOCKS {
+            true => evaluation.solve(0, None, buffer, Shared::new(alpha)),
+            false => evaluation.top(None, buffer, Shared::new(alpha)),
+        }
         return;
     }
     // Links of any shape stand in the order of the strips.
@@ -316,12 +323,12 @@ pub(super) fn accelerations<T: Scalar>(
     }
     let evaluation = Evaluation {
         tree,
-        kernels,
+        sweep,
         drive,
         theta: own_theta.get(..links).unwrap_or_default(),
         omega: own_omega,
     };
-    evaluation.solve(0, None, buffer, Shared::new(own_alpha));
+    evaluation.top(None, buffer, Shared::new(own_alpha));
     for (&acceleration, &link) in own_alpha.iter().zip(order) {
         if let Some(place) = alpha.get_mut(link as usize) {
             *place = acceleration;

@@ -47,7 +47,9 @@ impl Heights {
         }
         let (mut order, mut lengths) = (Vec::with_capacity(links), Vec::new());
         while let Some(mut strip) = strips.pop() {
-            strip.sort_by(|&one: &usize, &other: &usize| kinds[one].cmp(&kinds[other]));
+            // Those with more children first: of parents side by side, all with another
+            // child are the first ones then.
+            strip.sort_by(|&one: &usize, &other: &usize| kinds[other].cmp(&kinds[one]));
             let most = strip.iter().map(|&link| children[link].len()).max();
             for number in 0..most.unwrap_or(0) {
                 for &link in &strip {

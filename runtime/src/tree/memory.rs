@@ -43,6 +43,12 @@ impl Sizes {
             by_link,
         }
     }
+
+    /// Numbers of a link's motion: sine, cosine, velocity, and joint angle and rate.
+    #[inline(always)]
+    pub(super) const fn motion(&self) -> usize {
+        if self.joints { 5 } else { 3 }
+    }
 }
 
 /// Columns start where cache lines do: a vector that crosses from one into the
@@ -106,11 +112,14 @@ impl Room {
         (self.sizes.responses + self.sizes.sums) * self.slots
     }
 
-    /// The fronts of two buffers as memory for a block.
+    /// The fronts of two buffers as memory for a block: in rows of the links, or in
+    /// columns.
+    #[inline(always)]
     pub(super) fn storage<'a, T: Copy>(
         &self,
         mut lasting: &'a mut [T],
         mut passing: &'a mut [T],
+        in_rows: bool,
     ) -> Storage<'a, T> {
         let lasting = &mut lasting;
         let &Self {
@@ -120,17 +129,29 @@ impl Room {
             slots,
             given,
         } = self;
-        Storage {
-            sizes,
-            sincos: Columns::new(take(lasting, 2 * links), links),
-            velocities: match given {
+        let (sincos, velocities, joint_motions);
+        if in_rows {
+            let width = sizes.motion();
+            sincos = Columns::of_rows(take(lasting, width * links), width, 0);
+            velocities = Some(sincos.beside(0));
+            joint_motions = sincos.beside(1);
+        } else {
+            sincos = Columns::new(take(lasting, 2 * links), links);
+            velocities = match given {
                 true => None,
                 false => Some(Columns::new(take(lasting, links), links)),
-            },
-            joint_motions: match sizes.joints {
+            };
+            joint_motions = match sizes.joints {
                 true => Columns::new(take(lasting, 2 * links), links),
                 false => Columns::new(&mut [], 0),
-            },
+            };
+        }
+        Storage {
+            sizes,
+            in_rows,
+            sincos,
+            velocities,
+            joint_motions,
             lead,
             responses: take(&mut passing, sizes.responses * slots),
             sums: take(&mut passing, sizes.sums * slots),
@@ -144,6 +165,8 @@ impl Room {
 #[derive(Debug)]
 pub(super) struct Storage<'a, T> {
     pub(super) sizes: Sizes,
+    /// The numbers of a link stand side by side, and not those of neighbours.
+    pub(super) in_rows: bool,
     /// Sine and cosine of each link's angle, from row `lead` on.
     pub(super) sincos: Columns<'a, T, 2>,
     /// Likewise angular velocities; none where they are read where they are given.
@@ -164,6 +187,16 @@ pub(super) struct Storage<'a, T> {
 }
 
 impl<T> Storage<'_, T> {
+    /// The first `count` responses of a link, of numbers in rows; none where there are
+    /// fewer.
+    #[inline(always)]
+    pub(super) fn row_of_responses(&mut self, at: usize, count: usize) -> &mut [T] {
+        let start = at * self.sizes.responses;
+        self.responses
+            .get_mut(start..start + count)
+            .unwrap_or_default()
+    }
+
     /// `length` numbers of a column of responses; none where there are fewer.
     pub(super) fn responses_mut(&mut self, column: usize, at: usize, length: usize) -> &mut [T] {
         let start = column * self.slots + at;

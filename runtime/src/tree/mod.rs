@@ -41,6 +41,7 @@ mod motion;
 mod partition;
 mod plan;
 mod prefetch;
+mod properties;
 mod root;
 mod shared;
 mod skeleton;
@@ -57,14 +58,16 @@ use core::num::NonZeroUsize;
 pub use crate::system::LinkName;
 pub use bodies::{Bodies, Shape};
 pub use equations::{LinkEquations, LinkMotion, Row};
+pub use properties::PropertyTable;
 pub use root::RootDrive;
 
+use crate::scalar::kind::{compiled, compiled_once};
 use crate::scalar::{Register, Scalar};
 use crate::simd::wide_slice;
 use crate::system::{InRegisters, Workspace};
-use evaluate::Kernels;
 use memory::Sizes;
-use skeleton::Skeleton;
+use partition::Policy;
+use skeleton::{ByGeneration, ByLink, InBlocks, InOnePiece, Skeleton};
 
 /// Trees of at least so many links are computed on all cores, unless
 /// [`Tree::set_threads`] says otherwise: below, threads cost more than they save.
@@ -79,14 +82,21 @@ pub struct Tree<E, T> {
 }
 
 impl<E: LinkEquations, T: Scalar> Tree<E, T> {
-    /// A tree by generations, with a row of constants for each, and the acceleration
-    /// of the root's pivot against gravity, in the unit of the equations.
+    /// The tree is so large that it may be computed in blocks.
+    const IN_BLOCKS: bool = links(E::COPIES) > Policy::ONE_STATE.whole;
+
+    /// A tree by generations, with a row of constants for each, one after the other,
+    /// and the acceleration of the root's pivot against gravity, in the unit of the
+    /// equations.
     #[must_use]
-    pub fn new(rows: Vec<E::Constants<T>>, root: [T; 2]) -> Self {
-        let sizes = Sizes::of::<E, T>();
-        let constants = numbers(&rows);
+    pub fn new(rows: Vec<T>, root: [T; 2]) -> Self {
+        let skeleton = compiled::<ByGeneration, T>();
+        let threads = match Self::IN_BLOCKS {
+            true => threads::default(links(E::COPIES)),
+            false => 1,
+        };
         Self {
-            skeleton: Skeleton::by_generation(E::COPIES, sizes, constants, root),
+            skeleton: skeleton(E::COPIES, Sizes::of::<E, T>(), rows, root, threads),
             equations: PhantomData,
         }
     }
@@ -94,10 +104,10 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     /// A tree of any shape, with the parent of each link, which stands before it (the
     /// root's own is 0), and a row of constants for each.
     #[must_use]
-    pub fn with_parents(parents: &[u32], rows: Vec<E::Constants<T>>, root: [T; 2]) -> Self {
-        let sizes = Sizes::of::<E, T>();
+    pub fn with_parents(parents: &[u32], rows: &[T], root: [T; 2]) -> Self {
+        let skeleton = compiled::<ByLink, T>();
         Self {
-            skeleton: Skeleton::by_link(parents, sizes, &numbers(&rows), root),
+            skeleton: skeleton(parents, Sizes::of::<E, T>(), rows, root),
             equations: PhantomData,
         }
     }
@@ -119,11 +129,13 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         omega: &[T],
         alpha: &mut [T],
     ) {
-        let accelerate = skeleton::accelerate::<T>();
-        let kernels = Kernels::of::<E>();
+        let accelerate = match Self::IN_BLOCKS {
+            true => compiled::<InBlocks, T>(),
+            false => compiled::<InOnePiece, T>(),
+        };
         accelerate(
             &self.skeleton,
-            &kernels,
+            sweep::sweep::<E, T>,
             drive,
             [theta, omega],
             alpha,
@@ -266,6 +278,17 @@ impl<E: LinkEquations, T> Tree<E, T> {
     }
 }
 
+/// Returns the number of links of a tree by generations.
+const fn links(copies: &[usize]) -> usize {
+    let (mut links, mut count, mut generation) = (0, 1, 0);
+    while generation < copies.len() {
+        count *= copies[generation];
+        links += count;
+        generation += 1;
+    }
+    links
+}
+
 /// Returns the generation of a link, and its number there.
 fn place(copies: &[usize], index: usize) -> Option<(usize, usize)> {
     let (mut count, mut rest) = (1, index);
@@ -279,19 +302,21 @@ fn place(copies: &[usize], index: usize) -> Option<(usize, usize)> {
     None
 }
 
-/// Returns rows one after the other.
-fn numbers<T: Copy, A: Row<T>>(rows: &[A]) -> Vec<T> {
-    rows.iter()
-        .flat_map(|row| row.as_ref().iter().copied())
-        .collect()
+/// Returns numbers in a model's scalar. Each is given as the `f64` nearest to it and
+/// the `f64` nearest to the rest.
+#[must_use]
+pub fn numbers<T: Scalar>(exact: &[[f64; 2]]) -> Vec<T> {
+    compiled::<Numbers, T>()(exact)
 }
 
-/// Returns rows of constants in a model's scalar. Each number is given as the `f64`
-/// nearest to it and the `f64` nearest to the rest.
-#[must_use]
-pub fn rows<T: Scalar, const N: usize>(exact: &[[[f64; 2]; N]]) -> Vec<[T; N]> {
-    let row = |row: &[[f64; 2]; N]| row.map(|[high, low]| T::from_parts(high, low));
-    exact.iter().map(row).collect()
+fn rounded<T: Scalar>(exact: &[[f64; 2]]) -> Vec<T> {
+    let number = |&[high, low]: &[f64; 2]| T::from_parts(high, low);
+    exact.iter().map(number).collect()
+}
+
+compiled_once! {
+    /// [`rounded`].
+    Numbers<T> = rounded: fn(&[[f64; 2]]) -> Vec<T>
 }
 
 #[cfg(test)]

@@ -1,17 +1,16 @@
 //! What of a tree does not depend on its equations.
 
 use alloc::vec::Vec;
-use core::any::Any;
 
 use super::block::WIDEST;
-use super::evaluate::{Kernels, accelerations};
+use super::evaluate::{SweepFn, accelerations};
 use super::layout::Layout;
 use super::memory::{Sizes, line, odd_lines};
 use super::partition::Policy;
 use super::plan::Plan;
 use super::root::RootDrive;
-use super::threads;
 use crate::scalar::Scalar;
+use crate::scalar::kind::compiled_once;
 use crate::system::Workspace;
 
 /// The shape of a tree, its constants, and how it is computed.
@@ -39,9 +38,9 @@ impl<T: Scalar> Skeleton<T> {
         sizes: Sizes,
         constants: Vec<T>,
         root: [T; 2],
+        threads: usize,
     ) -> Self {
         let plan = Plan::new(copies, Policy::ONE_STATE);
-        let threads = threads::default(plan.links());
         let states = Plan::new(copies, Policy::STATES);
         Self::new(plan, states, sizes, constants, root, threads)
     }
@@ -109,32 +108,28 @@ impl<T: Scalar> Skeleton<T> {
     }
 }
 
-/// Writes the accelerations of one state, in room that is given.
-pub(super) type Accelerate<T> =
-    fn(&Skeleton<T>, &Kernels<T>, Option<RootDrive<T>>, [&[T]; 2], &mut [T], &mut Workspace<T>);
-
-/// Returns [`Accelerate`] for these numbers. For `f64` and `f32` it is compiled with
-/// this crate, once, and not with every model.
-pub(super) fn accelerate<T: Scalar>() -> Accelerate<T> {
-    if T::PLAIN {
-        for compiled in [&in_f64() as &dyn Any, &in_f32() as &dyn Any] {
-            if let Some(&function) = compiled.downcast_ref::<Accelerate<T>>() {
-                return function;
-            }
-        }
-        // There are no other plain numbers.
-        |_, _, _, _, alpha, _| alpha.fill(T::from_f64(f64::NAN))
-    } else {
-        accelerations
-    }
+compiled_once! {
+    /// [`Skeleton::by_generation`].
+    pub(super) ByGeneration<T> = Skeleton::by_generation:
+        fn(&[usize], Sizes, Vec<T>, [T; 2], usize) -> Skeleton<T>
 }
 
-#[inline(never)]
-fn in_f64() -> Accelerate<f64> {
-    accelerations
+compiled_once! {
+    /// [`Skeleton::by_link`].
+    pub(super) ByLink<T> = Skeleton::by_link:
+        fn(&[u32], Sizes, &[T], [T; 2]) -> Skeleton<T>
 }
 
-#[inline(never)]
-fn in_f32() -> Accelerate<f32> {
-    accelerations
+/// [`accelerations`] by equations that are compiled with a model.
+type Accelerate<T> =
+    fn(&Skeleton<T>, SweepFn<T>, Option<RootDrive<T>>, [&[T]; 2], &mut [T], &mut Workspace<T>);
+
+compiled_once! {
+    /// [`accelerations`] of a tree in one piece.
+    pub(super) InOnePiece<T> = accelerations::<_, false>: Accelerate<T>
+}
+
+compiled_once! {
+    /// [`accelerations`] of a tree that may be in blocks.
+    pub(super) InBlocks<T> = accelerations::<_, true>: Accelerate<T>
 }

@@ -94,13 +94,8 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
             if let Some(view) = sweep.view() {
                 Passes::<E, T, V, V>::of(&view).up();
             }
-            for column in 0..tree.sizes.responses {
-                let from = sweep.storage.responses_mut(column, 0, 1);
-                let to = top.storage.responses_mut(column, slot + block.start, 1);
-                if let ([from], [to]) = (from, to) {
-                    *to = *from;
-                }
-            }
+            let count = tree.sizes.responses;
+            hand_over(&mut sweep, 0, &mut top, slot + block.start, count);
         }
     }
     form(&mut top, &plan.order, &plan.parents, &theta, &omega);
@@ -121,13 +116,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
                 return;
             };
             let mut sweep = sweep(tree, block, own, [lasting, &mut *block_passing]);
-            for column in 0..2 {
-                let from = top.storage.responses_mut(column, slot + index, 1);
-                let to = sweep.storage.responses_mut(column, 0, 1);
-                if let ([from], [to]) = (from, to) {
-                    *to = *from;
-                }
-            }
+            hand_over(&mut top, slot + index, &mut sweep, 0, 2);
             if let Some(view) = sweep.view() {
                 Passes::<E, T, V, V>::of(&view).down(&mut Told {
                     alpha: &mut alpha,
@@ -150,9 +139,36 @@ fn sweep<'a, T: Scalar, V: Simd<T>>(
         block,
         constants: &tree.constants,
         omega: &[],
-        storage: room.storage(lasting, passing),
+        storage: room.storage(lasting, passing, V::LANES > 1),
         root: None,
         torque: None,
+    }
+}
+
+/// Copies the first responses of a link of one block, or the acceleration of its pivot,
+/// to a link of another.
+#[inline(always)]
+fn hand_over<T: Scalar, V: Simd<T>>(
+    from: &mut Sweep<'_, T, V>,
+    own: usize,
+    to: &mut Sweep<'_, T, V>,
+    other: usize,
+    count: usize,
+) {
+    if V::LANES > 1 {
+        let from = from.storage.row_of_responses(own, count);
+        let to = to.storage.row_of_responses(other, count);
+        for (from, to) in from.iter().zip(to) {
+            *to = *from;
+        }
+        return;
+    }
+    for column in 0..count {
+        let from = from.storage.responses_mut(column, own, 1);
+        let to = to.storage.responses_mut(column, other, 1);
+        if let ([from], [to]) = (from, to) {
+            *to = *from;
+        }
     }
 }
 

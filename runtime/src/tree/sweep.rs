@@ -8,8 +8,8 @@ mod view;
 use super::block::Block;
 use super::memory::Storage;
 #[cfg(test)]
-pub(super) use passes::{Down, Up};
-pub(super) use passes::{Passes, down, up};
+pub(super) use passes::SweepKernel;
+pub(super) use passes::{Passes, Way, sweep};
 pub(super) use strip::Output;
 pub(super) use view::View;
 

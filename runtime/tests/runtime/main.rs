@@ -18,9 +18,13 @@ mod projection;
 mod reference;
 mod requests;
 mod sector_modes;
+#[cfg(feature = "serde")]
+mod serde;
 mod spectrum;
 mod stability;
+mod stepper;
 mod taylor;
+mod trajectory;
 mod variational;
 mod verlet;
 mod workspace;

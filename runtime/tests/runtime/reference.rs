@@ -48,7 +48,7 @@ fn errors(problem: &str, run: impl FnOnce(&[f64], &mut dyn FnMut(f64, &[f64]))) 
     errors
 }
 
-type Angles<'a> = AbsoluteAngles<'a, BranchedDouble>;
+type Angles<'a> = AbsoluteAngles<&'a BranchedDouble>;
 
 fn in_absolute_angles<'a>(
     ode: &Angles<'a>,

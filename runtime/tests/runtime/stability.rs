@@ -26,7 +26,7 @@ fn one() -> State<f64> {
 /// Largest relative error of the energy along a motion in absolute angles.
 fn energy_error(
     pendulum: &BranchedDouble,
-    method: &impl for<'a> Integrator<f64, AbsoluteAngles<'a, BranchedDouble>>,
+    method: &impl for<'a> Integrator<f64, AbsoluteAngles<&'a BranchedDouble>>,
     start: &State<f64>,
     end: f64,
 ) -> Result<f64, IntegrationError<f64>> {
@@ -183,7 +183,7 @@ fn equilibria_hanging_and_upright() {
 #[test]
 fn every_method_stays_on_the_in_phase_manifold() {
     fn stays<'a>(
-        method: &impl Integrator<f64, SymmetricCoordinates<'a, BranchedDouble>>,
+        method: &impl Integrator<f64, SymmetricCoordinates<&'a BranchedDouble>>,
         pendulum: &'a BranchedDouble,
     ) {
         let start = State::at_rest(0.0, &[0.9, 0.1, 0.0]);

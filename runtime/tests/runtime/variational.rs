@@ -8,7 +8,7 @@ use branched_pendulum::analysis::variational::{
     trusted_until,
 };
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
+use branched_pendulum::system::{OdeFn, Workspace};
 
 use crate::problems::{BranchedDouble, harmonic, watch};
 
@@ -288,7 +288,14 @@ fn refusals() {
         "the state has 1 components, the equations have 2"
     );
     let mut rates = ([0.0; 2], [0.0; 2]);
-    system.linearised_rates(0.0, &[1.0, 2.0], &[3.0, 4.0], &mut rates.0, &mut rates.1);
+    system.linearised_rates(
+        &mut Workspace::new(),
+        0.0,
+        &[1.0, 2.0],
+        &[3.0, 4.0],
+        &mut rates.0,
+        &mut rates.1,
+    );
     assert_eq!(rates, ([2.0, -1.0], [4.0, -3.0]));
     assert!(
         request

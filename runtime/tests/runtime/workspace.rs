@@ -51,7 +51,7 @@ fn every_method_evaluates_with_its_workspace() {
     run(&Gauss::new(GaussOrder::Four, 0.1), &ode, &start);
     run(&Gauss::<f64>::for_animation(0.1), &ode, &start);
     run(&Projected::new(Rk4::new(0.1), &energy), &ode, &start);
-    let tangents: ByTangents<'_, _, Dual<f64, 1>> = ByTangents::new(&ode);
+    let tangents: ByTangents<_, Dual<f64, 1>, _> = ByTangents::new(&ode);
     let with_deviation = State::new(0.0, vec![1.0, 0.0, 1.0, 0.0]);
     run(
         &Dop853::new(options()),

@@ -13,6 +13,7 @@ pub mod constrained;
 pub mod drive;
 pub mod generator;
 pub mod observable;
+pub mod points;
 
 /// A vector in the plane of motion: x to the side, y upwards, m.
 pub type Vector = [f64; 2];

@@ -1,5 +1,5 @@
 //! Large trees with a workspace, and batches, allocate nothing after their first
-//! evaluation, counted.
+//! evaluation, and energies with a workspace nothing after the first, counted.
 
 #[path = "../../../runtime/tests/counting/mod.rs"]
 mod counting;
@@ -80,7 +80,13 @@ fn evaluations<T: Lane, P: Pendulum<T> + Energy<T>>(model: &P) {
     // Where nothing is counted, the second zero says nothing.
     assert!(first > 0);
     assert_eq!(second, 0);
-    let energy = model.kinetic_energy_of(&theta, &omega) + model.potential_energy_of(&theta);
+    let (mut workspace, mut energy) = (Workspace::new(), T::from_f64(0.0));
+    let [first, second] = of_two(|| {
+        energy = model.kinetic_energy_with(&mut workspace, &theta, &omega)
+            + model.potential_energy_with(&mut workspace, &theta);
+    });
+    assert!(first > 0);
+    assert_eq!(second, 0);
     assert!(energy > T::from_f64(0.0));
 }
 
@@ -147,4 +153,44 @@ fn few_states_of_a_large_tree() {
     });
     assert!(first > 0);
     assert_eq!(second, 0);
+}
+
+#[branched_pendulum(
+    gravity = 9.80665,
+    branch: generations(count = 5, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7),
+    emit(taylor),
+)]
+struct Branch;
+
+/// Frames of an animation, with a push at each of them.
+#[test]
+fn frames() {
+    let model = Branch::<f32>::default();
+    let start = State::at_rest(0.0, &[0.3; 31]);
+    for &method in Method::ALL {
+        let setting = if method.is_adaptive() {
+            1e-4
+        } else {
+            1.0 / 240.0
+        };
+        let mut stepper = method
+            .with(setting)
+            .start(AbsoluteAngles(&model), &start)
+            .unwrap();
+        let mut pushed = start.values.clone();
+        let allocations = of_two(|| {
+            for _ in 0..30 {
+                stepper.advance(1.0 / 60.0).unwrap();
+                pushed.copy_from_slice(stepper.state());
+                pushed[61] += 0.1;
+                stepper.set_state(stepper.time(), &pushed).unwrap();
+            }
+            for _ in 0..30 {
+                stepper.advance(1.0 / 60.0).unwrap();
+            }
+        });
+        assert_eq!(allocations, [0, 0], "{method}");
+        assert!(stepper.state().iter().all(|value| value.is_finite()));
+    }
 }

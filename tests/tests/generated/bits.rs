@@ -6,6 +6,7 @@ use branched_pendulum::{Budget, Scalar, Transfer};
 use branched_pendulum_codegen::program::Argument;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
+    branch::{Branch, BranchParameters},
     chain::Chain,
     driven::{Driven, DrivenParameters},
     driven_loops::{DrivenLoops, DrivenLoopsEquations, DrivenLoopsParameters},
@@ -68,6 +69,7 @@ impl<const S: usize> Values for Budget<f64, S> {
 macro_rules! agree {
     ($scene:literal, $model:expr, $parameters:expr, $n:literal,
      $(timed: [$($timed:ident),*], rates: [$($rates:ident),*],)?
+     $(forces: [$($forces:ident),*], under: [$($under:ident),*], none: [$($none:ident),*],)?
      two: [$($two:ident),*], one: [$($one:ident),*]) => {{
         let stages = scene($scene);
         let model = $model;
@@ -78,12 +80,16 @@ macro_rules! agree {
             let first: [f64; $n] = random.array(-4.0, 4.0);
             let second: [f64; $n] = random.array(-9.0, 9.0);
             let time = random.between(-5.0, 50.0);
+            let third: [f64; $n] = random.array(-2.0, 2.0);
+            let pushes: [[f64; 2]; $n] = std::array::from_fn(|_| random.array(-3.0, 3.0));
             let input = |argument: Argument, index: usize| match argument {
                 Argument::Omega
                 | Argument::Rates
                 | Argument::AbsoluteMomenta
                 | Argument::Momenta => second[index],
                 Argument::Time => time,
+                Argument::Torques => third[index],
+                Argument::Forces => pushes[index / 2][index % 2],
                 _ => first[index],
             };
             let compare = |name: &str, compiled: Vec<f64>| {
@@ -93,6 +99,11 @@ macro_rules! agree {
                 let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
                 assert_eq!(bits(&compiled), bits(&interpreted), "{name} at {first:?}, {second:?}");
             };
+            $($(compare(stringify!($forces), model.$forces(&first, &pushes).values());
+                checked += 1;)*
+            $(compare(stringify!($under), model.$under(&first, &second, &third).values());
+                checked += 1;)*
+            $(compare(stringify!($none), model.$none().values()); checked += 1;)*)?
             $($(compare(stringify!($timed), model.$timed(time, &first, &second).values());
                 checked += 1;)*
             $(compare(stringify!($rates), model.$rates(&second).values()); checked += 1;)*)?
@@ -102,6 +113,20 @@ macro_rules! agree {
         // Every entry of the scene is among those compared.
         assert_eq!(checked, STATES * stages.program.entries.len());
     }};
+}
+
+#[test]
+fn branch() {
+    let parameters = BranchParameters {
+        twig_mass: 0.03,
+        twig_length: 0.2,
+    };
+    agree!("branch", Branch::new(parameters).unwrap(), [0.03, 0.2], 5,
+        forces: [pivot_torques, centre_torques, end_torques], under: [accelerations_under],
+        none: [link_properties],
+        two: [accelerations, kinetic_energy, momenta, velocities, canonical_rates,
+              pivot_velocities, centre_velocities, end_velocities],
+        one: [potential_energy, pivots, centres, ends]);
 }
 
 #[test]

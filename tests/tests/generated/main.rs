@@ -1,12 +1,15 @@
 //! Emitted code as its users meet it: compiled, called, built in parallel.
 
+mod any_number;
 mod bits;
 mod fused;
 mod generations;
+mod hints;
 mod hygiene;
 mod loop_states;
 mod loops;
 mod machine_code;
+mod positions;
 mod scalars;
 mod sectors;
 mod table;

@@ -177,7 +177,7 @@ fn a_batch_that_does_not_fit_is_refused() {
     );
     assert_eq!(
         states.to_string(),
-        "`omega[1]` holds 4 states, but `theta[0]` holds 5"
+        "`omega[1]` holds 4 states, but the first slice of all holds 5"
     );
     let refused = batch.accelerations(0.0, &three, &three, &mut alpha[..1]);
     assert!(matches!(

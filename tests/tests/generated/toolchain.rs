@@ -12,7 +12,13 @@ fn dependencies() -> PathBuf {
     test.parent().expect("a file has a folder").to_owned()
 }
 
-fn rustc(folder: &Path, name: &str, source: &str, external: &str, emit: &str) -> Command {
+pub(super) fn rustc(
+    folder: &Path,
+    name: &str,
+    source: &str,
+    external: &str,
+    emit: &str,
+) -> Command {
     let file = folder.join(format!("{name}.rs"));
     std::fs::write(&file, source).expect("the temporary folder is writable");
     let mut search = std::ffi::OsString::from("dependency=");
@@ -43,7 +49,7 @@ fn rustc(folder: &Path, name: &str, source: &str, external: &str, emit: &str) ->
 }
 
 /// The newest build of the runtime that has the macro.
-fn runtime(folder: &Path) -> PathBuf {
+pub(super) fn runtime(folder: &Path) -> PathBuf {
     let mut candidates: Vec<(SystemTime, PathBuf)> = std::fs::read_dir(dependencies())
         .expect("the folder of the test exists")
         .filter_map(|entry| {

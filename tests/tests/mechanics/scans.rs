@@ -37,7 +37,7 @@ fn releases() -> Vec<Release> {
             }
             let start = State::at_rest(0.1 * part, &[0.3, part - 0.5, 0.2]);
             // Unchecked: `new` refuses both.
-            (DrivenSeries::from_parameters(parameters), start)
+            (DrivenSeries::from_parameters_unchecked(parameters), start)
         })
         .collect()
 }
@@ -47,7 +47,7 @@ fn releases() -> Vec<Release> {
 fn lanes_meet_one_by_one<M>(method: &M)
 where
     M: LaneMethod<DrivenSeries, f64>,
-    for<'a> M: Integrator<f64, AbsoluteAngles<'a, DrivenSeries>>,
+    for<'a> M: Integrator<f64, AbsoluteAngles<&'a DrivenSeries>>,
 {
     let (releases, times) = (releases(), [0.1, 1.0, 2.0, END]);
     let ensemble = Ensemble::new();

@@ -127,7 +127,7 @@ fn exact_tree() -> FreeSeries<Double> {
         child_com: decimal(43, 3),
         child_inertia: decimal(516, 6),
     };
-    FreeSeries::from_parameters(parameters)
+    FreeSeries::from_parameters_unchecked(parameters)
 }
 
 #[test]
@@ -178,7 +178,7 @@ fn polynomials_of_the_driven_tree_solve_its_equation() {
         push: exact(PARAMETERS.push),
         pace: exact(PARAMETERS.pace),
     };
-    let model = DrivenSeries::from_parameters(parameters);
+    let model = DrivenSeries::from_parameters_unchecked(parameters);
     let start = 0.75;
     solves_the_equation(
         2.5,

@@ -18,7 +18,7 @@ struct Step {
     changes: &'static [&'static str],
 }
 
-const LADDER: [Step; 6] = [
+const LADDER: [Step; 8] = [
     Step {
         name: "accelerations",
         friction: false,
@@ -38,21 +38,33 @@ const LADDER: [Step; 6] = [
         changes: &[],
     },
     Step {
+        name: "positions",
+        friction: true,
+        requests: "energies, positions",
+        changes: &[],
+    },
+    Step {
+        name: "outside forces",
+        friction: true,
+        requests: "energies, positions, forces",
+        changes: &[],
+    },
+    Step {
         name: "symmetric coordinates",
         friction: true,
-        requests: "energies, symmetric",
+        requests: "energies, positions, forces, symmetric",
         changes: &[],
     },
     Step {
         name: "one W",
         friction: true,
-        requests: "energies, symmetric, transfer(amplitude = 2)",
+        requests: "energies, positions, forces, symmetric, transfer(amplitude = 2)",
         changes: &[],
     },
     Step {
         name: "all W",
         friction: true,
-        requests: "energies, symmetric, transfer(angle = 1, amplitude = 2, amplitude = 4, exact)",
+        requests: "energies, positions, forces, symmetric, transfer(angle = 1, amplitude = 2, amplitude = 4, exact)",
         changes: &[],
     },
 ];

@@ -19,7 +19,7 @@ fn all_stages(name: &str, text: &str) {
     insta::assert_snapshot!(format!("{name}_code_link"), functions.concat());
     let constructor = match stages.scene.parameters.is_empty() {
         true => "default",
-        false => "from_parameters",
+        false => "from_parameters_unchecked",
     };
     let constructor = function(&stages.tokens, constructor);
     insta::assert_snapshot!(format!("{name}_code_constants"), constructor);

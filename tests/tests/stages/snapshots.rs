@@ -73,6 +73,23 @@ fn simple() {
 }
 
 #[test]
+fn branch() {
+    stages_of("branch");
+    functions(
+        "branch",
+        &[
+            "ends",
+            "end_velocities",
+            "end_torques",
+            "link_properties",
+            "points_into",
+            "accelerations_under",
+        ],
+    );
+    operations("branch");
+}
+
+#[test]
 fn chain() {
     stages_of("chain");
     program("chain");
@@ -106,7 +123,10 @@ fn observed() {
 fn sweep() {
     stages_of("sweep");
     operations("sweep");
-    functions("sweep", &["new", "from_parameters", "accelerations"]);
+    functions(
+        "sweep",
+        &["new", "from_parameters_unchecked", "accelerations"],
+    );
 }
 
 #[test]
@@ -192,4 +212,41 @@ fn driven_loops() {
 fn nested() {
     stages_of("nested");
     operations("nested");
+}
+
+#[test]
+fn reductions() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(
+            gravity = 9.80665,
+            trunk: rod(mass = 0.4, length = 0.5)[
+                arm: rod(mass = m, length = 0.3, friction = 2e-4)[
+                    finger(mass = 0.03, com = 0.04, inertia = 2e-5, joint = 0.08)[
+                        nail: rod(mass = 0.01, length = 0.03, drag = 1e-6)
+                    ] * 2
+                ] * 2
+            ],
+            in_phase(arm), locked(finger, 0.5)
+        )] pub struct Sample;",
+    );
+    insta::assert_snapshot!("reduced_description", stages.description.to_string());
+    insta::assert_snapshot!("reduced_scene", stages.scene.to_string());
+    insta::assert_snapshot!("reduced_code", pretty(stages.tokens));
+}
+
+#[test]
+fn transverse() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(
+            gravity = 9.80665,
+            parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+                child(mass = 0.10531, com = 0.043, inertia = 0.516e-3, friction = 1e-5) * 2
+            ],
+            in_phase(child),
+            emit(transverse)
+        )] pub struct Sample;",
+    );
+    insta::assert_snapshot!("transverse_mechanics", stages.mechanics.to_string());
+    insta::assert_snapshot!("transverse_program", stages.program.to_string());
+    insta::assert_snapshot!("transverse_code", pretty(stages.tokens));
 }

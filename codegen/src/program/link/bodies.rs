@@ -3,7 +3,7 @@
 use crate::mechanics::Mechanics;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, Setup, ValueId};
-use crate::scene::{Link, Offset, Quantity, Scene};
+use crate::scene::{LINK_PROPERTIES, Link, Offset, Quantity, Scene};
 
 impl Lowering<'_> {
     /// A quantity of the description as a constant.
@@ -42,13 +42,18 @@ impl Lowering<'_> {
         })
     }
 
-    pub(super) fn value_of(&mut self, quantity: &Quantity) -> ValueId {
+    pub(in crate::program) fn value_of(&mut self, quantity: &Quantity) -> ValueId {
         let constant = self.quantity(quantity);
         self.builder.constant(constant)
     }
 
     pub(super) fn values_of(&mut self, point: &Offset) -> [ValueId; 2] {
         [self.value_of(&point.along), self.value_of(&point.lateral)]
+    }
+
+    /// The properties of a link.
+    pub(super) fn link_properties(&mut self, link: &Link) -> [ConstantId; LINK_PROPERTIES.len()] {
+        link.properties().map(|quantity| self.quantity(quantity))
     }
 
     /// A link as a body, see [`Strip::body`](super::Strip).

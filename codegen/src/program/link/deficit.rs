@@ -13,7 +13,7 @@ pub(super) struct Deficit {
     pub(super) rest: Rest,
 }
 
-/// What is known of N beside xx and xy.
+/// The part of N beside xx and xy, in the form in which it is known.
 #[derive(Clone, Copy)]
 pub(super) enum Rest {
     /// The trace, a constant: a leaf's angle turns N and changes nothing else.

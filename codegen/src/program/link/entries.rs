@@ -296,7 +296,7 @@ impl Functions<'_> {
             force: [x, y],
             torque: turning,
         } = attached;
-        // What a link's own moment and inertia lose.
+        // Deductions from a link's own moment and inertia.
         let [moment_x, moment_y] = first_moment.map(|component| builder.neg(component));
         let inertia = builder.neg(inertia);
         let yy = deficit.yy(builder);

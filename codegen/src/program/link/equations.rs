@@ -26,11 +26,11 @@ pub(super) struct Link {
     pub(super) omega: ValueId,
     /// The torque Q of joints, drag and drive.
     pub(super) torque: ValueId,
-    /// What stands behind the names of the link's values.
+    /// Suffix of the names of the link's values.
     pub(super) suffix: String,
 }
 
-/// What subtrees on one pivot answer to its acceleration a: the force γ − N a, beside
+/// Response of subtrees on one pivot to its acceleration a: the force γ − N a, beside
 /// that of their mass.
 #[derive(Clone, Copy)]
 pub(super) struct Response {
@@ -53,7 +53,7 @@ impl Response {
     }
 }
 
-/// What hangs from a link, about the link's pivot, while its joint is held.
+/// The subtrees on a link, about the link's pivot, while its joint is held.
 #[derive(Clone, Copy)]
 pub(super) struct Attached {
     /// Σ N.
@@ -80,7 +80,7 @@ impl Attached {
     }
 }
 
-/// What the way down needs of a link: ω̇ = −(b·a + κ)/J.
+/// Factors of a link for the way down: ω̇ = −(b·a + κ)/J.
 #[derive(Clone, Copy)]
 pub(super) struct Elimination {
     /// b/J.
@@ -94,7 +94,7 @@ impl Link {
     pub(super) fn centripetal(&self, builder: &mut Builder) -> ValueId {
         let squared = builder.mul(self.omega, self.omega);
         if self.suffix.is_empty() {
-            // The same value in functions of links of several lengths.
+            // One value in functions of links of several lengths.
             builder.name(squared, "omega_squared");
         }
         let centripetal = builder.mul(self.length, squared);
@@ -239,7 +239,7 @@ impl Link {
         (response, elimination)
     }
 
-    /// The same of a leaf, whose J is a constant: `gain` is ĥ/M, `inverse` 1/M.
+    /// Response of a leaf, whose J is a constant: `gain` is ĥ/M, `inverse` 1/M.
     pub(super) fn leaf(
         &self,
         builder: &mut Builder,

@@ -4,7 +4,7 @@
 
 use crate::program::ValueId;
 use crate::program::builder::Builder;
-use crate::program::lower::{Door, Lowering};
+use crate::program::lower::{Environment, Lowering};
 use crate::program::pair::Pair;
 use crate::scene::{LinkId, Scene};
 
@@ -54,11 +54,11 @@ pub(super) struct Given {
 
 impl Lowering<'_> {
     /// Those of a tree that is written out.
-    pub(super) fn units(&mut self, scene: &Scene, door: &mut Door<'_>) -> Units {
+    pub(super) fn units(&mut self, scene: &Scene, environment: &mut Environment<'_>) -> Units {
         let mechanics = self.mechanics;
         let mut given = Vec::new();
         for joint in &mechanics.articulation.joints {
-            let mut at = |expr| self.expr(door, expr);
+            let mut at = |expr| self.expr(environment, expr);
             given.push(Given {
                 inertia: at(&joint.inertia),
                 moment: [at(&joint.moment[0]), at(&joint.moment[1])],
@@ -67,7 +67,7 @@ impl Lowering<'_> {
                 rest: at(&joint.rest),
             });
         }
-        let gravity = self.expr(door, &mechanics.articulation.gravity);
+        let gravity = self.expr(environment, &mechanics.articulation.gravity);
         Units::of(&mut self.builder, scene, &given, gravity, true)
     }
 }

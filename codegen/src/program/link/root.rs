@@ -1,9 +1,9 @@
-//! What the root of a tree in loops takes from above.
+//! Apparent gravity and torque at the root of a tree in loops.
 
 use super::strips::Table;
 use crate::mechanics::{DriveTerms, Mechanics};
 use crate::program::entries::EntryList;
-use crate::program::lower::Door;
+use crate::program::lower::Environment;
 use crate::program::{Argument, Purpose, Shape};
 
 impl EntryList<'_, '_> {
@@ -11,7 +11,7 @@ impl EntryList<'_, '_> {
     /// the root, in reduced units.
     pub(super) fn root(&mut self, mechanics: &Mechanics, table: &Table) {
         let units = &table.units;
-        let mut door = Door::new(&mechanics.absolute, Argument::Theta, None, None);
+        let mut environment = Environment::new(&mechanics.absolute, Argument::Theta, None, None);
         let drive: Option<&DriveTerms> = mechanics.drive.as_ref();
         let builder = &mut self.lowering.builder;
         let zero = builder.integer(0);
@@ -27,14 +27,14 @@ impl EntryList<'_, '_> {
         outputs = vec![zero; 3];
         for motion in &drive.pivot {
             if let Some(symbol) = motion.acceleration {
-                let acceleration = self.lowering.temporal(&mut door, symbol);
+                let acceleration = self.lowering.temporal(&mut environment, symbol);
                 let builder = &mut self.lowering.builder;
                 let reduced = builder.mul(units.per_length, acceleration);
                 outputs[usize::from(motion.name == "y")] = builder.neg(reduced);
             }
         }
         if let Some(torque) = drive.torque {
-            let torque = self.lowering.temporal(&mut door, torque);
+            let torque = self.lowering.temporal(&mut environment, torque);
             outputs[2] = self.lowering.builder.mul(table.per_torque, torque);
         }
         self.push(

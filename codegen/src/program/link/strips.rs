@@ -9,22 +9,34 @@ use crate::mechanics::expression::{Expr, SymbolId};
 use crate::program::builder::Builder;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, ValueId};
-use crate::scene::{Layout, LinkId, Quantity, Scene};
+use crate::scene::{LINK_PROPERTIES, Layout, LinkId, Quantity, Scene};
 
 /// Neighbours that share their constants.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Strip {
     /// Name of the generation or link.
     pub name: String,
-    /// Whether nothing hangs from its links.
+    /// True if nothing hangs from its links.
     pub is_leaf: bool,
     /// A constant for each of the columns that the equations read.
     pub constants: Vec<ConstantId>,
     /// Its links as bodies, in SI units, where energies are asked for: half of the
     /// mass; first moments along and across; half of the moment of inertia about the
     /// pivot; place on the parent, along and across; weight, and weight times the two
-    /// components of the centre of mass; half of the spring's stiffness, its rest angle, friction, drag.
+    /// components of the centre of mass; half of the spring's stiffness, its rest angle,
+    /// friction, drag.
     pub body: Option<[ConstantId; 13]>,
+    /// Its [properties](crate::scene::LINK_PROPERTIES), if positions are asked for.
+    pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
+}
+
+impl Strip {
+    /// All constants that it holds.
+    pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
+        let others = self.body.iter().flatten();
+        let others = others.chain(self.properties.iter().flatten());
+        self.constants.iter().chain(others).copied()
+    }
 }
 
 /// A tree in loops.
@@ -34,11 +46,11 @@ pub struct Strips {
     pub columns: Vec<Column>,
     /// From the root outwards.
     pub strips: Vec<Strip>,
-    /// Whether children of one link hang at several places.
+    /// True if children of one link hang at several places.
     pub has_several_places: bool,
-    /// Whether joints have torques.
+    /// True if joints have torques.
     pub has_joint_torques: bool,
-    /// Whether a torque acts on the root.
+    /// True if a torque acts on the root.
     pub has_drive_torque: bool,
 }
 
@@ -69,7 +81,7 @@ impl Table {
         shared(builder, rows.map(|(row, _)| row[column as usize]))
     }
 
-    /// The same of all that hang from a parent.
+    /// Number that all links but the root have in a column, if it is one.
     pub(super) fn common_of_children(&self, builder: &Builder, column: Column) -> Option<Rational> {
         shared(
             builder,
@@ -283,6 +295,7 @@ impl Lowering<'_> {
                 is_leaf: table.is_leaf[orbit],
                 constants,
                 body: bodies[orbit],
+                properties: scene.requests.positions.then(|| self.link_properties(link)),
             });
         }
         let drive = scene.drive.as_ref();

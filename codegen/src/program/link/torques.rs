@@ -2,33 +2,44 @@
 
 use super::reduced_units::Units;
 use crate::program::ValueId;
-use crate::program::lower::{Door, Lowering};
+use crate::program::lower::{Environment, Lowering};
 use crate::scene::Scene;
 
 impl Lowering<'_> {
-    /// Q of each link, in its unit of torque: −c (ω − ω_π) and −κ (θ − θ_π − ρ) of
-    /// its own joint less those of the joints on it, −k ω, and τ on the root.
+    /// Q of each link, in its unit of torque: what the caller hands over, −c (ω − ω_π) and
+    /// −κ (θ − θ_π − ρ) of its own joint less those of the joints on it, −k ω, and τ on the
+    /// root.
     pub(super) fn joint_torques(
         &mut self,
         scene: &Scene,
         units: &Units,
-        door: &mut Door<'_>,
+        environment: &mut Environment<'_>,
         omega: &[ValueId],
     ) -> Vec<ValueId> {
         let mechanics = self.mechanics;
         let zero = self.builder.integer(0);
         let mut torques = vec![zero; scene.links.len()];
-        let theta = door.frame.coordinates.iter();
-        let theta: Vec<ValueId> = theta.map(|&symbol| self.symbol(door, symbol)).collect();
+        let theta = environment.frame.coordinates.iter();
+        let theta: Vec<ValueId> = theta
+            .map(|&symbol| self.symbol(environment, symbol))
+            .collect();
+        if let Some(argument) = environment.torques {
+            for (index, link) in scene.links.iter().enumerate() {
+                let outside = self.builder.input(argument, index);
+                let unit = &units.links[link.orbit.0];
+                torques[index] = self.builder.mul(unit.per_torque, outside);
+            }
+        }
         if let Some(torque) = mechanics.drive.as_ref().and_then(|drive| drive.torque) {
-            let torque = self.symbol(door, torque);
-            torques[0] = self.builder.mul(units.links[0].per_torque, torque);
+            let torque = self.symbol(environment, torque);
+            let torque = self.builder.mul(units.links[0].per_torque, torque);
+            torques[0] = self.builder.add(torques[0], torque);
         }
         let builder = &mut self.builder;
         let children = super::children(scene);
         let below = |parent: Option<usize>| parent.map_or(&[0][..], |parent| &children[parent]);
         for parent in std::iter::once(None).chain((0..scene.links.len()).map(Some)) {
-            // What equal joints on one parent turn by, together.
+            // Sums of the motions of equal joints on one parent.
             let mut sums: Vec<(&str, ValueId, ValueId)> = Vec::new();
             for &link in below(parent) {
                 let unit = &units.links[scene.links[link].orbit.0];

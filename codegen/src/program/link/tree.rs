@@ -6,7 +6,7 @@ use super::reduced_units::Units;
 use crate::mechanics::Trigonometric;
 use crate::program::ValueId;
 use crate::program::builder::Builder;
-use crate::program::lower::{Door, Lowering};
+use crate::program::lower::{Environment, Lowering};
 use crate::program::pair::Pair;
 use crate::scene::Scene;
 
@@ -20,7 +20,7 @@ struct Sweep<'s> {
     responses: Vec<Option<Response>>,
 }
 
-/// What the way down needs of a link.
+/// Factors of a link for the way down.
 struct Solved {
     elimination: Elimination,
     /// The pivots on the link and what hangs from each.
@@ -32,20 +32,22 @@ impl Lowering<'_> {
     pub(in crate::program) fn recursion(
         &mut self,
         scene: &Scene,
-        door: &mut Door<'_>,
+        environment: &mut Environment<'_>,
     ) -> Vec<ValueId> {
-        let frame = door.frame;
-        let units = self.units(scene, door);
+        let frame = environment.frame;
+        let units = self.units(scene, environment);
         let mut directions = Vec::new();
         for &angle in &frame.coordinates {
             let symbols = [Trigonometric::Cos(angle), Trigonometric::Sin(angle)]
                 .map(|wanted| self.trigonometric_symbol(wanted));
-            directions.push(symbols.map(|symbol| self.symbol(door, symbol)));
+            directions.push(symbols.map(|symbol| self.symbol(environment, symbol)));
         }
         let omega = frame.velocities.iter();
-        let omega: Vec<ValueId> = omega.map(|&symbol| self.symbol(door, symbol)).collect();
-        let torques = self.joint_torques(scene, &units, door, &omega);
-        let root = self.root_gravity(&units, door);
+        let omega: Vec<ValueId> = omega
+            .map(|&symbol| self.symbol(environment, symbol))
+            .collect();
+        let torques = self.joint_torques(scene, &units, environment, &omega);
+        let root = self.root_gravity(&units, environment);
         let names = self.coordinate_names(frame);
         let zero = self.builder.integer(0);
         let links = scene.links.iter().enumerate().map(|(index, link)| {
@@ -81,12 +83,12 @@ impl Lowering<'_> {
     }
 
     /// The apparent gravity at the root's pivot, −a, in units of length.
-    fn root_gravity(&mut self, units: &Units, door: &mut Door<'_>) -> Pair {
+    fn root_gravity(&mut self, units: &Units, environment: &mut Environment<'_>) -> Pair {
         let mechanics = self.mechanics;
         let mut pivot = self.builder.zero_pair();
         for motion in mechanics.drive.iter().flat_map(|drive| &drive.pivot) {
             if let Some(acceleration) = motion.acceleration {
-                let acceleration = self.symbol(door, acceleration);
+                let acceleration = self.symbol(environment, acceleration);
                 pivot[usize::from(motion.name == "y")] =
                     self.builder.mul(units.per_length, acceleration);
             }

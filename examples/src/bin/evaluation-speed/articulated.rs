@@ -11,7 +11,7 @@ pub struct Articulated {
     bodies: Vec<Body>,
 }
 
-/// What a subtree shows to its parent: force = Φ a + β at its pivot.
+/// The answer of a subtree to its parent: force = Φ a + β at its pivot.
 #[derive(Clone, Copy, Debug, Default)]
 struct Body {
     sine: f64,

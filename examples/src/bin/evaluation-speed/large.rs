@@ -156,7 +156,7 @@ fn bush<P: Pendulum<f64>>(model: &P, trees: &[[usize; 2]]) -> Irregular {
     }
 }
 
-/// What is measured with: some states of a tree.
+/// The states of a tree that are measured with.
 struct States {
     theta: Vec<Vec<f64>>,
     omega: Vec<Vec<f64>>,

@@ -1,4 +1,4 @@
-//! What one evaluation of the accelerations costs.
+//! The cost of one evaluation of the accelerations.
 //!
 //! `evaluation-speed --help` says what is measured.
 
@@ -10,30 +10,36 @@ pub mod large;
 pub mod large_batches;
 pub mod measure;
 pub mod output;
-mod random;
 pub mod scenes;
 pub mod states;
 pub mod table;
 #[cfg(test)]
 mod tests;
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
-use branched_pendulum_examples::exit;
+use branched_pendulum_examples::program::{self, Results};
+use clap::Parser;
 
-const HELP: &str = "\
-What do the accelerations of one state cost, in emitted code one by one and in
-batches, against the system's sines and cosines alone, code written by hand for
-the paper's pendulum, a recursion that takes any tree as a table, and the
-textbook's dense matrix? How far is each from the truth? And what do large trees
-cost, in loops, by the number of threads, and irregular ones, alone and in batches?
+/// What do the accelerations of one state cost, in emitted code one by one and in
+/// batches, against the system's sines and cosines alone, code written by hand for
+/// the paper's pendulum, a recursion that takes any tree as a table, and the
+/// textbook's dense matrix? How far is each from the truth? And what do large trees
+/// cost, in loops, by the number of threads, and irregular ones, alone and in batches?
+#[derive(Parser)]
+#[command(name = "evaluation-speed", version, verbatim_doc_comment)]
+struct Arguments {
+    #[command(flatten)]
+    results: Results,
+}
 
-Usage: evaluation-speed [--output FOLDER]
+impl program::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = None;
 
-  --output FOLDER  write the chart there, as evaluation-speed.svg and .png
-  --help           this text
-";
+    fn results(&self) -> &Results {
+        &self.results
+    }
+}
 
 /// Passes over the states.
 const REPEATS: usize = 301;
@@ -42,31 +48,25 @@ const REPEATS: usize = 301;
 const STATES: usize = 2000;
 
 fn main() -> ExitCode {
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let folder = match words.as_slice() {
-        [] => None,
-        ["--help" | "-h"] => {
-            print!("{HELP}");
-            return ExitCode::SUCCESS;
-        }
-        ["--output", folder] if !folder.is_empty() => Some(PathBuf::from(folder)),
-        _ => {
-            let message = "takes at most `--output FOLDER`";
-            return exit::wrong_command_line("evaluation-speed", &message);
-        }
-    };
-    let rows = measure::all(REPEATS);
-    println!("{}", output::table(&rows));
-    println!("{}", output::errors(&accuracy::all(STATES)));
-    let large = large::all();
-    print!("{}", large::tables(&large, &large::irregular()));
-    print!("{}", large_batches::table(&large_batches::all()));
-    exit::of_run(
-        "evaluation-speed",
-        match folder {
-            Some(folder) => output::write(&folder, &rows, &large).map(drop),
-            None => Ok(()),
-        },
-    )
+    program::main(|_: &Arguments, job| {
+        let progress = job.progress(4);
+        progress.begin("one state");
+        let rows = measure::all(REPEATS);
+        progress.next();
+        job.print(&(output::table(&rows) + "\n"))?;
+        progress.begin("errors");
+        let errors = accuracy::all(STATES);
+        progress.next();
+        job.print(&(output::errors(&errors) + "\n"))?;
+        progress.begin("large trees");
+        let large = large::all();
+        let irregular = large::irregular();
+        progress.next();
+        job.print(&large::tables(&large, &irregular))?;
+        progress.begin("large trees in batches");
+        let batches = large_batches::all();
+        progress.next();
+        job.print(&large_batches::table(&batches))?;
+        job.chart("evaluation-speed", &output::chart(&rows, &large))
+    })
 }

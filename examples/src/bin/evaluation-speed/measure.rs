@@ -18,7 +18,7 @@ use super::table::{self, Link};
 /// are whole pages long, and share places in the first cache.
 const NUMBERS: usize = 6000;
 
-/// What is measured, in the order of the columns.
+/// The contenders, in the order of the columns.
 pub const CONTENDERS: [&str; 10] = [
     "sines of std",
     "factorization",

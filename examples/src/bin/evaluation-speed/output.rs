@@ -1,10 +1,9 @@
 //! The table, its CSV and the chart.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
 
 use branched_pendulum::scalar::InstructionSet;
-use branched_pendulum_charts::{Axis, Chart, ChartError, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 
 use super::accuracy::Errors;
 use super::large;
@@ -104,23 +103,4 @@ pub fn chart(rows: &[Row], large: &[large::Row]) -> Chart {
         .series(Series::line("loops", &links, &one).with_symbols())
         .series(Series::line("two threads", &links[threaded..], &two[threaded..]).with_symbols());
     Chart::new("Accelerations of one state", Axis::log("links")).panel(panel)
-}
-
-/// Writes the chart as SVG and PNG.
-///
-/// # Errors
-/// [`ChartError`].
-pub fn write(
-    folder: &Path,
-    rows: &[Row],
-    large: &[large::Row],
-) -> Result<Vec<PathBuf>, ChartError> {
-    let chart = chart(rows, large);
-    let files = [
-        folder.join("evaluation-speed.svg"),
-        folder.join("evaluation-speed.png"),
-    ];
-    chart.write_svg(&files[0])?;
-    chart.write_png(&files[1])?;
-    Ok(files.to_vec())
 }

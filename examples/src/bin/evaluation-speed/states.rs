@@ -1,6 +1,7 @@
 //! Random states, in the two layouts that the contenders read.
 
-use super::random::Random;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 /// Angles or angular velocities of many states.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,9 +15,14 @@ pub struct Layouts {
 /// `count` states of `links` links, between `-bound` and `bound`.
 #[must_use]
 pub fn random(seed: u64, links: usize, count: usize, bound: f64) -> Layouts {
-    let mut random = Random::new(seed);
+    let mut random = SplitMix64::seed_from_u64(seed);
+    let mut within = || {
+        // The upper 53 bits are a whole number that f64 holds exactly.
+        let unit = (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        bound * (2.0 * unit - 1.0)
+    };
     let by_state: Vec<Vec<f64>> = (0..count)
-        .map(|_| (0..links).map(|_| random.within(bound)).collect())
+        .map(|_| (0..links).map(|_| within()).collect())
         .collect();
     let by_link = (0..links)
         .map(|link| by_state.iter().map(|state| state[link]).collect())

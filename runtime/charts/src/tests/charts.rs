@@ -41,6 +41,10 @@ fn awkward() -> Vec<(&'static str, Chart)> {
         p.vertical(0.4 * f64::from(k), format!("f_{{{k}}} = {k}.123 Hz"))
     });
     let log_log = Panel::new(Axis::log("Error")).line("a", &ramp(1e-3, 1e4), &ramp(1e-15, 1.0));
+    let (cell_x, cell_y): (Vec<f64>, Vec<f64>) = (0..20)
+        .map(|k| (10.0_f64.powi(k % 5 - 3), f64::from(k / 5)))
+        .unzip();
+    let values: Vec<f64> = (0..20).map(|k| 10.0_f64.powi(k % 7 - 3)).collect();
     vec![
         ("plain", chart().panel(panel().line("a", &t, &y))),
         (
@@ -126,6 +130,23 @@ fn awkward() -> Vec<(&'static str, Chart)> {
             (0..6).fold(chart(), |c, k| {
                 c.panel(panel().line(format!("p{k}"), &t, &y))
             }),
+        ),
+        (
+            "columns",
+            (0..5).fold(chart().columns(2).size(900.0, 700.0), |chart, k| {
+                let low = ramp(-4.0 - f64::from(k), 3.0);
+                let panel = panel().band("interval", &t, &low, &y);
+                chart.panel(panel.line(format!("line {k}"), &t, &y).vertical(3.0, "f_+"))
+            }),
+        ),
+        (
+            "heatmap",
+            Chart::new("", Axis::log("amplitude (rad)")).panel(panel().heatmap(
+                &cell_x,
+                &cell_y,
+                &values,
+                &[0.01, 1.0, 100.0],
+            )),
         ),
     ]
 }
@@ -301,5 +322,72 @@ fn equal_labels_share_style_and_entry() -> Failure {
     assert_ne!(plan.panels[1].styles[0], plan.panels[1].styles[1]);
     let entries: Vec<usize> = plan.legend.lists.iter().map(Vec::len).collect();
     assert_eq!(entries, [1, 1]);
+    Ok(())
+}
+
+/// Polygons of the areas of a drawing.
+fn polygons(drawing: &Drawing) -> Vec<&[(f64, f64)]> {
+    let areas = drawing.marks.iter().filter_map(|mark| match mark {
+        Mark::Areas { polygons, .. } => Some(polygons),
+        _ => None,
+    });
+    areas.flatten().map(Vec::as_slice).collect()
+}
+
+/// Cells of a full grid cover their panel once, whatever class they are in.
+#[test]
+fn cells_fill_the_panel() -> Failure {
+    let x: Vec<f64> = (0..12).map(|k| 10.0_f64.powi(k % 4)).collect();
+    let y: Vec<f64> = (0..12).map(|k| f64::from(k / 4)).collect();
+    let values: Vec<f64> = (0..12).map(f64::from).collect();
+    let panel = Panel::new(Axis::linear("y").range(-0.5, 2.5));
+    let chart = Chart::new("", Axis::log("x")).panel(panel.heatmap(&x, &y, &values, &[3.0, 8.0]));
+    let font = Font::embedded()?;
+    let plan = arrange(&chart, &font)?;
+    let (drawing, _) = draw(&chart)?;
+    let area = |polygon: &[(f64, f64)]| match polygon {
+        [a, _, c, _] => ((c.0 - a.0) * (c.1 - a.1)).abs(),
+        _ => f64::NAN,
+    };
+    let all = polygons(&drawing);
+    // The samples of the legend, and the cells.
+    let legend = 3;
+    assert_eq!(all.len(), 12 + legend);
+    let cells = all.iter().copied().filter(|polygon| {
+        let frame = &plan.panels[0].frame;
+        polygon.iter().all(|point| frame.contains(*point))
+    });
+    let covered: f64 = cells.map(area).sum();
+    let frame = plan.panels[0].frame;
+    let whole = frame.width() * frame.height();
+    assert!((covered / whole - 1.0).abs() < 1e-9, "{covered} {whole}");
+    let labels = chart.panels[0]
+        .series
+        .iter()
+        .map(|series| series.label.as_str());
+    assert_eq!(labels.collect::<Vec<_>>(), ["below 3", "3 to 8", "from 8"]);
+    Ok(())
+}
+
+#[test]
+fn a_band_has_a_piece_between_gaps_and_its_lower_edge_counts() -> Failure {
+    let x = [0.0, 1.0, 2.0, 3.0, 4.0];
+    let (low, high) = ([-5.0, -5.0, f64::NAN, 0.0, 0.0], [1.0, 1.0, 1.0, 1.0, 1.0]);
+    let chart = Chart::new("", Axis::linear("x"))
+        .panel(Panel::new(Axis::linear("y")).band("", &x, &low, &high));
+    let (drawing, font) = draw(&chart)?;
+    assert_eq!(polygons(&drawing).len(), 2);
+    let plan = arrange(&chart, &font)?;
+    assert!(plan.panels[0].scale.low <= -5.0 && plan.panels[0].scale.high >= 1.0);
+    let short = Chart::new("", Axis::linear("x")).panel(Panel::new(Axis::linear("y")).band(
+        "b",
+        &x,
+        &low[..4],
+        &high,
+    ));
+    assert!(matches!(
+        short.to_svg(),
+        Err(ChartError::LengthMismatch { x: 5, y: 4, .. })
+    ));
     Ok(())
 }

@@ -7,9 +7,9 @@
 //! [`trusted_until`] the time to which a given error stays small, and
 //! [`Lyapunov`] the mean rates of growth.
 //!
-//! The derivative comes from numbers that carry one ([`ByTangents`]: exact,
-//! and free where the equations are generic over the scalar) or from a function
-//! of the caller ([`WithDerivative`]).
+//! The derivative comes from numbers that carry one, exact to rounding
+//! ([`linearised`] for models, [`ByTangents`] for other equations that are generic
+//! over the scalar), or from a function of the caller ([`WithDerivative`]).
 //!
 //! # Example
 //!
@@ -51,7 +51,7 @@ use crate::scalar::Real;
 use crate::system::{Ode, State};
 
 pub use self::lyapunov::{Lyapunov, LyapunovError, LyapunovSpectrum};
-pub use self::system::{ByTangents, Linearised, Tangent, Variational, WithDerivative};
+pub use self::system::{ByTangents, Linearised, Tangent, Variational, WithDerivative, linearised};
 
 /// The start with one deviation along each component, of size one.
 fn with_unit_deviations<T: Real>(start: &State<T>) -> State<T> {

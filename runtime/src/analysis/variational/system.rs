@@ -4,15 +4,20 @@ use std::cell::RefCell;
 use std::fmt;
 
 use crate::scalar::{Dual, Scalar};
-use crate::system::{Ode, Workspace};
+use crate::system::{CastOde, Ode, Workspace};
 
 /// A system that knows how its rates change with the state.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know how its rates change with the state",
+    note = "for a model: `linearised(AbsoluteAngles(&model))`; for equations that are generic over the scalar: `ByTangents::<_, Dual<f64, 1>>::new(&ode)`; otherwise `WithDerivative`"
+)]
 pub trait Linearised<T>: Ode<T> {
     /// Writes f(t, y) to `rates` and ∂f/∂y v to `deviation_rates`, y being
     /// `state` and v being `deviation`. All slices have the length of the
-    /// state.
+    /// state. `workspace` is that of [`Ode::rates_with`].
     fn linearised_rates(
         &self,
+        workspace: &mut Workspace<T>,
         time: T,
         state: &[T],
         deviation: &[T],
@@ -43,29 +48,82 @@ impl<T: Scalar> Tangent<T> for Dual<T, 1> {
     }
 }
 
-/// A system that is generic over the scalar, linearised by numbers of type `D`
-/// that carry a derivative: exact to rounding.
+/// A system linearised by numbers of type `D` that carry a derivative: exact to
+/// rounding. `tangents` are its equations in these numbers.
 ///
 /// Not for several threads at once, since it holds a workspace: each thread
 /// makes its own.
-pub struct ByTangents<'a, O: ?Sized, D> {
-    ode: &'a O,
-    tangents: RefCell<Tangents<D>>,
+pub struct ByTangents<O, D, Q = O> {
+    ode: O,
+    tangents: Q,
+    memory: RefCell<TangentMemory<D>>,
 }
 
-/// Memory for one evaluation.
-struct Tangents<D> {
+/// TangentMemory for one evaluation.
+struct TangentMemory<D> {
     state: Vec<D>,
     rates: Vec<D>,
     workspace: Workspace<D>,
 }
 
-impl<'a, O: ?Sized, D: Scalar> ByTangents<'a, O, D> {
-    /// Linearises `ode`.
+/// Linearises a model in its coordinates, by its equations in dual numbers.
+///
+/// # Examples
+///
+/// An emitted model, as it is: its exponents, the derivative of a flow, and the
+/// time for which rounding errors stay small.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::analysis::variational::{
+///     Lyapunov, flow_jacobian, linearised, trusted_until,
+/// };
+/// use branched_pendulum::prelude::*;
+///
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     upper: rod(mass = 1, length = 1) [lower: rod(mass = 1, length = lower_length)],
+/// )]
+/// struct Chain;
+///
+/// let model = Chain::new(ChainParameters { lower_length: 0.8 })?;
+/// let system = linearised(AbsoluteAngles(&model));
+///
+/// let method = Dop853::new(Options::with_tolerance(1e-10));
+/// let start = State::at_rest(0.0, &[2.0, 2.5]);
+/// let lyapunov = Lyapunov { count: 4, interval: 0.5, settling: 20, intervals: 100 };
+/// let exponents = lyapunov.spectrum(&method, &system, &start)?.exponents;
+/// assert!(exponents[0] > 1.0);
+/// // No friction: volumes in phase space keep their size.
+/// assert!(exponents.iter().sum::<f64>().abs() < 0.1);
+///
+/// let (end, columns) = flow_jacobian(&method, &system, &start, 1.0)?;
+/// assert_eq!((end.values.len(), columns.len()), (4, 16));
+/// let horizon = trusted_until(&method, &system, &start, 60.0, 1e-16, 1e-3)?;
+/// assert!(horizon.is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn linearised<T: Scalar, O: CastOde<T, Dual<T, 1>>>(
+    ode: O,
+) -> ByTangents<O, Dual<T, 1>, O::Of> {
+    let tangents = ode.cast(Dual::constant);
+    ByTangents::of_both(ode, tangents)
+}
+
+impl<'a, O: ?Sized, D: Scalar> ByTangents<&'a O, D> {
+    /// Linearises equations that are generic over the scalar. For models see
+    /// [`linearised`].
     pub fn new(ode: &'a O) -> Self {
+        Self::of_both(ode, ode)
+    }
+}
+
+impl<O, D: Scalar, Q> ByTangents<O, D, Q> {
+    fn of_both(ode: O, tangents: Q) -> Self {
         Self {
             ode,
-            tangents: RefCell::new(Tangents {
+            tangents,
+            memory: RefCell::new(TangentMemory {
                 state: Vec::new(),
                 rates: Vec::new(),
                 workspace: Workspace::new(),
@@ -74,17 +132,18 @@ impl<'a, O: ?Sized, D: Scalar> ByTangents<'a, O, D> {
     }
 }
 
-impl<O: ?Sized, D> fmt::Debug for ByTangents<'_, O, D> {
+impl<O, D, Q> fmt::Debug for ByTangents<O, D, Q> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             ode: _,
             tangents: _,
+            memory: _,
         } = self;
         formatter.debug_struct("ByTangents").finish_non_exhaustive()
     }
 }
 
-impl<T, O: Ode<T> + ?Sized, D> Ode<T> for ByTangents<'_, O, D> {
+impl<T, O: Ode<T>, D, Q> Ode<T> for ByTangents<O, D, Q> {
     fn dimension(&self) -> usize {
         self.ode.dimension()
     }
@@ -98,14 +157,16 @@ impl<T, O: Ode<T> + ?Sized, D> Ode<T> for ByTangents<'_, O, D> {
     }
 }
 
-impl<T, O, D> Linearised<T> for ByTangents<'_, O, D>
+impl<T, O, D, Q> Linearised<T> for ByTangents<O, D, Q>
 where
     T: Scalar,
-    O: Ode<T> + Ode<D> + ?Sized,
+    O: Ode<T>,
     D: Tangent<T>,
+    Q: Ode<D>,
 {
     fn linearised_rates(
         &self,
+        _workspace: &mut Workspace<T>,
         time: T,
         state: &[T],
         deviation: &[T],
@@ -113,14 +174,14 @@ where
         deviation_rates: &mut [T],
     ) {
         let zero = T::from_f64(0.0);
-        let mut tangents = self.tangents.borrow_mut();
-        let own = &mut *tangents;
+        let mut memory = self.memory.borrow_mut();
+        let own = &mut *memory;
         own.state.clear();
         let both = state.iter().zip(deviation);
         own.state.extend(both.map(|(&y, &v)| D::with_tangent(y, v)));
         own.rates.resize(state.len(), D::with_tangent(zero, zero));
         let time = D::with_tangent(time, zero);
-        self.ode
+        self.tangents
             .rates_with(&mut own.workspace, time, &own.state, &mut own.rates);
         let out = rates.iter_mut().zip(deviation_rates);
         for ((rate, deviation_rate), tangent) in out.zip(own.rates.iter()) {
@@ -177,13 +238,14 @@ impl<T, O: Ode<T>, F> Ode<T> for WithDerivative<O, F> {
 impl<T: Copy, O: Ode<T>, F: Fn(T, &[T], &[T], &mut [T])> Linearised<T> for WithDerivative<O, F> {
     fn linearised_rates(
         &self,
+        workspace: &mut Workspace<T>,
         time: T,
         state: &[T],
         deviation: &[T],
         rates: &mut [T],
         deviation_rates: &mut [T],
     ) {
-        self.ode.rates(time, state, rates);
+        self.ode.rates_with(workspace, time, state, rates);
         (self.derivative)(time, state, deviation, deviation_rates);
     }
 }
@@ -227,8 +289,14 @@ impl<T: Scalar, L: Linearised<T> + ?Sized> Ode<T> for Variational<'_, L> {
         }
         let pairs = deviations.chunks(n).zip(deviation_rates.chunks_mut(n));
         for (deviation, own_rates) in pairs {
-            self.system
-                .linearised_rates(time, motion, deviation, motion_rates, own_rates);
+            self.system.linearised_rates(
+                workspace,
+                time,
+                motion,
+                deviation,
+                motion_rates,
+                own_rates,
+            );
         }
     }
 }

@@ -70,12 +70,14 @@ pub enum InputError<T> {
         /// The highest.
         largest: usize,
     },
+    /// Taylor series are asked for where the equations give no coefficients.
+    NoSeries,
     /// A splitting is asked for where H is not T(p) + U(q).
     NotSeparable {
         /// Index of the coordinate whose rate, or whose momentum's rate, depends
         /// on what it must not.
         coordinate: usize,
-        /// Which of the two.
+        /// The one of the two.
         rate: Inseparable,
         /// By how much it does, relative to its size.
         change: T,
@@ -204,6 +206,11 @@ impl<T: Real> fmt::Display for InputError<T> {
             } => write!(
                 f,
                 "the order is {order}: it must be between {smallest} and {largest}"
+            ),
+            Self::NoSeries => write!(
+                f,
+                "these equations give no Taylor coefficients: a model does so where its \
+                 description says `emit(taylor)`; all other methods need rates alone"
             ),
             Self::NotSeparable {
                 coordinate,

@@ -3,8 +3,9 @@
 // One index into all components at once.
 #![allow(clippy::needless_range_loop)]
 
-use super::pair::{DenseForm, Pair};
-use super::stages::{RightHandSide, Span, StepStages, sum, terms};
+use super::pair::{DenseForm, EmbeddedPair};
+use super::stages::{RightHandSide, StepSpan, StepStages, sum, terms};
+use crate::integrate::piece::Lift;
 use crate::scalar::Scalar;
 
 /// Degree of [`DenseForm::Bernstein`].
@@ -13,10 +14,10 @@ const DEGREE: usize = 8;
 impl<W: Scalar> StepStages<W> {
     /// The stages and the coefficients of the dense output of a step.
     #[inline(always)]
-    pub(super) fn prepare_dense<M: Pair, S: RightHandSide<W>>(
+    pub(super) fn prepare_dense<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
         system: &mut S,
-        span: Span<W>,
+        span: StepSpan<W>,
     ) -> Result<(), S::Failure> {
         self.make_dense::<M, S>(system, span)?;
         let n = system.dimension();
@@ -34,7 +35,7 @@ impl<W: Scalar> StepStages<W> {
 
     /// h (sum of row) for row `ROW` of the dense output, if there are so many.
     #[inline(always)]
-    fn row_terms<M: Pair, const ROW: usize>(&mut self, n: usize, step: W) {
+    fn row_terms<M: EmbeddedPair, const ROW: usize>(&mut self, n: usize, step: W) {
         const { assert!(M::DENSE.rows().len() <= 5) }
         let row = const {
             let rows = M::DENSE.rows();
@@ -53,7 +54,7 @@ impl<W: Scalar> StepStages<W> {
 
     /// The first three coefficients of [`DenseForm::Alternating`].
     #[inline(always)]
-    fn hermite<M: Pair>(&mut self, n: usize, step: W) {
+    fn hermite<M: EmbeddedPair>(&mut self, n: usize, step: W) {
         let (start, end) = (&self.start[..n], &self.end[..n]);
         let (first, last) = (&self.rates[..n], &self.rates[M::STAGES * n..][..n]);
         let dense = &mut self.dense[..3 * n];
@@ -68,7 +69,7 @@ impl<W: Scalar> StepStages<W> {
 
     /// The first and the last two coefficients of [`DenseForm::Bernstein`].
     #[inline(always)]
-    fn end_terms<M: Pair>(&mut self, n: usize, step: W) {
+    fn end_terms<M: EmbeddedPair>(&mut self, n: usize, step: W) {
         let part = step / W::from_f64(DEGREE as f64);
         let (start, end) = (&self.start[..n], &self.end[..n]);
         let (first, last) = (&self.rates[..n], &self.rates[M::STAGES * n..][..n]);
@@ -83,54 +84,64 @@ impl<W: Scalar> StepStages<W> {
 
     /// Writes the solution at the fraction `s` of the step.
     #[inline(always)]
-    pub(super) fn value<M: Pair>(&self, s: W, out: &mut [W]) {
-        match M::DENSE {
-            DenseForm::Alternating(_) => self.alternate(s, out),
-            DenseForm::Bernstein(_) => self.blend(s, out),
-        }
-    }
-
-    /// y + s (d₀ + r (d₁ + s (d₂ + …))), r = 1 − s.
-    #[inline(always)]
-    fn alternate(&self, s: W, out: &mut [W]) {
+    pub(super) fn value<M: EmbeddedPair>(&self, s: W, out: &mut [W]) {
         let n = self.start.len();
-        let r = W::from_f64(1.0) - s;
-        let count = self.dense.len() / n;
-        let (mut factor, mut other) = if count % 2 == 1 { (s, r) } else { (r, s) };
-        // From the highest term on, times s and r in turn.
-        let mut terms = self.dense.chunks_exact(n).rev();
-        if let Some(highest) = terms.next() {
-            out.copy_from_slice(highest);
-        }
-        for term in terms {
-            for (value, &term) in out.iter_mut().zip(term) {
-                *value = factor.mul_add(*value, term);
+        match M::DENSE {
+            DenseForm::Alternating(_) => {
+                for i in 0..n {
+                    out[i] = alternating(s, self.start[i], &self.dense, n, i);
+                }
             }
-            (factor, other) = (other, factor);
-        }
-        for (value, &start) in out.iter_mut().zip(&self.start) {
-            *value = factor.mul_add(*value, start);
-        }
-    }
-
-    /// y + Σ_k d_k b_k(s), b_k being Bernstein polynomials.
-    #[inline(always)]
-    fn blend(&self, s: W, out: &mut [W]) {
-        out.fill(W::from_f64(0.0));
-        for (term, weight) in self.dense.chunks_exact(self.start.len()).zip(bernstein(s)) {
-            for (value, &term) in out.iter_mut().zip(term) {
-                *value = weight.mul_add(term, *value);
+            DenseForm::Bernstein(_) => {
+                let weights = bernstein(s);
+                for i in 0..n {
+                    out[i] = blend(&weights, self.start[i], &self.dense, n, i);
+                }
             }
-        }
-        for (value, &start) in out.iter_mut().zip(&self.start) {
-            *value = start + *value;
         }
     }
 }
 
+/// y + s (d₀ + r (d₁ + s (d₂ + …))), r = 1 − s, for component i of n.
+#[inline(always)]
+pub(crate) fn alternating<W: Scalar, S: Lift<W>>(
+    s: S,
+    start: W,
+    terms: &[W],
+    n: usize,
+    i: usize,
+) -> S {
+    let r = S::from_f64(1.0) - s;
+    let count = terms.len() / n;
+    let (mut factor, mut other) = if count % 2 == 1 { (s, r) } else { (r, s) };
+    // From the highest term on, times s and r in turn.
+    let mut value = S::lift(terms[(count - 1) * n + i]);
+    for k in (0..count - 1).rev() {
+        value = factor.mul_add(value, S::lift(terms[k * n + i]));
+        (factor, other) = (other, factor);
+    }
+    factor.mul_add(value, S::lift(start))
+}
+
+/// y + Σ_k d_k b_k(s) for component i of n, the b_k(s) being these weights.
+#[inline(always)]
+pub(crate) fn blend<W: Scalar, S: Lift<W>>(
+    weights: &[S; DEGREE],
+    start: W,
+    terms: &[W],
+    n: usize,
+    i: usize,
+) -> S {
+    let mut value = S::from_f64(0.0);
+    for k in 0..DEGREE {
+        value = weights[k].mul_add(S::lift(terms[k * n + i]), value);
+    }
+    S::lift(start) + value
+}
+
 /// Bernstein polynomials 1 to 8 of degree 8.
 #[inline(always)]
-pub(super) fn bernstein<W: Scalar>(s: W) -> [W; DEGREE] {
+pub(crate) fn bernstein<W: Scalar>(s: W) -> [W; DEGREE] {
     let [zero, one] = [0.0, 1.0].map(W::from_f64);
     let r = one - s;
     let mut row = [zero; DEGREE + 1];

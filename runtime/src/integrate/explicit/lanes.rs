@@ -9,29 +9,29 @@ use core::convert::Infallible;
 use core::marker::PhantomData;
 
 use super::ExplicitRungeKutta;
-use super::pair::Pair;
-use super::stages::{MOST_STAGES, RightHandSide, Span, StepStages, sum, terms};
+use super::pair::EmbeddedPair;
+use super::stages::{MOST_STAGES, RightHandSide, StepSpan, StepStages, sum, terms};
 use crate::integrate::control::{FirstStep, StepControl, Verdict};
 use crate::integrate::lanes::registers::{
     Numbers, WIDEST, numbers, numbers_in, register, set_lane, smallest_divisor,
 };
-use crate::integrate::lanes::{Flags, LaneMethod, Models, Runs, Stepper};
+use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
 use crate::integrate::options::Options;
 use crate::scalar::at;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
-use crate::simd::Part;
+use crate::simd::{Part, outlined};
 use crate::system::cast::put;
 use crate::system::{Cast, State};
 
-impl<M: Pair, P: Cast<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKutta<M, T> {
-    type Stepper<'a, R: Register<Lane = T>> = PairInLanes<'a, M, P, R>;
+impl<M: EmbeddedPair, P: Cast<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKutta<M, T> {
+    type Steps<'a, R: Register<Lane = T>> = PairInLanes<'a, M, P, R>;
 
     fn options(&self) -> &Options<T> {
         &self.options
     }
 
-    fn stepper<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> PairInLanes<'a, M, P, R> {
+    fn steps<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> PairInLanes<'a, M, P, R> {
         let zero = R::from_f64(0.0);
         let start = vec![zero; 2 * P::LINKS];
         let control = StepControl::new(M::CONTROL, &self.options);
@@ -115,7 +115,7 @@ impl<P: Cast<R::Lane>, R: Register> RightHandSide<R> for Pendulums<P, R> {
         state: &[R],
         rates: &mut [R],
     ) -> Result<(), Infallible> {
-        R::outlined::<0, _, _>(&self.models, (time, state, &mut *rates));
+        outlined::<0, R, _, _>(&self.models, (time, state, &mut *rates));
         let before = if stage > 2 {
             self.checks[stage - 2]
         } else {
@@ -158,7 +158,7 @@ pub struct PairInLanes<'a, M, P: Cast<R::Lane>, R: Register> {
     pair: PhantomData<M>,
 }
 
-impl<M: Pair, P: Cast<R::Lane>, R: Register> Stepper<R> for PairInLanes<'_, M, P, R> {
+impl<M: EmbeddedPair, P: Cast<R::Lane>, R: Register> LaneSteps<R> for PairInLanes<'_, M, P, R> {
     type Pendulum = P;
 
     fn models(&mut self) -> &mut Models<P, R> {
@@ -192,7 +192,7 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> Stepper<R> for PairInLanes<'_, M, P
     }
 
     #[inline(always)]
-    fn attempt(&mut self, span: Span<R>, size: R) {
+    fn attempt(&mut self, span: StepSpan<R>, size: R) {
         let (system, stages) = (&mut self.system, &mut self.stages);
         let Ok(()) = stages.make::<M, _>(system, span);
         self.finite_end = numbers(check_finite(R::from_f64(0.0), &stages.end[..2 * P::LINKS]));
@@ -214,7 +214,7 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> Stepper<R> for PairInLanes<'_, M, P
     }
 
     #[inline(always)]
-    fn prepare_dense(&mut self, span: Span<R>) {
+    fn prepare_dense(&mut self, span: StepSpan<R>) {
         let Ok(()) = self.stages.prepare_dense::<M, _>(&mut self.system, span);
     }
 
@@ -239,11 +239,12 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> Stepper<R> for PairInLanes<'_, M, P
 
     #[inline(always)]
     fn advance(&mut self, accepted: R::Mask) {
-        self.stages.advance::<M, _>(&self.system, accepted);
+        self.stages
+            .advance::<M, Pendulums<P, R>>(2 * P::LINKS, accepted);
     }
 }
 
-impl<M: Pair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
+impl<M: EmbeddedPair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
     /// Judges the step of a lane, as the driver of the plain method does, and
     /// chooses the next one. Returns true if it is accepted.
     #[inline(always)]
@@ -318,10 +319,10 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
 
     /// Time and state of a stage in a lane.
     #[cold]
-    fn place(&self, lane: usize, span: Span<R::Lane>, stage: usize) -> (R::Lane, Vec<R::Lane>) {
+    fn place(&self, lane: usize, span: StepSpan<R::Lane>, stage: usize) -> (R::Lane, Vec<R::Lane>) {
         let (stages, n) = (&self.stages, 2 * P::LINKS);
         // Operations as in the step, for equal bits.
-        let span = Span {
+        let span = StepSpan {
             time: R::splat(span.time),
             step: R::splat(span.step),
         };
@@ -367,7 +368,7 @@ impl<M: Pair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
                 euler[lane] = runs.direction[lane] * runs.step[lane];
             }
         }
-        let span = Span {
+        let span = StepSpan {
             time: register(&runs.time),
             step: register(&euler),
         };

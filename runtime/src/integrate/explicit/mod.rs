@@ -1,37 +1,37 @@
 //! Explicit Runge–Kutta pairs: a table of coefficients and an estimate each.
 //!
 //! [`stages`] has the arithmetic of a step, for one state or for one in each lane;
-//! [`driver`] the step loop of one trajectory, [`lanes`] the steps of many.
+//! [`steps`] the steps of one trajectory, [`lanes`] those of many.
 
 mod dense_output;
 mod dop853;
 mod dopri5;
-mod driver;
 #[cfg(feature = "std")]
 mod lanes;
 #[cfg(test)]
 mod order_conditions;
 mod pair;
 mod stages;
+mod steps;
 mod verner98;
 
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use self::driver::Trajectory;
-use self::pair::Pair;
-pub(crate) use self::stages::Span;
+pub(crate) use self::dense_output::{alternating, bernstein, blend};
+use self::pair::EmbeddedPair;
+pub(crate) use self::stages::StepSpan;
+use self::steps::PairSteps;
 use super::dense::DenseStep;
 use super::error::{InputError, IntegrationError};
-use super::evaluator::NonFinite;
+use super::evaluator::{Evaluator, NonFinite};
 use super::integrator::Integrator;
 use super::options::Options;
-use super::report::Solution;
-#[cfg(feature = "std")]
-pub(crate) use super::request::check_step;
+use super::report::{Report, Solution};
 use super::request::{all_finite, check_start};
+use super::steps::Failure;
 use crate::scalar::Real;
-use crate::system::{Ode, State};
+use crate::system::{Ode, State, Workspace};
 
 pub use self::dop853::DormandPrince8;
 pub use self::dopri5::DormandPrince5;
@@ -119,7 +119,7 @@ pub type Verner98<T> = ExplicitRungeKutta<Verner9, T>;
 ///
 /// [`Report::next_step`]: super::Report::next_step
 pub struct ExplicitRungeKutta<M, T> {
-    options: Options<T>,
+    pub(super) options: Options<T>,
     pair: PhantomData<M>,
 }
 
@@ -143,7 +143,7 @@ impl<M, T: core::fmt::Debug> core::fmt::Debug for ExplicitRungeKutta<M, T> {
     }
 }
 
-impl<M: Pair, T: Real> ExplicitRungeKutta<M, T> {
+impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     /// The method with these options, which are checked when a run starts.
     pub fn new(options: Options<T>) -> Self {
         Self {
@@ -203,25 +203,33 @@ impl<M: Pair, T: Real> ExplicitRungeKutta<M, T> {
         start: &State<T>,
         step: T,
     ) -> Result<State<T>, IntegrationError<T>> {
-        check_start(ode, start)?;
+        check_start(ode, (start.time, &start.values))?;
         self.options.validate(start.values.len())?;
         if !step.is_finite() {
             return Err(InputError::FixedStep { value: step }.into());
         }
-        let mut run = Trajectory::<M, T, O>::new(ode, &self.options, start);
-        let span = Span {
-            time: start.time,
-            step,
+        let (time, end_time) = (start.time, start.time + step);
+        let mut report = Report::new();
+        let system = &mut Evaluator {
+            ode,
+            dimension: start.values.len(),
+            workspace: &mut Workspace::new(),
+            report: &mut report,
         };
-        let end_time = start.time + step;
-        run.evaluate_start()?;
-        run.make(span)?;
-        if !all_finite(&run.stages.end) {
-            return Err(run.non_finite(NonFinite::new(end_time, &run.stages.end)));
+        let stages = &mut PairSteps::<M, T>::new(&self.options, start).stages;
+        let made = stages
+            .evaluate_start(system, time)
+            .and_then(|()| stages.make::<M, _>(system, StepSpan { time, step }))
+            .and_then(|()| {
+                if all_finite(&stages.end) {
+                    Ok(())
+                } else {
+                    Err(NonFinite::new(end_time, &stages.end))
+                }
+            });
+        match made {
+            Ok(()) => Ok(State::new(end_time, stages.end.clone())),
+            Err(place) => Err(Failure::from(place).error(start.clone(), &report)),
         }
-        Ok(State {
-            time: end_time,
-            values: run.stages.end,
-        })
     }
 }

@@ -7,12 +7,12 @@
 use std::vec::Vec;
 
 /// Nodes and rows of a table, by stage.
-pub(super) struct Table {
+pub(super) struct ButcherTable {
     pub(super) nodes: Vec<f64>,
     pub(super) rows: Vec<&'static [(usize, f64)]>,
 }
 
-impl Table {
+impl ButcherTable {
     pub(super) fn assert_row_sums(&self) {
         for (row, node) in self.rows.iter().zip(&self.nodes) {
             let sum: f64 = row.iter().map(|(_, weight)| weight).sum();
@@ -27,7 +27,7 @@ impl Table {
 
 /// A rooted tree: its order, its density γ, its branches as indices of trees,
 /// and what each stage gives for it, Φ_i, with a bound of its size.
-pub(super) struct Tree {
+pub(super) struct RootedTree {
     order: u32,
     density: f64,
     branches: Vec<usize>,
@@ -35,9 +35,9 @@ pub(super) struct Tree {
 }
 
 /// All rooted trees to order `highest`, with their Φ_i in `table`.
-pub(super) fn stage_values(table: &Table, highest: u32) -> Vec<Tree> {
+pub(super) fn stage_values(table: &ButcherTable, highest: u32) -> Vec<RootedTree> {
     let count = table.nodes.len();
-    let mut trees = std::vec![Tree {
+    let mut trees = std::vec![RootedTree {
         order: 1,
         density: 1.0,
         branches: Vec::new(),
@@ -55,7 +55,7 @@ pub(super) fn stage_values(table: &Table, highest: u32) -> Vec<Tree> {
                 })
             });
             let stages = stages.collect();
-            trees.push(Tree {
+            trees.push(RootedTree {
                 order,
                 density: density * f64::from(order),
                 branches,
@@ -68,7 +68,7 @@ pub(super) fn stage_values(table: &Table, highest: u32) -> Vec<Tree> {
 
 /// All multisets of trees with index below `bound` and `left` nodes together.
 fn collect(
-    trees: &[Tree],
+    trees: &[RootedTree],
     left: u32,
     bound: usize,
     chosen: &mut Vec<usize>,
@@ -95,7 +95,7 @@ fn sums(row: &[(usize, f64)], values: &[(f64, f64)]) -> (f64, f64) {
 }
 
 /// The order of the formula with these weights, at most that of the trees.
-pub(super) fn order(trees: &[Tree], weights: &[(usize, f64)]) -> u32 {
+pub(super) fn order(trees: &[RootedTree], weights: &[(usize, f64)]) -> u32 {
     let missed = trees.iter().find(|tree| {
         let (sum, size) = sums(weights, &tree.stages);
         (sum - 1.0 / tree.density).abs() > 8.0 * f64::EPSILON * size.max(1.0)
@@ -117,7 +117,7 @@ impl Weights {
 
 /// Asserts that the dense output whose weights `fill(s, weights)` adds up has
 /// the order `order` at every fraction s of the step.
-pub(super) fn continuous(trees: &[Tree], order: u32, fill: impl Fn(f64, &mut Weights)) {
+pub(super) fn continuous(trees: &[RootedTree], order: u32, fill: impl Fn(f64, &mut Weights)) {
     for s in [0.1_f64, 0.3, 0.5, 0.7, 0.9, 1.0] {
         for tree in trees.iter().filter(|tree| tree.order <= order) {
             let mut weights = Weights(std::vec![(0.0, 0.0); tree.stages.len()]);
@@ -138,7 +138,7 @@ pub(super) fn continuous(trees: &[Tree], order: u32, fill: impl Fn(f64, &mut Wei
 
 #[test]
 fn the_numbers_of_trees_are_known() {
-    let table = Table {
+    let table = ButcherTable {
         nodes: Vec::new(),
         rows: Vec::new(),
     };

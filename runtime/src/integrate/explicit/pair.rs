@@ -2,17 +2,18 @@
 
 use super::stages::{RightHandSide, StepStages};
 use crate::integrate::control::ControlConstants;
+use crate::integrate::piece::Form;
 use crate::scalar::Scalar;
 
 /// One row of a table: numbers of stages, from 1, and their coefficients.
-pub(crate) type Row<const N: usize> = [(usize, f64); N];
+pub(crate) type TableRow<const N: usize> = [(usize, f64); N];
 
 /// An embedded pair of explicit Runge–Kutta formulas with dense output.
 ///
 /// Stages count from 1. Stage 1 is made by the step before; the rates at the
 /// end of the step are stage [`STAGES`](Self::STAGES) + 1; stages beyond serve
 /// the dense output.
-pub trait Pair: Copy + core::fmt::Debug + Send + Sync + 'static {
+pub trait EmbeddedPair: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// Constants of the step-size control. Their order is that of the solution
     /// that is continued.
     const CONTROL: ControlConstants;
@@ -46,6 +47,14 @@ pub enum DenseForm {
 }
 
 impl DenseForm {
+    /// The form alone.
+    pub(super) fn form(self) -> Form {
+        match self {
+            Self::Alternating(_) => Form::Alternating,
+            Self::Bernstein(_) => Form::Bernstein,
+        }
+    }
+
     /// Rows of the coefficients that are sums over stages.
     pub(super) const fn rows(self) -> &'static [&'static [(usize, f64)]] {
         match self {
@@ -71,7 +80,7 @@ impl DenseForm {
 pub(super) const fn difference<const N: usize>(
     weights: &[(usize, f64)],
     other: &[(usize, f64)],
-) -> Row<N> {
+) -> TableRow<N> {
     let mut row = [(0, 0.0); N];
     let mut i = 0;
     while i < weights.len() {

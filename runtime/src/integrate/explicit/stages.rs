@@ -10,7 +10,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::pair::Pair;
+use super::pair::EmbeddedPair;
 use crate::integrate::options::{Options, Tolerance};
 use crate::integrate::sum::two_sum;
 use crate::scalar::{Real, Scalar};
@@ -20,12 +20,12 @@ pub(super) const MOST_STAGES: usize = 21;
 
 /// A step from `time` of length `step` (negative when running backwards).
 #[derive(Clone, Copy, Debug)]
-pub struct Span<W> {
+pub struct StepSpan<W> {
     pub(crate) time: W,
     pub(crate) step: W,
 }
 
-impl<W: Scalar> Span<W> {
+impl<W: Scalar> StepSpan<W> {
     /// Time at the fraction `node` of the step.
     #[inline(always)]
     pub(super) fn node(&self, node: f64) -> W {
@@ -107,7 +107,7 @@ macro_rules! make_stages {
 
 /// Row and node of a stage. The compiler asks for those of stages that the pair has
 /// not got, too, before it leaves out their code.
-const fn table_entry<M: Pair>(stage: usize) -> (&'static [(usize, f64)], f64) {
+const fn table_entry<M: EmbeddedPair>(stage: usize) -> (&'static [(usize, f64)], f64) {
     if stage <= M::NODES.len() {
         (M::ROWS[stage - 2], M::NODES[stage - 1])
     } else {
@@ -118,7 +118,7 @@ const fn table_entry<M: Pair>(stage: usize) -> (&'static [(usize, f64)], f64) {
 impl<W: Scalar> StepStages<W> {
     /// Memory of the pair `M` for a run from `start`; `wide` makes numbers of
     /// tolerances.
-    pub(super) fn new<M: Pair, T: Real>(
+    pub(super) fn new<M: EmbeddedPair, T: Real>(
         options: &Options<T>,
         start: Vec<W>,
         wide: impl Fn(T) -> W,
@@ -144,12 +144,12 @@ impl<W: Scalar> StepStages<W> {
         }
     }
 
-    /// Stages 2 to [`Pair::STAGES`], from stage 1 in place, and the end of the step.
+    /// Stages 2 to [`EmbeddedPair::STAGES`], from stage 1 in place, and the end of the step.
     #[inline(always)]
-    pub(super) fn make<M: Pair, S: RightHandSide<W>>(
+    pub(super) fn make<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
         system: &mut S,
-        span: Span<W>,
+        span: StepSpan<W>,
     ) -> Result<(), S::Failure> {
         make_stages!(self, system, span, 2, M::STAGES);
         self.finish::<M, S>(system, span.step);
@@ -158,10 +158,10 @@ impl<W: Scalar> StepStages<W> {
 
     /// The stages beyond the end of the step.
     #[inline(always)]
-    pub(super) fn make_dense<M: Pair, S: RightHandSide<W>>(
+    pub(super) fn make_dense<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
         system: &mut S,
-        span: Span<W>,
+        span: StepSpan<W>,
     ) -> Result<(), S::Failure> {
         make_stages!(self, system, span, M::STAGES + 2, M::NODES.len());
         Ok(())
@@ -169,10 +169,10 @@ impl<W: Scalar> StepStages<W> {
 
     /// Evaluates the rates of stage `STAGE` at y + h (sum of row).
     #[inline(always)]
-    fn make_stage<M: Pair, S: RightHandSide<W>, const STAGE: usize>(
+    fn make_stage<M: EmbeddedPair, S: RightHandSide<W>, const STAGE: usize>(
         &mut self,
         system: &mut S,
-        span: Span<W>,
+        span: StepSpan<W>,
     ) -> Result<(), S::Failure> {
         let (row, node) = const { table_entry::<M>(STAGE) };
         let n = system.dimension();
@@ -187,7 +187,7 @@ impl<W: Scalar> StepStages<W> {
 
     /// The state at the end of the step: y + h (sum of row).
     #[inline(always)]
-    fn finish<M: Pair, S: RightHandSide<W>>(&mut self, system: &S, step: W) {
+    fn finish<M: EmbeddedPair, S: RightHandSide<W>>(&mut self, system: &S, step: W) {
         let row = const { M::ROWS[M::STAGES - 1] };
         let n = system.dimension();
         let (start, end) = (&self.start[..n], &mut self.end[..n]);
@@ -205,6 +205,12 @@ impl<W: Scalar> StepStages<W> {
         }
     }
 
+    /// Starts anew from `values`, whose rates are not known.
+    pub(super) fn restart(&mut self, values: &[W]) {
+        self.start.copy_from_slice(values);
+        self.start_residue.fill(W::from_f64(0.0));
+    }
+
     /// Rates at the start of the first step: stage 1.
     #[inline(always)]
     pub(super) fn evaluate_start<S: RightHandSide<W>>(
@@ -219,7 +225,7 @@ impl<W: Scalar> StepStages<W> {
     /// Rates at the end of the step, at time `time`, which are stage 1 of the next
     /// step.
     #[inline(always)]
-    pub(super) fn evaluate_end<M: Pair, S: RightHandSide<W>>(
+    pub(super) fn evaluate_end<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
         system: &mut S,
         time: W,
@@ -235,7 +241,7 @@ impl<W: Scalar> StepStages<W> {
     pub(super) fn euler_change<S: RightHandSide<W>>(
         &mut self,
         system: &mut S,
-        span: Span<W>,
+        span: StepSpan<W>,
     ) -> Result<W, S::Failure> {
         let n = system.dimension();
         let (rates, after) = self.rates.split_at_mut(n);
@@ -314,15 +320,14 @@ impl<W: Scalar> StepStages<W> {
         size * (squares / count(system)).sqrt()
     }
 
-    /// Makes the end of the step the start of the next one, where it is accepted.
-    /// The rates there become its first stage.
+    /// Makes the end of the step the start of the next one, where it is accepted, in the
+    /// first `n` components. The rates there become its first stage.
     #[inline(always)]
-    pub(super) fn advance<M: Pair, S: RightHandSide<W>>(
+    pub(super) fn advance<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
-        system: &S,
+        n: usize,
         accepted: S::Accepted,
     ) {
-        let n = system.dimension();
         let (first, rest) = self.rates.split_at_mut(n);
         let last = &rest[(M::STAGES - 1) * n..][..n];
         let (start, end) = (&mut self.start[..n], &self.end[..n]);

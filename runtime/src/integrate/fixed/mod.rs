@@ -1,7 +1,7 @@
 //! Methods with steps of a given length.
 
-mod driver;
 mod gauss;
+mod grid;
 mod linear;
 mod projected;
 mod rk4;

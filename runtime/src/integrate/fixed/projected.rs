@@ -2,17 +2,16 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::ops::ControlFlow;
 
-use super::driver::{Failure, FixedStepper, Grid};
-use super::gauss::GaussStepper;
-use super::rk4::Rk4Stepper;
+use super::gauss::GaussStep;
+use super::grid::{FixedStep, Grid, GridSteps};
+use super::rk4::Rk4Step;
 use super::{Gauss, Rk4};
-use crate::integrate::dense::{DenseError, DenseStep, Interpolant};
-use crate::integrate::error::{InputError, IntegrationError};
+use crate::integrate::error::InputError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
-use crate::integrate::report::Solution;
+use crate::integrate::piece::{Form, Piece};
+use crate::integrate::steps::Failure;
 use crate::scalar::Real;
 use crate::system::{FirstIntegral, Ode, State};
 
@@ -96,83 +95,63 @@ impl<M, I, T: Real> Projected<M, I, T> {
         }
     }
 
-    fn run<O: Ode<T> + ?Sized, S: Corrected<T, O>>(
+    fn projected<S>(
         &self,
         grid: Grid<T>,
-        ode: &O,
         start: &State<T>,
-        end: T,
-        new: impl FnOnce() -> S,
-        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>>
+        steps: S,
+    ) -> Result<GridSteps<ProjectedStep<S, I, T>, T>, InputError<T>>
     where
-        I: FirstIntegral<T>,
+        I: Clone,
     {
         let value = self.tolerance;
         if !(value.is_finite() && value > T::ZERO) {
-            let name = "projection";
-            let component = 0;
             return Err(InputError::Tolerance {
-                name,
-                component,
+                name: "projection",
+                component: 0,
                 value,
-            }
-            .into());
+            });
         }
-        let n = start.values.len();
-        let new = || ProjectedStepper {
-            steps: new(),
-            follows: S::FOLLOWS,
-            projection: Projection {
-                integral: &self.integral,
-                tolerance: self.tolerance,
-                iteration_limit: self.iteration_limit,
-                level: T::ZERO,
-                gradient: vec![T::ZERO; n],
-                trial: vec![T::ZERO; n],
-                trial_gradient: vec![T::ZERO; n],
-                correction: vec![T::ZERO; n],
-            },
-        };
-        grid.run(ode, start, end, new, observer)
+        let zeros = || vec![T::ZERO; start.values.len()];
+        grid.steps(ProjectedStep {
+            steps,
+            integral: self.integral.clone(),
+            tolerance: self.tolerance,
+            iteration_limit: self.iteration_limit,
+            level: T::ZERO,
+            gradient: zeros(),
+            trial: zeros(),
+            trial_gradient: zeros(),
+            correction: zeros(),
+        })
     }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T>> Integrator<T, O>
+impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
     for Projected<Gauss<T>, I, T>
 {
-    fn integrate(
-        &self,
-        ode: &O,
-        start: &State<T>,
-        end: T,
-        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        let new = || GaussStepper::new(&self.method, &start.values);
-        self.run(self.method.grid(), ode, start, end, new, observer)
+    type Steps = GridSteps<ProjectedStep<GaussStep<T>, I, T>, T>;
+
+    fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
+        let steps = GaussStep::new(&self.method, &start.values);
+        self.projected(self.method.grid(), start, steps)
     }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T>> Integrator<T, O>
+impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
     for Projected<Rk4<T>, I, T>
 {
-    fn integrate(
-        &self,
-        ode: &O,
-        start: &State<T>,
-        end: T,
-        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        let new = || Rk4Stepper::new(&start.values);
-        self.run(self.method.grid(), ode, start, end, new, observer)
+    type Steps = GridSteps<ProjectedStep<Rk4Step<T>, I, T>, T>;
+
+    fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
+        let steps = Rk4Step::new(&start.values);
+        self.projected(self.method.grid(), start, steps)
     }
 }
 
 /// A method whose end of a step may be moved.
-pub(super) trait Corrected<T: Real, O: ?Sized>: FixedStepper<T, O> {
-    /// True if the values inside a step follow its end when that is moved.
-    const FOLLOWS: bool;
-
+#[allow(unreachable_pub)]
+pub trait Corrected<T: Real, O: ?Sized>: FixedStep<T, O> {
     /// Adds `correction` to the end of the step, at the time `time`.
     fn correct(
         &mut self,
@@ -182,16 +161,12 @@ pub(super) trait Corrected<T: Real, O: ?Sized>: FixedStepper<T, O> {
     ) -> Result<(), Failure<T>>;
 }
 
-/// The method's memory, and what the projection needs beside it.
-struct ProjectedStepper<'i, T, S, I> {
+/// A method at work, and what the projection needs beside it.
+#[derive(Clone, Debug)]
+#[allow(unreachable_pub)]
+pub struct ProjectedStep<S, I, T> {
     steps: S,
-    projection: Projection<'i, T, I>,
-    /// False if a correction is to be added inside the step.
-    follows: bool,
-}
-
-struct Projection<'i, T, I> {
-    integral: &'i I,
+    integral: I,
     tolerance: T,
     iteration_limit: u32,
     /// Value of the integral at the start of the run.
@@ -202,9 +177,13 @@ struct Projection<'i, T, I> {
     correction: Vec<T>,
 }
 
-impl<T: Real, I: FirstIntegral<T>> Projection<'_, T, I> {
-    /// Writes what brings the state `end` to the level to `correction`.
-    fn project(&mut self, time: T, end: &[T]) -> Result<(), Failure<T>> {
+impl<S, I: FirstIntegral<T>, T: Real> ProjectedStep<S, I, T> {
+    /// Writes what brings the end of the step to the level to `correction`.
+    fn project<O: ?Sized>(&mut self, time: T, step: T) -> Result<(), Failure<T>>
+    where
+        S: Corrected<T, O>,
+    {
+        let end = self.steps.piece().end;
         self.correction.fill(T::ZERO);
         let mut deviation = self.integral.evaluate(end, &mut self.gradient) - self.level;
         let (mut square, mut size) = (T::ZERO, T::ZERO);
@@ -233,6 +212,7 @@ impl<T: Real, I: FirstIntegral<T>> Projection<'_, T, I> {
             let nearer = reached.abs() < deviation.abs();
             if !nearer || iterations > self.iteration_limit {
                 return Err(Failure::NotProjected {
+                    step: step.abs(),
                     iterations,
                     deviation,
                 });
@@ -246,20 +226,14 @@ impl<T: Real, I: FirstIntegral<T>> Projection<'_, T, I> {
     }
 }
 
-impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> FixedStepper<T, O>
-    for ProjectedStepper<'_, T, S, I>
+impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> FixedStep<T, O>
+    for ProjectedStep<S, I, T>
 {
-    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), Failure<T>> {
-        let Projection {
-            integral,
-            level,
-            gradient,
-            ..
-        } = &mut self.projection;
-        let start = self.steps.start();
-        *level = integral.evaluate(start, gradient);
-        if !level.is_finite() {
-            return Err(NonFinite::new(time, start).into());
+    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
+        let start = self.steps.piece().start;
+        self.level = self.integral.evaluate(start, &mut self.gradient);
+        if !self.level.is_finite() {
+            return Err(NonFinite::new(time, start));
         }
         self.steps.begin(system, time)
     }
@@ -272,35 +246,28 @@ impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> FixedStepper<T
     ) -> Result<(), Failure<T>> {
         self.steps.make(system, time, step)?;
         let end_time = time + step;
-        self.projection.project(end_time, self.steps.end())?;
-        let correction = &self.projection.correction;
-        self.steps.correct(system, end_time, correction)
+        self.project(end_time, step)?;
+        self.steps.correct(system, end_time, &self.correction)
+    }
+
+    /// Values inside a step that do not follow from its ends are corrected in proportion
+    /// to the time.
+    fn piece(&self) -> Piece<'_, T> {
+        let piece = self.steps.piece();
+        match piece.form {
+            Form::Collocation(_) => Piece {
+                terms: [piece.terms[0], &self.correction],
+                ..piece
+            },
+            _ => piece,
+        }
     }
 
     fn advance(&mut self) {
         self.steps.advance();
     }
-}
 
-impl<T: Real, S: Interpolant<T>, I> Interpolant<T> for ProjectedStepper<'_, T, S, I> {
-    fn start(&self) -> &[T] {
-        self.steps.start()
-    }
-
-    fn end(&self) -> &[T] {
-        self.steps.end()
-    }
-
-    fn prepare(&mut self) -> Result<u64, DenseError<T>> {
-        self.steps.prepare()
-    }
-
-    fn value(&self, fraction: T, out: &mut [T]) {
-        self.steps.value(fraction, out);
-        if !self.follows {
-            for (value, &correction) in out.iter_mut().zip(&self.projection.correction) {
-                *value += fraction * correction;
-            }
-        }
+    fn set_start(&mut self, values: &[T]) {
+        self.steps.set_start(values);
     }
 }

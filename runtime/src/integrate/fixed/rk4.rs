@@ -2,16 +2,15 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::ops::ControlFlow;
 
-use super::driver::{Failure, FixedStepper, Grid};
+use super::grid::{FixedStep, Grid, GridSteps};
 use super::projected::Corrected;
-use crate::integrate::dense::{DenseStep, Interpolant};
-use crate::integrate::error::IntegrationError;
+use crate::integrate::error::InputError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
-use crate::integrate::report::Solution;
+use crate::integrate::piece::{Form, Piece};
 use crate::integrate::request::all_finite;
+use crate::integrate::steps::Failure;
 use crate::scalar::Real;
 use crate::system::{Ode, State};
 
@@ -40,6 +39,7 @@ use crate::system::{Ode, State};
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rk4<T> {
     /// Length of the steps, positive whatever the direction.
     pub step: T,
@@ -67,20 +67,17 @@ impl<T: Real> Rk4<T> {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Rk4<T> {
-    fn integrate(
-        &self,
-        ode: &O,
-        start: &State<T>,
-        end: T,
-        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        let new = || Rk4Stepper::new(&start.values);
-        self.grid().run(ode, start, end, new, observer)
+    type Steps = GridSteps<Rk4Step<T>, T>;
+
+    fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
+        self.grid().steps(Rk4Step::new(&start.values))
     }
 }
 
-/// The vectors that a run works on.
-pub(super) struct Rk4Stepper<T> {
+/// The vectors that a step works on.
+#[derive(Clone, Debug)]
+#[allow(unreachable_pub)]
+pub struct Rk4Step<T> {
     start: Vec<T>,
     end: Vec<T>,
     stage: Vec<T>,
@@ -91,7 +88,7 @@ pub(super) struct Rk4Stepper<T> {
     step: T,
 }
 
-impl<T: Real> Rk4Stepper<T> {
+impl<T: Real> Rk4Step<T> {
     pub(super) fn new(start: &[T]) -> Self {
         let zeros = || vec![T::ZERO; start.len()];
         Self {
@@ -107,9 +104,9 @@ impl<T: Real> Rk4Stepper<T> {
     }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for Rk4Stepper<T> {
-    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), Failure<T>> {
-        Ok(system.evaluate(time, &self.start, &mut self.start_rates)?)
+impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for Rk4Step<T> {
+    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
+        system.evaluate(time, &self.start, &mut self.start_rates)
     }
 
     fn make(
@@ -147,15 +144,27 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for Rk4Stepper<T> {
         Ok(system.evaluate(end_time, &self.end, &mut self.end_rates)?)
     }
 
+    fn piece(&self) -> Piece<'_, T> {
+        Piece {
+            form: Form::Hermite,
+            start: &self.start,
+            end: &self.end,
+            terms: [&self.start_rates, &self.end_rates],
+            length: self.step,
+        }
+    }
+
     fn advance(&mut self) {
         core::mem::swap(&mut self.start, &mut self.end);
         core::mem::swap(&mut self.start_rates, &mut self.end_rates);
     }
+
+    fn set_start(&mut self, values: &[T]) {
+        self.start.copy_from_slice(values);
+    }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Rk4Stepper<T> {
-    const FOLLOWS: bool = true;
-
+impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Rk4Step<T> {
     fn correct(
         &mut self,
         system: &mut Evaluator<'_, T, O>,
@@ -166,27 +175,5 @@ impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Rk4Stepper<T> {
             *end += correction;
         }
         Ok(system.evaluate(time, &self.end, &mut self.end_rates)?)
-    }
-}
-
-impl<T: Real> Interpolant<T> for Rk4Stepper<T> {
-    fn start(&self) -> &[T] {
-        &self.start
-    }
-
-    fn end(&self) -> &[T] {
-        &self.end
-    }
-
-    /// y + s (Δy + r (d₁ + s (d₂ − d₁))) with d₁ = h k₀ − Δy, d₂ = Δy − h k₁,
-    /// r = 1 − s.
-    fn value(&self, s: T, out: &mut [T]) {
-        let r = T::ONE - s;
-        for (i, out) in out.iter_mut().enumerate() {
-            let increment = self.end[i] - self.start[i];
-            let left = self.step * self.start_rates[i] - increment;
-            let right = increment - self.step * self.end_rates[i];
-            *out = self.start[i] + s * (increment + r * (left + s * (right - left)));
-        }
     }
 }

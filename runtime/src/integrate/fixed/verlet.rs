@@ -2,15 +2,14 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::ops::ControlFlow;
 
-use super::driver::{Failure, FixedStepper, Grid};
-use crate::integrate::dense::{DenseStep, Interpolant};
-use crate::integrate::error::{InputError, Inseparable, IntegrationError};
+use super::grid::{FixedStep, Grid, GridSteps};
+use crate::integrate::error::{InputError, Inseparable};
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
-use crate::integrate::report::Solution;
-use crate::integrate::request::{all_finite, check_start};
+use crate::integrate::piece::{Form, Piece};
+use crate::integrate::request::all_finite;
+use crate::integrate::steps::Failure;
 use crate::scalar::{Real, Scalar};
 use crate::system::{Canonical, CanonicalVariables, Ode, State};
 
@@ -74,6 +73,7 @@ use crate::system::{Canonical, CanonicalVariables, Ode, State};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StoermerVerlet<T> {
     /// Length of the steps, positive whatever the direction. The last one is
     /// shorter where the span is no multiple of it.
@@ -93,35 +93,28 @@ impl<T: Real> StoermerVerlet<T> {
     }
 }
 
-impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<'_, C>> for StoermerVerlet<T> {
-    fn integrate(
+impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<C>> for StoermerVerlet<T> {
+    type Steps = GridSteps<VerletStep<T>, T>;
+
+    fn steps(
         &self,
-        ode: &CanonicalVariables<'_, C>,
+        ode: &CanonicalVariables<C>,
         start: &State<T>,
-        end: T,
-        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        check_start(ode, start)?;
+    ) -> Result<Self::Steps, InputError<T>> {
         check_separable(ode, start)?;
         let grid = Grid {
             step: self.step,
             halvings: 0,
             step_limit: self.step_limit,
         };
-        grid.run(
-            ode,
-            start,
-            end,
-            || VerletStepper::new(&start.values),
-            observer,
-        )
+        grid.steps(VerletStep::new(&start.values))
     }
 }
 
-/// Velocities are the same at other coordinates, rates of momenta at other
-/// momenta.
+/// Passes equations whose velocities do not change with the coordinates, nor rates of
+/// momenta with the momenta.
 fn check_separable<T: Real, C: Canonical<T>>(
-    ode: &CanonicalVariables<'_, C>,
+    ode: &CanonicalVariables<C>,
     start: &State<T>,
 ) -> Result<(), InputError<T>> {
     let n = start.values.len() / 2;
@@ -141,10 +134,9 @@ fn check_separable<T: Real, C: Canonical<T>>(
         });
         values.collect()
     };
-    let mut system = Evaluator::new(ode, 2 * n);
-    let mut rates = |state: Vec<T>| {
+    let rates = |state: Vec<T>| {
         let mut rates = vec![T::ZERO; 2 * n];
-        system.write(start.time, &state, &mut rates);
+        ode.rates(start.time, &state, &mut rates);
         rates
     };
     let reference = rates(state(false, false));
@@ -169,8 +161,10 @@ fn check_separable<T: Real, C: Canonical<T>>(
     Ok(())
 }
 
-/// The vectors that a run works on.
-struct VerletStepper<T> {
+/// The vectors that a step works on.
+#[derive(Clone, Debug)]
+#[allow(unreachable_pub)]
+pub struct VerletStep<T> {
     start: Vec<T>,
     end: Vec<T>,
     /// Coordinates with the momenta of the middle of the step.
@@ -179,9 +173,10 @@ struct VerletStepper<T> {
     /// Rates at the start of the step, of which those of the momenta count.
     start_rates: Vec<T>,
     end_rates: Vec<T>,
+    step: T,
 }
 
-impl<T: Real> VerletStepper<T> {
+impl<T: Real> VerletStep<T> {
     fn new(start: &[T]) -> Self {
         let zeros = || vec![T::ZERO; start.len()];
         Self {
@@ -191,13 +186,14 @@ impl<T: Real> VerletStepper<T> {
             rates: zeros(),
             start_rates: zeros(),
             end_rates: zeros(),
+            step: T::ZERO,
         }
     }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for VerletStepper<T> {
-    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), Failure<T>> {
-        Ok(system.evaluate(time, &self.start, &mut self.start_rates)?)
+impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for VerletStep<T> {
+    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
+        system.evaluate(time, &self.start, &mut self.start_rates)
     }
 
     fn make(
@@ -206,6 +202,7 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for VerletStepper<T> {
         time: T,
         step: T,
     ) -> Result<(), Failure<T>> {
+        self.step = step;
         let n = self.start.len() / 2;
         let half = T::from_f64(0.5) * step;
         // p at h/2 = p + h/2 F(q)
@@ -230,24 +227,22 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStepper<T, O> for VerletStepper<T> {
         Err(NonFinite::new(time + step, &self.end).into())
     }
 
+    fn piece(&self) -> Piece<'_, T> {
+        Piece {
+            form: Form::Linear,
+            start: &self.start,
+            end: &self.end,
+            terms: [&[]; 2],
+            length: self.step,
+        }
+    }
+
     fn advance(&mut self) {
         core::mem::swap(&mut self.start, &mut self.end);
         core::mem::swap(&mut self.start_rates, &mut self.end_rates);
     }
-}
 
-impl<T: Real> Interpolant<T> for VerletStepper<T> {
-    fn start(&self) -> &[T] {
-        &self.start
-    }
-
-    fn end(&self) -> &[T] {
-        &self.end
-    }
-
-    fn value(&self, fraction: T, out: &mut [T]) {
-        for ((out, &start), &end) in out.iter_mut().zip(&self.start).zip(&self.end) {
-            *out = start + fraction * (end - start);
-        }
+    fn set_start(&mut self, values: &[T]) {
+        self.start.copy_from_slice(values);
     }
 }

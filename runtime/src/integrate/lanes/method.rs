@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use super::models::Models;
 use super::runs::{Flags, Runs};
 use crate::integrate::error::InputError;
-use crate::integrate::explicit::Span;
+use crate::integrate::explicit::StepSpan;
 use crate::integrate::options::Options;
 use crate::scalar::Lane;
 use crate::scalar::register::Register;
@@ -28,7 +28,7 @@ use crate::system::Cast;
 pub trait LaneMethod<P: Cast<T>, T: Lane>: Sync {
     /// The method at work.
     #[doc(hidden)]
-    type Stepper<'a, R: Register<Lane = T>>: Stepper<R, Pendulum = P>
+    type Steps<'a, R: Register<Lane = T>>: LaneSteps<R, Pendulum = P>
     where
         Self: 'a;
 
@@ -44,11 +44,11 @@ pub trait LaneMethod<P: Cast<T>, T: Lane>: Sync {
 
     /// Its memory, with this pendulum in every lane.
     #[doc(hidden)]
-    fn stepper<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> Self::Stepper<'a, R>;
+    fn steps<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> Self::Steps<'a, R>;
 }
 
 /// A method at work, with a state in each lane.
-pub trait Stepper<R: Register> {
+pub trait LaneSteps<R: Register> {
     /// Whose motion it steps along.
     type Pendulum: Cast<R::Lane>;
 
@@ -70,14 +70,14 @@ pub trait Stepper<R: Register> {
     fn prepare(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags);
 
     /// Makes a step in all lanes; `size` is its length.
-    fn attempt(&mut self, span: Span<R>, size: R);
+    fn attempt(&mut self, span: StepSpan<R>, size: R);
 
     /// Judges the steps that were made: counts them, chooses the next ones where
     /// these follow from them, and returns which are accepted.
     fn judge(&mut self, runs: &mut Runs<R::Lane>) -> Flags;
 
     /// Computes what values inside the step need.
-    fn prepare_dense(&mut self, span: Span<R>);
+    fn prepare_dense(&mut self, span: StepSpan<R>);
 
     /// Counts that for a lane.
     ///

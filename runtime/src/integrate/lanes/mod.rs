@@ -21,13 +21,13 @@ use alloc::vec::Vec;
 
 pub(crate) use self::cases::Cases;
 pub use self::method::LaneMethod;
-pub(crate) use self::method::Stepper;
+pub(crate) use self::method::LaneSteps;
 pub(crate) use self::models::Models;
 use self::registers::{Numbers, WIDEST, register};
 pub(crate) use self::runs::{Flags, Outcome, Runs};
 use self::samples::LaneSamples;
 use super::error::InputError;
-use super::explicit::Span;
+use super::explicit::StepSpan;
 use super::request::{check_start, check_times};
 use crate::scalar::dispatch::{self, RegisterKernel};
 use crate::scalar::register::Register;
@@ -92,28 +92,28 @@ where
             self.refuse_all(&error);
             return;
         }
-        let mut stepper = method.stepper::<R>(first);
+        let mut steps = method.steps::<R>(first);
         let mut runs = Runs::new();
         let mut samples = LaneSamples::new(dimension);
-        let mut fresh = self.fill(&mut stepper, &mut runs);
+        let mut fresh = self.fill(&mut steps, &mut runs);
         while runs.active.contains(&true) {
-            stepper.prepare(&mut runs, &fresh);
-            self.hand_over_failed(&mut stepper, &mut runs);
-            let (span, size) = self.plan(&mut stepper, &mut runs);
-            stepper.attempt(span, size);
-            let accepted = stepper.judge(&mut runs);
+            steps.prepare(&mut runs, &fresh);
+            self.hand_over_failed(&mut steps, &mut runs);
+            let (span, size) = self.plan(&mut steps, &mut runs);
+            steps.attempt(span, size);
+            let accepted = steps.judge(&mut runs);
             if !self.task.times.is_empty() {
-                samples.take(&mut stepper, &mut runs, self.task.times, &accepted, span);
+                samples.take(&mut steps, &mut runs, self.task.times, &accepted, span);
             }
             let ended = runs.advance(R::LANES, &accepted);
-            stepper.advance(R::mask(|lane| accepted[lane]));
+            steps.advance(R::mask(|lane| accepted[lane]));
             if ended {
-                self.finish(&mut stepper, &mut runs);
+                self.finish(&mut steps, &mut runs);
             }
-            self.hand_over_failed(&mut stepper, &mut runs);
+            self.hand_over_failed(&mut steps, &mut runs);
             fresh = [false; WIDEST];
             if runs.active[..R::LANES].contains(&false) {
-                fresh = self.fill(&mut stepper, &mut runs);
+                fresh = self.fill(&mut steps, &mut runs);
             }
         }
     }
@@ -140,7 +140,7 @@ where
     }
 
     fn check(&self, pendulum: &P, start: &State<T>) -> Result<(), InputError<T>> {
-        check_start(&AbsoluteAngles(pendulum), start)?;
+        check_start(&AbsoluteAngles(pendulum), (start.time, &start.values))?;
         check_times(start.time, self.task.times)?;
         check_times(start.time, self.task.end.as_slice())
     }
@@ -149,7 +149,7 @@ where
     /// Returns which have got one.
     fn fill<R: Register<Lane = T>>(
         &mut self,
-        stepper: &mut impl Stepper<R, Pendulum = P>,
+        steps: &mut impl LaneSteps<R, Pendulum = P>,
         runs: &mut Runs<T>,
     ) -> Flags {
         let mut fresh = [false; WIDEST];
@@ -160,7 +160,7 @@ where
             {
                 let mut checked = self.check(pendulum, start);
                 if checked.is_ok() && self.task.cases.models_differ() {
-                    checked = stepper.models().set(lane, pendulum);
+                    checked = steps.models().set(lane, pendulum);
                 }
                 if let Err(error) = checked {
                     (self.done)(index, Outcome::refused(error));
@@ -173,7 +173,7 @@ where
                     let (index, outcome) = runs.finish(lane, start.values.clone());
                     (self.done)(index, outcome);
                 } else {
-                    stepper.set(lane, Some(&start.values));
+                    steps.set(lane, Some(&start.values));
                     fresh[lane] = true;
                 }
             }
@@ -186,26 +186,26 @@ where
     #[inline(always)]
     fn plan<R: Register<Lane = T>>(
         &mut self,
-        stepper: &mut impl Stepper<R, Pendulum = P>,
+        steps: &mut impl LaneSteps<R, Pendulum = P>,
         runs: &mut Runs<T>,
-    ) -> (Span<R>, R) {
+    ) -> (StepSpan<R>, R) {
         let options = self.task.method.options();
         let stuck = runs.plan(R::LANES, options);
         if stuck.contains(&true) {
             for lane in (0..R::LANES).filter(|&lane| stuck[lane]) {
-                let values = registers::numbers_in(stepper.start(), lane);
+                let values = registers::numbers_in(steps.start(), lane);
                 if let Some(error) = runs.why_stuck(lane, options, values) {
                     runs.fail(lane, error);
                 }
             }
-            self.hand_over_failed(stepper, runs);
+            self.hand_over_failed(steps, runs);
         }
         let (mut step, mut size): (Numbers<T>, Numbers<T>) = (runs.time, runs.time);
         for lane in 0..R::LANES {
             step[lane] = runs.span(lane).step;
             size[lane] = step[lane].abs();
         }
-        let span = Span {
+        let span = StepSpan {
             time: register(&runs.time),
             step: register(&step),
         };
@@ -216,13 +216,13 @@ where
     #[inline(always)]
     fn hand_over_failed<R: Register<Lane = T>>(
         &mut self,
-        stepper: &mut impl Stepper<R, Pendulum = P>,
+        steps: &mut impl LaneSteps<R, Pendulum = P>,
         runs: &mut Runs<T>,
     ) {
         while let Some((lane, index, outcome)) = runs.take_failed() {
             (self.done)(index, outcome);
-            stepper.set(lane, None);
-            self.replace_model(stepper, runs, lane);
+            steps.set(lane, None);
+            self.replace_model(steps, runs, lane);
         }
     }
 
@@ -232,7 +232,7 @@ where
     #[cold]
     fn replace_model<R: Register<Lane = T>>(
         &self,
-        stepper: &mut impl Stepper<R, Pendulum = P>,
+        steps: &mut impl LaneSteps<R, Pendulum = P>,
         runs: &Runs<T>,
         lane: usize,
     ) {
@@ -241,18 +241,18 @@ where
             && let Some((pendulum, _)) = self.task.cases.get(index)
         {
             // It is in a lane already, so that its constants fit.
-            let _ = stepper.models().set(lane, pendulum);
+            let _ = steps.models().set(lane, pendulum);
         }
     }
 
     /// Hands over the trajectories that have reached the end.
-    fn finish<R: Register<Lane = T>>(&mut self, stepper: &mut impl Stepper<R>, runs: &mut Runs<T>) {
+    fn finish<R: Register<Lane = T>>(&mut self, steps: &mut impl LaneSteps<R>, runs: &mut Runs<T>) {
         for lane in 0..R::LANES {
             if runs.active[lane] && runs.time[lane] == runs.end[lane] {
-                let values = registers::numbers_in(stepper.start(), lane);
+                let values = registers::numbers_in(steps.start(), lane);
                 let (index, outcome) = runs.finish(lane, values);
                 (self.done)(index, outcome);
-                stepper.set(lane, None);
+                steps.set(lane, None);
             }
         }
     }

@@ -8,9 +8,10 @@ use alloc::vec::Vec;
 
 use super::registers::{Numbers, WIDEST};
 use crate::integrate::error::IntegrationError;
-use crate::integrate::explicit::{Span, check_step};
+use crate::integrate::explicit::StepSpan;
 use crate::integrate::options::Options;
 use crate::integrate::report::{Report, Solution, StopReason};
+use crate::integrate::steps::StepLimits;
 use crate::scalar::Real;
 use crate::system::State;
 
@@ -32,7 +33,7 @@ pub(crate) struct Outcome<T> {
 /// In a lane without a trajectory everything is zero.
 #[derive(Debug)]
 pub struct Runs<T> {
-    /// Which lanes have a trajectory.
+    /// True for the lanes that have a trajectory.
     pub(crate) active: Flags,
     /// Its place among the cases.
     index: [usize; WIDEST],
@@ -151,20 +152,15 @@ impl<T: Real> Runs<T> {
     ) -> Option<IntegrationError<T>> {
         let time = self.time[lane];
         let attempt = (time, self.step[lane], self.last[lane]);
-        let state = State { time, values };
-        check_step(
-            options,
-            &self.report(lane, StopReason::EndReached),
-            attempt,
-            || state,
-        )
-        .err()
+        let report = self.report(lane, StopReason::EndReached);
+        let failure = StepLimits::new(options).check(&report, 0, attempt).err()?;
+        Some(failure.error(State { time, values }, &report))
     }
 
     /// The step that is tried.
     #[inline(always)]
-    pub(crate) fn span(&self, lane: usize) -> Span<T> {
-        Span {
+    pub(crate) fn span(&self, lane: usize) -> StepSpan<T> {
+        StepSpan {
             time: self.time[lane],
             // The difference of the rounded times, so that they add up.
             step: self.end_time[lane] - self.time[lane],

@@ -3,10 +3,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::method::Stepper;
+use super::method::LaneSteps;
 use super::registers::{Numbers, WIDEST, copy_lane, numbers_in, register};
 use super::runs::{Flags, Runs};
-use crate::integrate::explicit::Span;
+use crate::integrate::explicit::StepSpan;
 use crate::scalar::Real;
 use crate::scalar::register::Register;
 use crate::system::State;
@@ -30,11 +30,11 @@ impl<R: Register> LaneSamples<R> {
     #[inline(always)]
     pub(super) fn take(
         &mut self,
-        stepper: &mut impl Stepper<R>,
+        steps: &mut impl LaneSteps<R>,
         runs: &mut Runs<R::Lane>,
         times: &[R::Lane],
         accepted: &Flags,
-        span: Span<R>,
+        span: StepSpan<R>,
     ) {
         let (mut prepared, mut judged) = (false, [false; WIDEST]);
         loop {
@@ -45,20 +45,20 @@ impl<R: Register> LaneSamples<R> {
                     && let Some(time) = runs.next_sample(lane, times)
                 {
                     if time == runs.end_time[lane] {
-                        copy_lane(stepper.end(), lane, &mut self.one);
+                        copy_lane(steps.end(), lane, &mut self.one);
                         runs.sample(lane, &self.one);
                         continue;
                     }
                     if !prepared {
-                        stepper.prepare_dense(span);
+                        steps.prepare_dense(span);
                         prepared = true;
                     }
                     if !judged[lane] {
                         judged[lane] = true;
-                        if let Err(place) = stepper.judge_dense(runs, lane) {
+                        if let Err(place) = steps.judge_dense(runs, lane) {
                             let last = State {
                                 time: runs.end_time[lane],
-                                values: numbers_in(stepper.end(), lane),
+                                values: numbers_in(steps.end(), lane),
                             };
                             runs.non_finite(lane, place, last);
                             break;
@@ -73,7 +73,7 @@ impl<R: Register> LaneSamples<R> {
             if !inside.contains(&true) {
                 return;
             }
-            stepper.value(register(&fraction), &mut self.values);
+            steps.value(register(&fraction), &mut self.values);
             for lane in (0..R::LANES).filter(|&lane| inside[lane]) {
                 copy_lane(&self.values, lane, &mut self.one);
                 runs.sample(lane, &self.one);

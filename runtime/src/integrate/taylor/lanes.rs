@@ -9,21 +9,20 @@ use alloc::vec::Vec;
 use super::Taylor;
 use super::root::least_inverse_roots;
 use crate::integrate::error::InputError;
-use crate::integrate::explicit::Span;
+use crate::integrate::explicit::StepSpan;
 use crate::integrate::lanes::registers::{
     Numbers, WIDEST, numbers, numbers_in, register, set_lane, tolerances,
 };
-use crate::integrate::lanes::{Flags, LaneMethod, Models, Runs, Stepper};
+use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
 use crate::integrate::options::Options;
 use crate::integrate::sum::two_sum;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
-use crate::simd::Part;
-use crate::simd::Quad;
+use crate::simd::{Part, Quad, outlined};
 use crate::system::{Cast, State, TaylorPendulum};
 
 impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
-    type Stepper<'a, R: Register<Lane = T>> = Lanes<'a, P, R>;
+    type Steps<'a, R: Register<Lane = T>> = TaylorInLanes<'a, P, R>;
 
     fn options(&self) -> &Options<T> {
         &self.options
@@ -33,11 +32,11 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
         self.check_options()
     }
 
-    fn stepper<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> Lanes<'a, P, R> {
+    fn steps<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> TaylorInLanes<'a, P, R> {
         let (n, order) = (2 * P::LINKS, self.order());
         let zero = R::from_f64(0.0);
         let (relative, absolute) = tolerances(&self.options, n);
-        Lanes {
+        TaylorInLanes {
             models: Models::splat(pendulum),
             options: &self.options,
             order,
@@ -56,7 +55,7 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
     }
 }
 
-/// What an expansion gets: time, state, coefficients, workspace.
+/// Arguments of an expansion: time, state, coefficients, workspace.
 type Expansion<'a, R> = (R, &'a [R], &'a mut [R], &'a mut [Quad<R>]);
 
 /// In a function of its own, with registers of its own.
@@ -73,7 +72,7 @@ impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>> for 
 }
 
 /// The method at work: its polynomials, and what it works on.
-pub struct Lanes<'a, P: Cast<R::Lane>, R: Register> {
+pub struct TaylorInLanes<'a, P: Cast<R::Lane>, R: Register> {
     models: Models<P, R>,
     options: &'a Options<R::Lane>,
     order: usize,
@@ -95,7 +94,7 @@ pub struct Lanes<'a, P: Cast<R::Lane>, R: Register> {
     finite: Numbers<R::Lane>,
 }
 
-impl<P: Cast<R::Lane>, R: Register> Lanes<'_, P, R> {
+impl<P: Cast<R::Lane>, R: Register> TaylorInLanes<'_, P, R> {
     /// Zero where all these numbers are finite, NaN elsewhere.
     #[inline(always)]
     fn check(values: &[R]) -> R {
@@ -168,7 +167,7 @@ impl<P: Cast<R::Lane>, R: Register> Lanes<'_, P, R> {
     }
 }
 
-impl<P: TaylorPendulum<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
+impl<P: TaylorPendulum<R::Lane>, R: Register> LaneSteps<R> for TaylorInLanes<'_, P, R> {
     type Pendulum = P;
 
     fn models(&mut self) -> &mut Models<P, R> {
@@ -193,7 +192,7 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
 
     #[inline(always)]
     fn prepare(&mut self, runs: &mut Runs<R::Lane>, _fresh: &Flags) {
-        R::outlined::<0, _, _>(
+        outlined::<0, R, _, _>(
             &self.models,
             (
                 register(&runs.time),
@@ -249,7 +248,7 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
     }
 
     #[inline(always)]
-    fn attempt(&mut self, span: Span<R>, _size: R) {
+    fn attempt(&mut self, span: StepSpan<R>, _size: R) {
         self.step = span.step;
         for i in 0..2 * P::LINKS {
             let change = self.increment(i, span.step);
@@ -280,7 +279,7 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> Stepper<R> for Lanes<'_, P, R> {
         accepted
     }
 
-    fn prepare_dense(&mut self, _span: Span<R>) {}
+    fn prepare_dense(&mut self, _span: StepSpan<R>) {}
 
     fn judge_dense(
         &self,

@@ -2,22 +2,17 @@
 
 #[cfg(feature = "std")]
 mod lanes;
-mod memory;
 mod polynomial;
 mod root;
-mod run;
+mod steps;
 
-use core::ops::ControlFlow;
-
-use super::dense::DenseStep;
-use super::error::{InputError, IntegrationError};
+pub(super) use self::polynomial::Ahead;
+use self::steps::TaylorSteps;
+use super::error::InputError;
 use super::integrator::Integrator;
 use super::options::{Options, Tolerance};
-use super::report::{Report, Solution, StopReason};
-use super::request::{check_start, check_times};
 use crate::scalar::Real;
 use crate::system::{State, TaylorOde};
-use run::Run;
 
 /// The Taylor series method: each step evaluates the Taylor polynomial of the
 /// solution about its start. For all tolerances, down to rounding.
@@ -64,8 +59,9 @@ use run::Run;
 /// [`AbsoluteAngles`]: crate::system::AbsoluteAngles
 /// [`Report::evaluations`]: super::Report::evaluations
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Taylor<T> {
-    options: Options<T>,
+    pub(super) options: Options<T>,
     order: Option<usize>,
 }
 
@@ -109,7 +105,7 @@ impl<T: Real> Taylor<T> {
             .unwrap_or_else(|| order_for(smallest(&self.options)))
     }
 
-    /// What of the order and the options this method has no use for.
+    /// Passes an order and options that the method has a use for.
     fn check_options(&self) -> Result<(), InputError<T>> {
         if self.options.beta != T::ZERO {
             let value = self.options.beta;
@@ -164,63 +160,21 @@ fn smallest<T: Real>(options: &Options<T>) -> T {
 }
 
 impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for Taylor<T> {
-    fn integrate(
-        &self,
-        ode: &O,
-        start: &State<T>,
-        end: T,
-        mut observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        check_start(ode, start)?;
-        check_times(start.time, &[end])?;
+    type Steps = TaylorSteps<T>;
+
+    fn steps(&self, ode: &O, start: &State<T>) -> Result<TaylorSteps<T>, InputError<T>> {
         self.options.validate(start.values.len())?;
         self.check_options()?;
+        if !ode.has_series() {
+            return Err(InputError::NoSeries);
+        }
         let order = self.order();
-        if end == start.time {
-            return Ok(Solution {
-                state: start.clone(),
-                report: Report::new(),
-            });
-        }
-        let mut run = Run::new(ode, &self.options, order, start);
-        let direction = if end > start.time { T::ONE } else { -T::ONE };
-        let mut longest = self.options.initial_step;
-        loop {
-            run.expand()?;
-            let mut step = run.memory.step_length();
-            for bound in [longest.take(), self.options.max_step]
-                .into_iter()
-                .flatten()
-            {
-                step = step.min(bound);
-            }
-            run.report.next_step = step.min((end - run.time).abs());
-            // A step one per cent longer than planned is better than a sliver
-            // at the end.
-            let last = step * T::from_f64(1.01) >= (end - run.time).abs();
-            run.check_step(step, last)?;
-            let end_time = if last {
-                end
-            } else {
-                run.time + direction * step
-            };
-            // The difference of the rounded times, so that they add up.
-            let step = end_time - run.time;
-            run.make(step, end_time)?;
-            let flow = observer(&mut DenseStep::new(
-                &mut run.memory,
-                &mut run.report,
-                run.time,
-                end_time,
-            ));
-            run.memory.advance();
-            run.time = end_time;
-            if flow.is_break() {
-                return Ok(run.solution(StopReason::StoppedByObserver));
-            }
-            if last {
-                return Ok(run.solution(StopReason::EndReached));
-            }
-        }
+        let workspace = ode.workspace(order);
+        Ok(TaylorSteps::new(
+            &self.options,
+            order,
+            workspace,
+            &start.values,
+        ))
     }
 }

@@ -5,14 +5,14 @@ use crate::scalar::Real;
 use crate::simd::{Pack, PackKernel, Quad, two_sum};
 
 /// Writes `start` + Σ y\[k\] τᵏ over k ≥ 1.
-pub(super) struct Ahead<'a, T> {
+pub(in crate::integrate) struct Ahead<'a, T> {
     /// Coefficients y\[k\], order by order.
-    pub(super) coefficients: &'a [T],
-    pub(super) tau: T,
-    pub(super) start: &'a [T],
-    pub(super) end: &'a mut [T],
+    pub(in crate::integrate) coefficients: &'a [T],
+    pub(in crate::integrate) tau: T,
+    pub(in crate::integrate) start: &'a [T],
+    pub(in crate::integrate) end: &'a mut [T],
     /// Rounding errors of `start` and of `end`, if they are to be carried.
-    pub(super) residues: Option<(&'a [T], &'a mut [T])>,
+    pub(in crate::integrate) residues: Option<(&'a [T], &'a mut [T])>,
 }
 
 impl<T: Real> PackKernel<T> for Ahead<'_, T> {

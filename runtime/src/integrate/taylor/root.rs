@@ -1,36 +1,15 @@
 //! Roots for the choice of the step.
 
-#[cfg(feature = "std")]
 use crate::scalar::Real;
 
-/// The least of x^(−1/n) to four digits, for pairs of x ≥ 0 and 1/n ≤ 1/2:
-/// infinite where all x are zero, zero where one is infinite, NaN where one is
-/// NaN.
+/// The lesser of x^(−1/n) to four digits for two pairs of x ≥ 0 and n ≥ 2, in each of
+/// the first `lanes` lanes: infinite where both x are zero, zero where one is infinite,
+/// NaN where one is NaN.
 ///
 /// A step's length needs no more digits, and a logarithm and an exponential of
 /// full accuracy would take longer than an order of the series. Every step
 /// waits for it: polynomials, in pairs of terms that do not wait for each other,
-/// and no division.
-pub(super) fn least_inverse_root<const N: usize>(roots: [(f64, f64); N]) -> f64 {
-    let mut least = f64::INFINITY;
-    for (x, over_n) in roots {
-        if !x.is_finite() {
-            return 1.0 / x;
-        }
-        if x > f64::MIN_POSITIVE {
-            least = least.min(-log2(x) * over_n);
-        }
-    }
-    if least == f64::INFINITY {
-        least
-    } else {
-        exp2(least)
-    }
-}
-
-/// The same for one pair in each lane, of the first `lanes`, without a branch:
-/// the compiler makes vector instructions of it.
-#[cfg(feature = "std")]
+/// and no branch, so that the compiler makes vector instructions of them.
 #[inline(always)]
 pub(super) fn least_inverse_roots<T: Real, const N: usize>(
     lanes: usize,
@@ -108,15 +87,18 @@ fn exp2(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::least_inverse_root;
+    use super::least_inverse_roots;
+
+    fn least(first: (f64, usize), second: (f64, usize)) -> f64 {
+        least_inverse_roots(1, (&[first.0], first.1), (&[second.0], second.1))[0]
+    }
 
     #[test]
     fn roots_are_roots() {
         for n in [2, 3, 7, 20, 100] {
-            let over_n = 1.0 / n as f64;
             let mut x = f64::MIN_POSITIVE * 2.0;
             while x < 1e308 {
-                let root = least_inverse_root([(x, over_n), (0.0, over_n)]);
+                let root = least((x, n), (0.0, n));
                 let expected = x.powf(-1.0 / n as f64);
                 assert!((root / expected - 1.0).abs() < 1e-4, "{x:e} {n}");
                 x *= 1.37;
@@ -126,8 +108,8 @@ mod tests {
 
     #[test]
     fn ends_of_the_range() {
-        let roots = |x| least_inverse_root([(1.0, 0.05), (x, 0.04)]);
-        assert_eq!(least_inverse_root([(0.0, 0.05)]), f64::INFINITY);
+        let roots = |x| least((1.0, 20), (x, 25));
+        assert_eq!(least((0.0, 20), (0.0, 20)), f64::INFINITY);
         assert_eq!(roots(0.0), 1.0);
         assert_eq!(roots(f64::INFINITY), 0.0);
         assert!(roots(f64::NAN).is_nan());

@@ -2,7 +2,7 @@ use core::array::from_fn;
 use std::vec::Vec;
 
 use super::{sin_cos_f32, sin_cos_f64};
-use crate::scalar::dispatch::{Kernel, RegisterKernel, run, run_fused, run_in_registers};
+use crate::scalar::dispatch::{RegisterKernel, Routine, run, run_fused, run_in_registers};
 use crate::scalar::reference::{Reference, Signed, angles, parts};
 use crate::scalar::register::{Fused, Register};
 use crate::scalar::{InstructionSet, Lane, Lanes, Scalar};
@@ -55,7 +55,7 @@ fn f32_is_nearly_always_rounded_correctly() {
 /// Angles of one state and of lanes in fused arithmetic.
 struct InFused<T, const N: usize>([T; N]);
 
-impl<T: Lane, const N: usize> Kernel for InFused<T, N>
+impl<T: Lane, const N: usize> Routine for InFused<T, N>
 where
     Fused<T>: Scalar,
 {
@@ -182,8 +182,7 @@ fn fused_sines_are_odd() {
 
 fn fused_agrees<const N: usize>() {
     let all = signed();
-    for block in all.chunks_exact(N) {
-        let angles: [f64; N] = from_fn(|i| block[i]);
+    for &angles in all.as_chunks::<N>().0 {
         let small = angles.map(|angle| angle as f32);
         let (Ok((sines, cosines)), Ok(single)) =
             (run_fused(InFused(angles)), run_fused(InFused(small)))
@@ -220,7 +219,7 @@ fn one_angle_has_the_same_fused_bits_in_any_company() {
 
 #[test]
 fn registers_have_the_bits_of_one_angle() {
-    for block in signed().chunks_exact(16) {
+    for block in signed().as_chunks::<16>().0 {
         for set in InstructionSet::ALL {
             let found = run_in_registers(set, InRegister(block));
             for (&angle, found) in block.iter().zip(found) {
@@ -308,7 +307,7 @@ fn the_functions_are_odd_and_even() {
 
 struct InLanes<const N: usize>([f64; N]);
 
-impl<const N: usize> Kernel for InLanes<N> {
+impl<const N: usize> Routine for InLanes<N> {
     type Output = (Lanes<f64, N>, Lanes<f64, N>);
 
     #[inline(always)]
@@ -321,8 +320,7 @@ impl<const N: usize> Kernel for InLanes<N> {
 /// every instruction set.
 fn agrees<const N: usize>() {
     let all = signed();
-    for block in all.chunks_exact(N) {
-        let angles: [f64; N] = from_fn(|i| block[i]);
+    for &angles in all.as_chunks::<N>().0 {
         let alone = angles.map(|angle| bits(Scalar::sin_cos(angle)));
         let (sines, cosines) = f64::sin_cos_each(&angles);
         assert_eq!(from_fn(|i| bits((sines[i], cosines[i]))), alone);

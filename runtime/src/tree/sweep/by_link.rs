@@ -7,12 +7,11 @@ use super::passes::{Passes, add};
 use super::strip::{Output, Places};
 use crate::scalar::Scalar;
 use crate::simd::Simd;
-use crate::tree::columns::{read, write};
-use crate::tree::equations::{LinkEquations, LinkMotion, Row};
+use crate::tree::equations::{LinkEquations, Row};
 use crate::tree::strips::{Attachment, Strip};
 
 // SAFETY, for all of this: as for all passes; the places of links are those of the
-// strips.
+// strips and attachments, behind the last of which a register of any width is there.
 impl<E, N, T, V> Passes<'_, E, N, T, V>
 where
     E: LinkEquations,
@@ -20,14 +19,18 @@ where
     T: Scalar + Simd<N>,
     V: Simd<T>,
 {
+    /// In single numbers there is nothing but links one by one.
+    const SINGLE: bool = V::LANES == 1;
+
     /// From the lowest strip to the root.
     #[inline(always)]
     pub(super) fn heights_up(&self) {
-        let one = Passes::<E, N, T, V::One>::of(self.view);
         let mut strips = self.strips;
         while let Some((strip, before)) = strips.split_last() {
-            if Self::is_short(strip) {
-                one.one_by_one_up(strip);
+            if Self::SINGLE {
+                self.one_by_one_up(strip);
+            } else if strip.length < V::LANES {
+                Passes::<E, N, T, V::One>::of(self.view).one_by_one_up(strip);
             } else {
                 self.links_up(strip);
                 self.attach(strip);
@@ -39,11 +42,12 @@ where
     /// From the root to the lowest strip.
     #[inline(always)]
     pub(super) fn heights_down(&self, out: &mut impl Output<T>) {
-        let one = Passes::<E, N, T, V::One>::of(self.view);
         let mut strips = self.strips;
         while let Some((strip, behind)) = strips.split_first() {
-            if Self::is_short(strip) {
-                one.one_by_one_down(strip, out);
+            if Self::SINGLE {
+                self.one_by_one_down(strip, out);
+            } else if strip.length < V::LANES {
+                Passes::<E, N, T, V::One>::of(self.view).one_by_one_down(strip, out);
             } else {
                 self.hand_down(strip);
                 self.links_down(strip, out);
@@ -52,15 +56,8 @@ where
         }
     }
 
-    /// The links are too few for a register: they go one by one, and what is written
-    /// narrow is read narrow soon.
-    #[inline(always)]
-    fn is_short(strip: &Strip) -> bool {
-        V::LANES == 1 || strip.length < V::LANES
-    }
-
-    /// A strip of links with constants of their own, up, in vectors of one; each link's
-    /// response goes to the parent at once.
+    /// A strip of too few links for a register, up, one by one: each link's response goes
+    /// to the parent at once, and what is written narrow is read narrow soon.
     #[inline(always)]
     fn one_by_one_up(&self, strip: &Strip) {
         if strip.first.own == 0 {
@@ -104,17 +101,16 @@ where
     /// The responses of the links of a strip from the place `at` on.
     #[inline(always)]
     unsafe fn response(&self, strip: &Strip, at: usize) -> E::Response<V> {
-        let (view, slots) = (self.view, self.view.slots);
         // SAFETY: see the top.
-        let (constants, link) = unsafe { (self.constants(at), self.motion(at, E::JOINTS)) };
+        let (constants, link) = unsafe { (self.constants(at), self.links().motion(at, E::JOINTS)) };
         if strip.copies == 0 {
             return E::leaf(&constants, link);
         }
         // SAFETY: see the top.
-        let sums = unsafe { read(view.sums.add(at), slots) };
+        let sums = unsafe { self.links().sums.read(at) };
         let (response, elimination) = E::inner(&constants, link, sums);
         // SAFETY: see the top.
-        unsafe { write(&elimination, view.eliminations.add(at), slots) };
+        unsafe { self.links().eliminations.write(at, &elimination) };
         response
     }
 
@@ -122,9 +118,8 @@ where
     /// what they hand to their children.
     #[inline(always)]
     unsafe fn accelerate(&self, strip: &Strip, at: usize, pivot: [V; 2], out: &mut impl Output<T>) {
-        let (view, slots) = (self.view, self.view.slots);
         // SAFETY: see the top.
-        let (constants, link) = unsafe { (self.constants(at), self.motion(at, E::JOINTS)) };
+        let (constants, link) = unsafe { (self.constants(at), self.links().motion(at, E::JOINTS)) };
         if strip.copies == 0 {
             let acceleration = E::accelerate_leaf(&constants, link, pivot);
             // SAFETY: see the top.
@@ -132,35 +127,35 @@ where
             return;
         }
         // SAFETY: see the top.
-        let elimination = unsafe { read(view.eliminations.add(at), slots) };
+        let elimination = unsafe { self.links().eliminations.read(at) };
         let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
         // SAFETY: see the top.
         unsafe { out.write(at, acceleration, V::LANES) };
         // SAFETY: see the top.
-        unsafe { write(&carried, view.sums.add(at), slots) };
+        unsafe { self.links().sums.write(at, &carried) };
     }
 
     /// A strip of links with constants of their own, up.
     #[inline(always)]
     fn links_up(&self, strip: &Strip) {
-        let (view, mut places) = (self.view, Places::of::<T, V>(strip.length));
+        let mut places = Places::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
             // SAFETY: see the top.
             let response = unsafe { self.response(strip, at) };
             // SAFETY: see the top.
-            unsafe { write(&response, view.responses.add(at), view.slots) };
+            unsafe { self.links().responses.write(at, &response) };
         }
     }
 
     /// The same down; the accelerations of pivots are in memory.
     #[inline(always)]
     fn links_down(&self, strip: &Strip, out: &mut impl Output<T>) {
-        let (view, mut places) = (self.view, Places::of::<T, V>(strip.length));
+        let mut places = Places::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
             // SAFETY: see the top.
-            let pivot = unsafe { read(view.responses.add(at), view.slots) };
+            let pivot = unsafe { self.links().responses.read(at) };
             // SAFETY: see the top.
             unsafe { self.accelerate(strip, at, pivot, out) };
         }
@@ -169,78 +164,94 @@ where
     /// Adds the responses of a strip to the sums of the parents.
     #[inline(always)]
     fn attach(&self, strip: &Strip) {
-        let one = Passes::<E, N, T, V::One>::of(self.view);
-        let (view, (from, to)) = (self.view, strip.attachments);
-        for attachment in self.attachments.get(from..to).unwrap_or_default() {
-            let mut at = 0;
-            while at + V::LANES <= attachment.length {
-                // SAFETY: see the top.
-                let response =
-                    unsafe { read(view.responses.add(attachment.child + at), view.slots) };
-                // SAFETY: see the top.
-                unsafe { self.attach_at(attachment, at, response) };
-                at += V::LANES;
+        let (from, to) = strip.attachments;
+        let mut attachments = self.attachments.get(from..to).unwrap_or_default();
+        while let Some((first, others)) = attachments.split_first() {
+            let mut count = 0;
+            while let Some(other) = others.get(count)
+                && other.parent == first.parent
+                && other.length <= first.length
+            {
+                count += 1;
             }
-            while at < attachment.length {
-                // SAFETY: see the top.
-                let response =
-                    unsafe { read(view.responses.add(attachment.child + at), view.slots) };
-                // SAFETY: see the top.
-                unsafe { one.attach_at(attachment, at, response) };
-                at += 1;
-            }
+            let (siblings, behind) = others.split_at_checked(count).unwrap_or_default();
+            self.attach_siblings(first, siblings);
+            attachments = behind;
         }
     }
 
+    /// Adds the responses of children of the same parents, in registers: what has just
+    /// been written in another width, or a little beside, takes long to read.
+    #[inline(always)]
+    fn attach_siblings(&self, first: &Attachment, siblings: &[Attachment]) {
+        let mut at = 0;
+        while at < first.length {
+            let (mut attachment, mut siblings) = (first, siblings);
+            // SAFETY: see the top.
+            let link = unsafe { self.links().motion(first.parent + at, false) };
+            // SAFETY: see the top.
+            let before: E::Sums<V> = unsafe { self.links().sums.read(first.parent + at) };
+            let mut sums = before;
+            let mut fresh = first.first;
+            loop {
+                let child = attachment.child + at;
+                // SAFETY: see the top.
+                let (constants, response) =
+                    unsafe { (self.constants(child), self.links().responses.read(child)) };
+                let own = E::attach(&constants, link, response);
+                let count = attachment.length - at;
+                let mut i = 0;
+                while i < <E::Sums<V> as Row<V>>::LENGTH {
+                    let (sum, own) = (sums.as_ref()[i], own.as_ref()[i]);
+                    let sum = if fresh { own } else { sum + own };
+                    sums.as_mut()[i] = sum.in_first_lanes(count, sums.as_ref()[i]);
+                    i += 1;
+                }
+                fresh = false;
+                match siblings.split_first() {
+                    Some((next, behind)) if at < next.length => {
+                        (attachment, siblings) = (next, behind);
+                    }
+                    _ => break,
+                }
+            }
+            // SAFETY: see the top. Lanes beyond the parents are as they were.
+            unsafe { self.links().sums.write(first.parent + at, &sums) };
+            at += V::LANES;
+        }
+    }
+
+    /// Adds the response of the child number `at` of an attachment.
     #[inline(always)]
     unsafe fn attach_at(&self, attachment: &Attachment, at: usize, response: E::Response<V>) {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
-        let (view, slots) = (self.view, self.view.slots);
         // SAFETY: see the top.
-        let (constants, link) = unsafe { (self.constants(child), self.motion(parent, false)) };
+        let (constants, link) =
+            unsafe { (self.constants(child), self.links().motion(parent, false)) };
         let own = E::attach(&constants, link, response);
         let mut sums = own;
         if !attachment.first {
             // SAFETY: see the top.
-            sums = unsafe { read(view.sums.add(parent), slots) };
+            sums = unsafe { self.links().sums.read(parent) };
             add(&mut sums, &own);
         }
         // SAFETY: see the top.
-        unsafe { write(&sums, view.sums.add(parent), slots) };
+        unsafe { self.links().sums.write(parent, &sums) };
     }
 
     /// Writes the accelerations of the pivots of a strip.
     #[inline(always)]
     fn hand_down(&self, strip: &Strip) {
-        let one = Passes::<E, N, T, V::One>::of(self.view);
-        let (view, (from, to)) = (self.view, strip.attachments);
+        let (from, to) = strip.attachments;
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
-            while at + V::LANES <= attachment.length {
-                // SAFETY: see the top.
-                let pivot = unsafe { self.pivot_at(attachment, at) };
-                // SAFETY: see the top.
-                unsafe {
-                    write(
-                        &pivot,
-                        view.responses.add(attachment.child + at),
-                        view.slots,
-                    )
-                };
-                at += V::LANES;
-            }
             while at < attachment.length {
                 // SAFETY: see the top.
-                let pivot = unsafe { one.pivot_at(attachment, at) };
+                let pivot = unsafe { self.pivot_at(attachment, at) };
+                // Lanes beyond are those of children behind, which come later.
                 // SAFETY: see the top.
-                unsafe {
-                    write(
-                        &pivot,
-                        view.responses.add(attachment.child + at),
-                        view.slots,
-                    )
-                };
-                at += 1;
+                unsafe { self.links().responses.write(attachment.child + at, &pivot) };
+                at += V::LANES;
             }
         }
     }
@@ -250,32 +261,11 @@ where
     unsafe fn pivot_at(&self, attachment: &Attachment, at: usize) -> [V; 2] {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
         // SAFETY: see the top.
-        let (constants, link) = unsafe { (self.constants(child), self.motion(parent, false)) };
+        let (constants, link) =
+            unsafe { (self.constants(child), self.links().motion(parent, false)) };
         // SAFETY: see the top.
-        let carried = unsafe { read(self.view.sums.add(parent), self.view.slots) };
+        let carried = unsafe { self.links().sums.read(parent) };
         E::pivot(&constants, link, carried)
-    }
-
-    /// The motions of the links from `at` on, with those of joints where asked for.
-    #[inline(always)]
-    unsafe fn motion(&self, at: usize, joints: bool) -> LinkMotion<V> {
-        let view = self.view;
-        // SAFETY: see the top.
-        let [sine, cosine]: [V; 2] = unsafe { read(view.sincos.add(at), view.links) };
-        // SAFETY: see the top.
-        let omega = unsafe { V::read(view.omega.add(at)) };
-        let [joint_angle, joint_rate] = match joints {
-            // SAFETY: see the top.
-            true => unsafe { read(view.joint_motions.add(at), view.links) },
-            false => [omega; 2],
-        };
-        LinkMotion {
-            sine,
-            cosine,
-            omega,
-            joint_angle,
-            joint_rate,
-        }
     }
 
     /// The constants of the links from `at` on, each its own.

@@ -5,55 +5,50 @@
 use core::marker::PhantomData;
 
 use super::strip::{Output, StripView};
-use super::view::View;
+use super::view::{LinkCells, View};
 use crate::scalar::Scalar;
+use crate::simd::dispatch::in_widest;
 use crate::simd::{Kernel, Simd};
 use crate::tree::equations::{LinkEquations, LinkMotion, Row};
 use crate::tree::memory::Sizes;
 use crate::tree::shared::Shared;
 use crate::tree::strips::{Attachment, Strip};
 
-/// From the leaves of a block to its first generation.
-pub(in crate::tree) fn up<E: LinkEquations, T: Scalar>(view: &View<'_, T, T>) {
-    T::dispatch(Up::<E, T>(view, PhantomData));
+/// Which way the equations are taken through a block.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::tree) struct Way<'a, T> {
+    /// From the leaves to the first generation, at first.
+    pub(in crate::tree) up: bool,
+    /// From the first generation, the accelerations of whose pivots are the root's or
+    /// in memory, to the leaves. The accelerations start with the block's first link,
+    /// and are as many as its strips reach.
+    pub(in crate::tree) down: Option<Shared<'a, T>>,
 }
 
-/// From the first generation of a block, the accelerations of whose pivots are in
-/// memory, to the leaves. `alpha` starts with the block's first link, and is as long
-/// as its strips reach.
-pub(in crate::tree) fn down<E: LinkEquations, T: Scalar>(
-    view: &View<'_, T, T>,
-    alpha: Shared<'_, T>,
-) {
-    T::dispatch(Down::<E, T>(view, alpha, PhantomData));
+/// Takes the equations through a block, in the widest registers of the machine.
+pub(in crate::tree) fn sweep<E: LinkEquations, T: Scalar>(view: &View<'_, T, T>, way: Way<'_, T>) {
+    in_widest(SweepKernel::<E, T>(view, way, PhantomData));
 }
 
-pub(in crate::tree) struct Up<'a, E, T>(
+/// [`sweep`] in one kind of registers.
+pub(in crate::tree) struct SweepKernel<'a, E, T>(
     pub(in crate::tree) &'a View<'a, T, T>,
+    pub(in crate::tree) Way<'a, T>,
     pub(in crate::tree) PhantomData<E>,
 );
 
-pub(in crate::tree) struct Down<'a, E, T>(
-    pub(in crate::tree) &'a View<'a, T, T>,
-    pub(in crate::tree) Shared<'a, T>,
-    pub(in crate::tree) PhantomData<E>,
-);
-
-impl<E: LinkEquations, T: Scalar> Kernel<T> for Up<'_, E, T> {
+impl<E: LinkEquations, T: Scalar> Kernel<T> for SweepKernel<'_, E, T> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Simd<T>>(self) {
-        Passes::<E, T, T, V>::of(self.0).up();
-    }
-}
-
-impl<E: LinkEquations, T: Scalar> Kernel<T> for Down<'_, E, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<V: Simd<T>>(mut self) {
-        Passes::<E, T, T, V>::of(self.0).down(&mut self.1);
+        let (passes, Way { up, down }) = (Passes::<E, T, T, V>::of(self.0), self.1);
+        if up {
+            passes.up();
+        }
+        if let Some(mut alpha) = down {
+            passes.down(&mut alpha);
+        }
     }
 }
 
@@ -80,18 +75,30 @@ where
     /// when the equations are compiled takes no loop.
     const BRANCHING: usize = branching(E::COPIES);
 
+    /// Numbers `T` are several states: the numbers of a link stand side by side then.
+    const IN_ROWS: bool = <T as Simd<N>>::LANES > 1;
+
+    const SIZES: Sizes = Sizes::of::<E, V>();
+
     /// Constants are a row a link.
     const BY_LINK: bool = E::COPIES.is_empty();
 
     #[inline(always)]
     pub(in crate::tree) fn of(view: &'a View<'_, N, T>) -> Self {
-        let (strips, attachments) = view.strips(Sizes::of::<E, V>(), Self::BRANCHING);
+        let (strips, attachments) = view.strips(Self::SIZES, Self::IN_ROWS, Self::BRANCHING);
         Self {
             view,
             strips,
             attachments,
             types: PhantomData,
         }
+    }
+
+    /// Where the numbers of links stand: asked for where a loop begins, since compilers
+    /// read what is behind a reference again after everything that is written.
+    #[inline(always)]
+    pub(super) fn links(&self) -> LinkCells<T> {
+        self.view.cells(Self::SIZES, Self::IN_ROWS)
     }
 
     /// The constants of a generation; zeros if it has none.
@@ -158,7 +165,7 @@ where
         while let Some((strip, before)) = strips.split_last() {
             let row = self.row(strip.generation);
             let below_row = self.row(strip.generation + 1);
-            let near = StripView::of(self.view, strip, Self::BRANCHING);
+            let near = StripView::of(self.links(), strip, Self::BRANCHING);
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
                 // SAFETY: see the top.
@@ -184,7 +191,7 @@ where
     /// The sum of the responses of children that are leaves.
     #[inline(always)]
     fn leaves(
-        near: &StripView<'_, T>,
+        near: &StripView<T>,
         at: usize,
         constants: &E::Constants<V>,
         link: LinkMotion<V>,
@@ -205,7 +212,7 @@ where
     /// The sum of the responses of children that are no leaves.
     #[inline(always)]
     fn sum(
-        near: &StripView<'_, T>,
+        near: &StripView<T>,
         at: usize,
         constants: &E::Constants<V>,
         link: LinkMotion<V>,
@@ -257,7 +264,7 @@ where
         while let Some((strip, behind)) = strips.split_first() {
             let row = self.row(strip.generation);
             let below_row = self.row(strip.generation + 1);
-            let near = StripView::of(self.view, strip, Self::BRANCHING);
+            let near = StripView::of(self.links(), strip, Self::BRANCHING);
             let in_register = strip.lanes <= V::LANES;
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {

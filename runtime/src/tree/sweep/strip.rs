@@ -2,12 +2,9 @@
 
 #![allow(unsafe_code)]
 
-use core::marker::PhantomData;
-
-use super::view::View;
+use super::view::LinkCells;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
-use crate::tree::columns::{read, write};
 use crate::tree::equations::{LinkMotion, Row};
 use crate::tree::strips::Strip;
 
@@ -16,29 +13,19 @@ use crate::tree::strips::Strip;
 ///
 /// The functions take the place of a vector among the neighbours, a multiple of its
 /// lanes or the last place, and the number of a copy of the children. They are sound
-/// for equations of the sizes that [`strips`](View::strips) has been asked for.
+/// for equations of the sizes that [`strips`](super::view::View::strips) has been asked for.
 // A copy of its own: compilers keep it in registers, and read what is behind a
 // reference again after everything that is written.
-pub(super) struct StripView<'a, T> {
+pub(super) struct StripView<T> {
     length: usize,
-    sincos: *const T,
-    joint_motions: *const T,
-    links: usize,
-    omega: *const T,
-    responses: *mut T,
-    eliminations: *mut T,
-    slots: usize,
+    links: LinkCells<T>,
+    children: LinkCells<T>,
     whole: usize,
+    child_whole: usize,
     step: usize,
     pub(super) copies: usize,
     apart: usize,
     whole_apart: usize,
-    leaf_sincos: *const T,
-    leaf_joint_motions: *const T,
-    leaf_omega: *const T,
-    leaf_whole: usize,
-    below: *mut T,
-    numbers: PhantomData<&'a mut [T]>,
 }
 
 /// Where accelerations go.
@@ -55,42 +42,33 @@ pub(in crate::tree) trait Output<T> {
 // and no reference to them is there. By `view` there are as many as the strips reach,
 // with those of a vector of any width from the last place on, in as many columns as
 // the sizes say.
-impl<'a, T: Scalar> StripView<'a, T> {
-    /// Of a strip that has come from [`strips`](View::strips), for the same
-    /// `branching`.
+impl<T: Scalar> StripView<T> {
+    /// Of a strip that has come from [`strips`](super::view::View::strips), for the same
+    /// `branching`, among these numbers of all links.
     #[inline(always)]
-    pub(super) fn of<N>(view: &'a View<'_, N, T>, strip: &Strip, branching: usize) -> Self {
+    pub(super) fn of(links: LinkCells<T>, strip: &Strip, branching: usize) -> Self {
         let Strip {
             first,
             child,
             length,
             apart,
             whole_apart,
+            step,
             ..
         } = *strip;
         StripView {
             length,
-            sincos: view.sincos.wrapping_add(first.own),
-            joint_motions: view.joint_motions.wrapping_add(first.own),
-            links: view.links,
-            omega: view.omega.wrapping_add(first.own),
-            responses: view.responses.wrapping_add(first.slot),
-            eliminations: view.eliminations.wrapping_add(first.slot),
-            slots: view.slots,
+            links: links.from(first.own, first.slot),
+            children: links.from(child.own, child.slot),
             whole: first.whole,
-            step: strip.step,
+            child_whole: child.whole,
+            step,
             copies: match branching {
                 0 => strip.copies,
                 branching => branching,
             },
             apart,
             whole_apart,
-            leaf_sincos: view.sincos.wrapping_add(child.own),
-            leaf_joint_motions: view.joint_motions.wrapping_add(child.own),
-            leaf_omega: view.omega.wrapping_add(child.own),
-            leaf_whole: child.whole,
-            below: view.responses.wrapping_add(child.slot),
-            numbers: PhantomData,
         }
     }
 
@@ -103,39 +81,9 @@ impl<'a, T: Scalar> StripView<'a, T> {
     }
 
     #[inline(always)]
-    unsafe fn motion_at<V: Simd<T>>(
-        &self,
-        [sincos, joint_motions, omega]: [*const T; 3],
-        joints: bool,
-    ) -> LinkMotion<V> {
-        // SAFETY: see the top.
-        let [sine, cosine]: [V; 2] = unsafe { read(sincos, self.links) };
-        // SAFETY: see the top.
-        let omega = unsafe { V::read(omega) };
-        // Where nothing acts in joints nobody reads them.
-        let [joint_angle, joint_rate] = match joints {
-            // SAFETY: see the top.
-            true => unsafe { read(joint_motions, self.links) },
-            false => [omega; 2],
-        };
-        LinkMotion {
-            sine,
-            cosine,
-            omega,
-            joint_angle,
-            joint_rate,
-        }
-    }
-
-    #[inline(always)]
     pub(super) unsafe fn motion<V: Simd<T>>(&self, at: usize, joints: bool) -> LinkMotion<V> {
-        let places = [
-            self.sincos.wrapping_add(at),
-            self.joint_motions.wrapping_add(at),
-            self.omega.wrapping_add(at),
-        ];
         // SAFETY: see the top.
-        unsafe { self.motion_at(places, joints) }
+        unsafe { self.links.motion(at, joints) }
     }
 
     /// Of children that are leaves.
@@ -146,52 +94,46 @@ impl<'a, T: Scalar> StripView<'a, T> {
         copy: usize,
         joints: bool,
     ) -> LinkMotion<V> {
-        let at = at + copy * self.apart;
-        let places = [
-            self.leaf_sincos.wrapping_add(at),
-            self.leaf_joint_motions.wrapping_add(at),
-            self.leaf_omega.wrapping_add(at),
-        ];
         // SAFETY: see the top.
-        unsafe { self.motion_at(places, joints) }
+        unsafe { self.children.motion(at + copy * self.apart, joints) }
     }
 
-    /// The first columns of responses: on the way down, accelerations of pivots.
+    /// The first responses: on the way down, accelerations of pivots.
     #[inline(always)]
     pub(super) unsafe fn responses<V: Simd<T>, A: Row<V>>(&self, at: usize) -> A {
         // SAFETY: see the top.
-        unsafe { read(self.responses.add(at), self.slots) }
+        unsafe { self.links.responses.read(at) }
     }
 
     #[inline(always)]
     pub(super) unsafe fn respond<V: Simd<T>, A: Row<V>>(&self, at: usize, row: &A) {
         // SAFETY: see the top.
-        unsafe { write(row, self.responses.add(at), self.slots) }
+        unsafe { self.links.responses.write(at, row) }
     }
 
     /// The same of children that are no leaves.
     #[inline(always)]
     pub(super) unsafe fn below<V: Simd<T>, A: Row<V>>(&self, at: usize, copy: usize) -> A {
         // SAFETY: see the top.
-        unsafe { read(self.below.add(at + copy * self.apart), self.slots) }
+        unsafe { self.children.responses.read(at + copy * self.apart) }
     }
 
     #[inline(always)]
     pub(super) unsafe fn give<V: Simd<T>, A: Row<V>>(&self, at: usize, copy: usize, row: &A) {
         // SAFETY: see the top.
-        unsafe { write(row, self.below.add(at + copy * self.apart), self.slots) }
+        unsafe { self.children.responses.write(at + copy * self.apart, row) }
     }
 
     #[inline(always)]
     pub(super) unsafe fn elimination<V: Simd<T>, A: Row<V>>(&self, at: usize) -> A {
         // SAFETY: see the top.
-        unsafe { read(self.eliminations.add(at), self.slots) }
+        unsafe { self.links.eliminations.read(at) }
     }
 
     #[inline(always)]
     pub(super) unsafe fn keep<V: Simd<T>, A: Row<V>>(&self, at: usize, row: &A) {
         // SAFETY: see the top.
-        unsafe { write(row, self.eliminations.add(at), self.slots) }
+        unsafe { self.links.eliminations.write(at, row) }
     }
 
     /// From one link to the next in the tree: neighbours in lanes stand side by side.
@@ -226,7 +168,7 @@ impl<'a, T: Scalar> StripView<'a, T> {
         alpha: V,
     ) {
         let count = self.length.min(V::LANES);
-        let at = self.leaf_whole + at * self.step::<V>() + copy * self.whole_apart;
+        let at = self.child_whole + at * self.step::<V>() + copy * self.whole_apart;
         // SAFETY: see the top.
         unsafe { out.write(at, alpha, count) }
     }

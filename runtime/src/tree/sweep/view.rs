@@ -7,6 +7,8 @@ use core::marker::PhantomData;
 use super::Sweep;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
+use crate::tree::columns::Cells;
+use crate::tree::equations::LinkMotion;
 use crate::tree::memory::Sizes;
 use crate::tree::strips::{Attachment, Strip};
 
@@ -21,18 +23,18 @@ pub(in crate::tree) struct View<'a, N, T> {
     attachments: &'a [Attachment],
     branching: usize,
     sizes: Sizes,
-    /// Columns of sines and cosines, and of joint angles and rates; from one column
-    /// to the next.
-    pub(super) sincos: *const T,
-    pub(super) joint_motions: *const T,
-    pub(super) links: usize,
-    /// A column of velocities.
-    pub(super) omega: *const T,
-    /// Columns of responses, of sums, and of what is kept.
-    pub(super) responses: *mut T,
-    pub(super) sums: *mut T,
-    pub(super) eliminations: *mut T,
-    pub(super) slots: usize,
+    in_rows: bool,
+    /// Sines and cosines, velocities, and joint angles and rates; from one column to
+    /// the next.
+    sincos: *mut T,
+    omega: *mut T,
+    joint_motions: *mut T,
+    links: usize,
+    /// Responses, sums, and what is kept; from one column to the next.
+    responses: *mut T,
+    sums: *mut T,
+    eliminations: *mut T,
+    slots: usize,
     /// Rows of all generations, or columns of all links.
     pub(super) constants: &'a [N],
     /// The length of these columns.
@@ -42,6 +44,59 @@ pub(in crate::tree) struct View<'a, N, T> {
     pub(super) torque: Option<T>,
     /// The block's numbers, which are its alone.
     numbers: PhantomData<&'a mut [T]>,
+}
+
+/// Where the numbers of links stand.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LinkCells<T> {
+    sincos: Cells<T>,
+    omega: Cells<T>,
+    joint_motions: Cells<T>,
+    pub(super) responses: Cells<T>,
+    pub(super) sums: Cells<T>,
+    pub(super) eliminations: Cells<T>,
+}
+
+impl<T: Scalar> LinkCells<T> {
+    /// Returns those of the links from one on, that stands there among all links and
+    /// among those with children.
+    #[inline(always)]
+    pub(super) fn from(self, own: usize, slot: usize) -> Self {
+        Self {
+            sincos: self.sincos.from(own),
+            omega: self.omega.from(own),
+            joint_motions: self.joint_motions.from(own),
+            responses: self.responses.from(slot),
+            sums: self.sums.from(slot),
+            eliminations: self.eliminations.from(slot),
+        }
+    }
+
+    /// Reads the motions of the links from `at` on, with those of joints where asked
+    /// for.
+    ///
+    /// # Safety
+    /// As many links as `V` has lanes are there.
+    #[inline(always)]
+    pub(super) unsafe fn motion<V: Simd<T>>(&self, at: usize, joints: bool) -> LinkMotion<V> {
+        // SAFETY: the caller's.
+        let [sine, cosine]: [V; 2] = unsafe { self.sincos.read(at) };
+        // SAFETY: the caller's.
+        let [omega]: [V; 1] = unsafe { self.omega.read(at) };
+        // Where nothing acts in joints nobody reads them.
+        let [joint_angle, joint_rate] = match joints {
+            // SAFETY: the caller's.
+            true => unsafe { self.joint_motions.read(at) },
+            false => [omega; 2],
+        };
+        LinkMotion {
+            sine,
+            cosine,
+            omega,
+            joint_angle,
+            joint_rate,
+        }
+    }
 }
 
 impl<N, T: Scalar> Sweep<'_, N, T> {
@@ -74,19 +129,21 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
             && (!sizes.by_link || reach.own <= column);
         // A whole tree's links stand in order, as they do where they are given.
         let omega = match storage.velocities {
-            Some(column) => column.window(storage.lead, reach.own)?.start().cast_const(),
+            Some(column) => column.window(storage.lead, reach.own)?.start(),
             None if !block.is_whole() || reach.own > omega.len() => return None,
-            None => omega.as_ptr(),
+            // Nobody writes there.
+            None => omega.as_ptr().cast_mut(),
         };
         there.then_some(View {
             strips: block.strips.list(),
             attachments: block.strips.attachments(),
             branching: block.strips.branching(),
             sizes,
+            in_rows: storage.in_rows,
             sincos: sincos.start(),
+            omega,
             joint_motions: joint_motions.start(),
             links: sincos.stride(),
-            omega,
             responses: storage.responses.as_mut_ptr(),
             sums: storage.sums.as_mut_ptr(),
             eliminations: storage.eliminations.as_mut_ptr(),
@@ -101,13 +158,41 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
 }
 
 impl<'a, N, T: Scalar> View<'a, N, T> {
-    /// Returns the strips and their attachments, for equations of these sizes and,
-    /// where this is not 0, so many copies of children everywhere; none for others.
+    /// Returns the strips and their attachments, for equations of these sizes, numbers in
+    /// rows or columns and, where this is not 0, so many copies of children everywhere;
+    /// none for others.
     #[inline(always)]
-    pub(super) fn strips(&self, sizes: Sizes, branching: usize) -> (&'a [Strip], &'a [Attachment]) {
-        match self.sizes == sizes && (branching == 0 || branching == self.branching) {
+    pub(super) fn strips(
+        &self,
+        sizes: Sizes,
+        in_rows: bool,
+        branching: usize,
+    ) -> (&'a [Strip], &'a [Attachment]) {
+        let fit = self.sizes == sizes && self.in_rows == in_rows;
+        match fit && (branching == 0 || branching == self.branching) {
             true => (self.strips, self.attachments),
             false => (&[], &[]),
+        }
+    }
+
+    /// Returns where the numbers of links stand, of equations of these sizes.
+    #[inline(always)]
+    pub(super) fn cells(&self, sizes: Sizes, in_rows: bool) -> LinkCells<T> {
+        let motion = |start| match in_rows {
+            true => Cells::rows(start, sizes.motion()),
+            false => Cells::columns(start, self.links),
+        };
+        let own = |start, count| match in_rows {
+            true => Cells::rows(start, count),
+            false => Cells::columns(start, self.slots),
+        };
+        LinkCells {
+            sincos: motion(self.sincos),
+            omega: motion(self.omega),
+            joint_motions: motion(self.joint_motions),
+            responses: own(self.responses, sizes.responses),
+            sums: own(self.sums, sizes.sums),
+            eliminations: own(self.eliminations, sizes.eliminations),
         }
     }
 

@@ -3,42 +3,29 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use super::super::evaluate::{Kernels, accelerations as one_state};
-use super::super::sweep::{Down, Up};
+use super::super::evaluate::accelerations as one_state;
+use super::super::sweep::SweepKernel;
 use super::super::{LinkEquations, Tree, states};
 use super::equations::{SHAPES, any, by_generation, by_link, links};
 use super::{accelerations, drive, motion};
 use crate::scalar::{InstructionSet, Lane, Real, Scalar};
-use crate::simd::dispatch::run_wide;
+use crate::simd::dispatch::{in_widest, run_wide};
 use crate::simd::{Fused, Kernel, Simd};
 use crate::system::Workspace;
-
-/// Equations in the vectors of one instruction set, by its number.
-fn kernels<E: LinkEquations, T: Lane, const SET: usize>() -> Kernels<T> {
-    Kernels {
-        up: |view| run_wide(InstructionSet::ALL[SET], Up::<E, T>(view, PhantomData)),
-        down: |view, alpha| {
-            run_wide(
-                InstructionSet::ALL[SET],
-                Down::<E, T>(view, alpha, PhantomData),
-            );
-        },
-    }
-}
 
 fn in_set<E: LinkEquations, T: Lane, const SET: usize>(tree: &Tree<E, T>, links: usize) -> Vec<T> {
     let [theta, omega] = motion(links);
     let mut alpha = alloc::vec![T::from_f64(f64::NAN); links];
-    let (kernels, mut workspace) = (kernels::<E, T, SET>(), Workspace::new());
-    let motion = [&*theta, &*omega];
-    let skeleton = &tree.skeleton;
-    one_state(
-        skeleton,
-        &kernels,
+    one_state::<T, true>(
+        &tree.skeleton,
+        |view, way| {
+            let kernel = SweepKernel::<E, T>(view, way, PhantomData);
+            run_wide(InstructionSet::ALL[SET], kernel);
+        },
         Some(drive()),
-        motion,
+        [&*theta, &*omega],
         &mut alpha,
-        &mut workspace,
+        &mut Workspace::new(),
     );
     alpha
 }
@@ -86,7 +73,7 @@ where
     let avx2 = in_set::<E, T, 1>(tree, count);
     let build = in_set::<E, T, 0>(tree, count);
     let single: Vec<Fused<T>> = accelerations(&tree.cast(Fused), count);
-    let states = T::dispatch(States(tree, count));
+    let states = in_widest::<T, _>(States(tree, count));
     if InstructionSet::widest() >= InstructionSet::Avx2 {
         for link in 0..count {
             let own = widest[link];

@@ -284,7 +284,7 @@ const GRAVITY: [f64; 2] = [0.0, 9.81];
 pub(super) fn by_generation<T: Scalar, const SHAPE: usize>() -> Tree<Shared<SHAPE>, T> {
     // The children's place is a constant of the link.
     let rows = (0..SHAPES[SHAPE].len())
-        .map(|generation| row(Body::new(generation), Body::new(generation + 1).place));
+        .flat_map(|generation| row(Body::new(generation), Body::new(generation + 1).place));
     Tree::new(rows.collect(), GRAVITY.map(T::from_f64))
 }
 
@@ -307,8 +307,8 @@ pub(super) fn links(copies: &[usize]) -> (Vec<u32>, Vec<Body>) {
 
 /// A tree of any shape of these links.
 pub(super) fn by_link<T: Scalar>(parents: &[u32], bodies: &[Body]) -> Tree<Attached, T> {
-    let rows = bodies.iter().map(|&body| row(body, body.place));
-    Tree::with_parents(parents, rows.collect(), GRAVITY.map(T::from_f64))
+    let rows = bodies.iter().flat_map(|&body| row(body, body.place));
+    Tree::with_parents(parents, &rows.collect::<Vec<T>>(), GRAVITY.map(T::from_f64))
 }
 
 /// Links that hang anywhere on links before them.

@@ -183,4 +183,29 @@ pub(super) const CASES: &[Case] = &[
     ],
     emit(transfer(exact)))] struct Pendulum;",
     ),
+    (
+        "reductions",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [
+        b: rod(mass = 1, length = 1, friction = 1, spring = 1) [c: rod(mass = 1, length = 1) * 2]
+    ],
+    in_phase(c, d, b, c),
+    locked(a, 0), locked(b, 0), locked(c, 90), locked(c, tilt), locked(e, 0),
+    )] struct Pendulum;",
+    ),
+    (
+        "no_transverse",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2], emit(transverse))] struct Pendulum;",
+    ),
+    (
+        "nothing_in_phase",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), in_phase(all))] struct Pendulum;",
+    ),
+    (
+        "locked_generation",
+        "#[branched_pendulum(gravity = 1,
+    a: generations(count = 7, branching = 2, shape = rod, mass = 1, length = 1),
+    locked(a_3, 0))] struct Pendulum;",
+    ),
 ];

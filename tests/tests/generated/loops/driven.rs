@@ -123,7 +123,7 @@ fn a_large_driven_tree_is_the_same_in_other_scalars_and_on_more_threads() {
         numbers.iter().copied().map(Double::from_f64).collect()
     };
     let mut doubles = vec![Double::from_f64(0.0); n];
-    Many::<Double>::from_parameters(ManyParameters {
+    Many::<Double>::from_parameters_unchecked(ManyParameters {
         g: Double::from_f64(exact.g),
         links: Double::from_f64(exact.links),
         bodies: Double::from_f64(exact.bodies),

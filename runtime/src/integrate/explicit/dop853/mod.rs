@@ -5,7 +5,7 @@ mod tables;
 use self::tables::{
     A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, A14, A15, A16, B, B_THIRD, C, D, E_FIFTH,
 };
-use super::pair::{DenseForm, Pair, Row, difference};
+use super::pair::{DenseForm, EmbeddedPair, TableRow, difference};
 use super::stages::{RightHandSide, StepStages, count};
 use crate::integrate::control::ControlConstants;
 use crate::scalar::Scalar;
@@ -14,7 +14,7 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrince8;
 
-impl Pair for DormandPrince8 {
+impl EmbeddedPair for DormandPrince8 {
     /// As in the authors' program, but for the safety factor, which is 0.9
     /// there. With 0.8 the paper's pendulum in regular motion takes as many
     /// evaluations, has fewer steps rejected and ends with half the error, at
@@ -46,4 +46,4 @@ impl Pair for DormandPrince8 {
 }
 
 /// Weights of the solution of order 8 minus those of the one of order 3.
-const B_MINUS_THIRD: Row<8> = difference(&B, &B_THIRD);
+const B_MINUS_THIRD: TableRow<8> = difference(&B, &B_THIRD);

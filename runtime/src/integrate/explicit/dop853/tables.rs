@@ -11,7 +11,7 @@
 // The source gives 30 digits; keeping them makes the comparison by eye exact.
 #![allow(clippy::excessive_precision)]
 
-use crate::integrate::explicit::pair::Row;
+use crate::integrate::explicit::pair::TableRow;
 
 /// Order of the solution that is continued.
 pub(super) const ORDER: u32 = 8;
@@ -42,39 +42,39 @@ pub(super) const C: [f64; STAGES_DENSE] = [
     0.777777777777777777777777777778e+00,
 ];
 
-pub(super) const A2: Row<1> = [(1, 5.26001519587677318785587544488e-2)];
-pub(super) const A3: Row<2> = [
+pub(super) const A2: TableRow<1> = [(1, 5.26001519587677318785587544488e-2)];
+pub(super) const A3: TableRow<2> = [
     (1, 1.97250569845378994544595329183e-2),
     (2, 5.91751709536136983633785987549e-2),
 ];
-pub(super) const A4: Row<2> = [
+pub(super) const A4: TableRow<2> = [
     (1, 2.95875854768068491816892993775e-2),
     (3, 8.87627564304205475450678981324e-2),
 ];
-pub(super) const A5: Row<3> = [
+pub(super) const A5: TableRow<3> = [
     (1, 2.41365134159266685502369798665e-1),
     (3, -8.84549479328286085344864962717e-1),
     (4, 9.24834003261792003115737966543e-1),
 ];
-pub(super) const A6: Row<3> = [
+pub(super) const A6: TableRow<3> = [
     (1, 3.7037037037037037037037037037e-2),
     (4, 1.70828608729473871279604482173e-1),
     (5, 1.25467687566822425016691814123e-1),
 ];
-pub(super) const A7: Row<4> = [
+pub(super) const A7: TableRow<4> = [
     (1, 3.7109375e-2),
     (4, 1.70252211019544039314978060272e-1),
     (5, 6.02165389804559606850219397283e-2),
     (6, -1.7578125e-2),
 ];
-pub(super) const A8: Row<5> = [
+pub(super) const A8: TableRow<5> = [
     (1, 3.70920001185047927108779319836e-2),
     (4, 1.70383925712239993810214054705e-1),
     (5, 1.07262030446373284651809199168e-1),
     (6, -1.53194377486244017527936158236e-2),
     (7, 8.27378916381402288758473766002e-3),
 ];
-pub(super) const A9: Row<6> = [
+pub(super) const A9: TableRow<6> = [
     (1, 6.24110958716075717114429577812e-1),
     (4, -3.36089262944694129406857109825e0),
     (5, -8.68219346841726006818189891453e-1),
@@ -82,7 +82,7 @@ pub(super) const A9: Row<6> = [
     (7, 2.01540675504778934086186788979e1),
     (8, -4.34898841810699588477366255144e1),
 ];
-pub(super) const A10: Row<7> = [
+pub(super) const A10: TableRow<7> = [
     (1, 4.77662536438264365890433908527e-1),
     (4, -2.48811461997166764192642586468e0),
     (5, -5.90290826836842996371446475743e-1),
@@ -91,7 +91,7 @@ pub(super) const A10: Row<7> = [
     (8, -3.32882109689848629194453265587e1),
     (9, -2.03312017085086261358222928593e-2),
 ];
-pub(super) const A11: Row<8> = [
+pub(super) const A11: TableRow<8> = [
     (1, -9.3714243008598732571704021658e-1),
     (4, 5.18637242884406370830023853209e0),
     (5, 1.09143734899672957818500254654e0),
@@ -101,7 +101,7 @@ pub(super) const A11: Row<8> = [
     (9, 2.49360555267965238987089396762e0),
     (10, -3.0467644718982195003823669022e0),
 ];
-pub(super) const A12: Row<9> = [
+pub(super) const A12: TableRow<9> = [
     (1, 2.27331014751653820792359768449e0),
     (4, -1.05344954667372501984066689879e1),
     (5, -2.00087205822486249909675718444e0),
@@ -114,7 +114,7 @@ pub(super) const A12: Row<9> = [
 ];
 
 /// Weights of the solution of order 8.
-pub(super) const B: Row<8> = [
+pub(super) const B: TableRow<8> = [
     (1, 5.42937341165687622380535766363e-2),
     (6, 4.45031289275240888144113950566e0),
     (7, 1.89151789931450038304281599044e0),
@@ -126,7 +126,7 @@ pub(super) const B: Row<8> = [
 ];
 
 /// Weights of the embedded solution of order 3.
-pub(super) const B_THIRD: Row<3> = [
+pub(super) const B_THIRD: TableRow<3> = [
     (1, 0.244094488188976377952755905512e+00),
     (9, 0.733846688281611857341361741547e+00),
     (12, 0.220588235294117647058823529412e-01),
@@ -134,7 +134,7 @@ pub(super) const B_THIRD: Row<3> = [
 
 /// Weights of the solution of order 8 minus those of the embedded one of
 /// order 5.
-pub(super) const E_FIFTH: Row<8> = [
+pub(super) const E_FIFTH: TableRow<8> = [
     (1, 0.1312004499419488073250102996e-01),
     (6, -0.1225156446376204440720569753e+01),
     (7, -0.4957589496572501915214079952e+00),
@@ -145,7 +145,7 @@ pub(super) const E_FIFTH: Row<8> = [
     (12, -0.2235530786388629525884427845e-01),
 ];
 
-pub(super) const A14: Row<8> = [
+pub(super) const A14: TableRow<8> = [
     (1, 5.61675022830479523392909219681e-2),
     (7, 2.53500210216624811088794765333e-1),
     (8, -2.46239037470802489917441475441e-1),
@@ -155,7 +155,7 @@ pub(super) const A14: Row<8> = [
     (12, 7.56789766054569976138603589584e-3),
     (13, -8.298e-3),
 ];
-pub(super) const A15: Row<8> = [
+pub(super) const A15: TableRow<8> = [
     (1, 3.18346481635021405060768473261e-2),
     (6, 2.83009096723667755288322961402e-2),
     (7, 5.35419883074385676223797384372e-2),
@@ -165,7 +165,7 @@ pub(super) const A15: Row<8> = [
     (13, -3.40465008687404560802977114492e-4),
     (14, 1.41312443674632500278074618366e-1),
 ];
-pub(super) const A16: Row<8> = [
+pub(super) const A16: TableRow<8> = [
     (1, -4.28896301583791923408573538692e-1),
     (6, -4.69762141536116384314449447206e0),
     (7, 7.68342119606259904184240953878e0),
@@ -177,7 +177,7 @@ pub(super) const A16: Row<8> = [
 ];
 
 /// Weights of the four highest coefficients of the dense output.
-pub(super) const D: [Row<12>; 4] = [
+pub(super) const D: [TableRow<12>; 4] = [
     [
         (1, -0.84289382761090128651353491142e+01),
         (6, 0.56671495351937776962531783590e+00),

@@ -3,7 +3,7 @@
 mod tables;
 
 use self::tables::{A2, A3, A4, A5, A6, B, C, D, E};
-use super::pair::{DenseForm, Pair};
+use super::pair::{DenseForm, EmbeddedPair};
 use super::stages::{RightHandSide, StepStages};
 use crate::integrate::control::ControlConstants;
 use crate::scalar::Scalar;
@@ -18,7 +18,7 @@ pub struct DormandPrince5;
 /// stay near it. Counting the estimate so many times brings the three together.
 const ESTIMATE_WEIGHT: f64 = 20.0;
 
-impl Pair for DormandPrince5 {
+impl EmbeddedPair for DormandPrince5 {
     /// As in the authors' program; the error that they act on is not.
     const CONTROL: ControlConstants = ControlConstants {
         order: tables::ORDER,
@@ -42,11 +42,13 @@ impl Pair for DormandPrince5 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrate::explicit::order_conditions::{Table, continuous, order, stage_values};
+    use crate::integrate::explicit::order_conditions::{
+        ButcherTable, continuous, order, stage_values,
+    };
 
-    fn table() -> Table {
+    fn table() -> ButcherTable {
         let rows: [&[(usize, f64)]; tables::STAGES_DENSE] = [&[], &A2, &A3, &A4, &A5, &A6, &B];
-        Table {
+        ButcherTable {
             nodes: C.to_vec(),
             rows: rows.to_vec(),
         }

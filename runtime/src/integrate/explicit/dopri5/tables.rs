@@ -5,7 +5,7 @@
 //! authors' program `dopri5.f`. Stages count from 1; entries that are not
 //! listed are zero. The tests check every order condition.
 
-use crate::integrate::explicit::pair::Row;
+use crate::integrate::explicit::pair::TableRow;
 
 /// Order of the solution that is continued.
 pub(super) const ORDER: u32 = 5;
@@ -17,16 +17,16 @@ pub(super) const STAGES_DENSE: usize = 7;
 /// Nodes c of the stages, as fractions of the step.
 pub(super) const C: [f64; STAGES_DENSE] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 
-pub(super) const A2: Row<1> = [(1, 1.0 / 5.0)];
-pub(super) const A3: Row<2> = [(1, 3.0 / 40.0), (2, 9.0 / 40.0)];
-pub(super) const A4: Row<3> = [(1, 44.0 / 45.0), (2, -56.0 / 15.0), (3, 32.0 / 9.0)];
-pub(super) const A5: Row<4> = [
+pub(super) const A2: TableRow<1> = [(1, 1.0 / 5.0)];
+pub(super) const A3: TableRow<2> = [(1, 3.0 / 40.0), (2, 9.0 / 40.0)];
+pub(super) const A4: TableRow<3> = [(1, 44.0 / 45.0), (2, -56.0 / 15.0), (3, 32.0 / 9.0)];
+pub(super) const A5: TableRow<4> = [
     (1, 19372.0 / 6561.0),
     (2, -25360.0 / 2187.0),
     (3, 64448.0 / 6561.0),
     (4, -212.0 / 729.0),
 ];
-pub(super) const A6: Row<5> = [
+pub(super) const A6: TableRow<5> = [
     (1, 9017.0 / 3168.0),
     (2, -355.0 / 33.0),
     (3, 46732.0 / 5247.0),
@@ -35,7 +35,7 @@ pub(super) const A6: Row<5> = [
 ];
 
 /// Weights of the solution of order 5; also the row of stage 7.
-pub(super) const B: Row<5> = [
+pub(super) const B: TableRow<5> = [
     (1, 35.0 / 384.0),
     (3, 500.0 / 1113.0),
     (4, 125.0 / 192.0),
@@ -45,7 +45,7 @@ pub(super) const B: Row<5> = [
 
 /// Weights of the solution of order 5 minus those of the embedded one of
 /// order 4.
-pub(super) const E: Row<6> = [
+pub(super) const E: TableRow<6> = [
     (1, 71.0 / 57600.0),
     (3, -71.0 / 16695.0),
     (4, 71.0 / 1920.0),
@@ -55,7 +55,7 @@ pub(super) const E: Row<6> = [
 ];
 
 /// Weights of the highest coefficient of the dense output.
-pub(super) const D: Row<6> = [
+pub(super) const D: TableRow<6> = [
     (1, -12715105075.0 / 11282082432.0),
     (3, 87487479700.0 / 32700410799.0),
     (4, -10690763975.0 / 1880347072.0),

@@ -6,7 +6,7 @@ use self::tables::{
     A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, A13, A14, A15, A16, A18, A19, A20, A21, B,
     B_EIGHTH, C, D,
 };
-use super::pair::{DenseForm, Pair, Row, difference};
+use super::pair::{DenseForm, EmbeddedPair, TableRow, difference};
 use super::stages::{RightHandSide, StepStages};
 use crate::integrate::control::ControlConstants;
 use crate::scalar::Scalar;
@@ -15,7 +15,7 @@ use crate::scalar::Scalar;
 #[derive(Clone, Copy, Debug)]
 pub struct Verner9;
 
-impl Pair for Verner9 {
+impl EmbeddedPair for Verner9 {
     const CONTROL: ControlConstants = ControlConstants {
         order: tables::ORDER,
         safety: 0.8,
@@ -39,15 +39,17 @@ impl Pair for Verner9 {
 }
 
 /// Weights of the solution of order 9 minus those of the one of order 8.
-const B_MINUS_EIGHTH: Row<10> = difference(&B, &B_EIGHTH);
+const B_MINUS_EIGHTH: TableRow<10> = difference(&B, &B_EIGHTH);
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::integrate::explicit::dense_output::bernstein;
-    use crate::integrate::explicit::order_conditions::{Table, continuous, order, stage_values};
+    use crate::integrate::explicit::order_conditions::{
+        ButcherTable, continuous, order, stage_values,
+    };
 
-    fn table() -> Table {
+    fn table() -> ButcherTable {
         let rows: [&[(usize, f64)]; tables::STAGES_DENSE] = [
             &[],
             &A2,
@@ -71,7 +73,7 @@ mod tests {
             &A20,
             &A21,
         ];
-        Table {
+        ButcherTable {
             nodes: C.to_vec(),
             rows: rows.to_vec(),
         }

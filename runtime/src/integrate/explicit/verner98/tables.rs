@@ -8,7 +8,7 @@
 //! 1; entries that are not listed are zero. The tests check every order
 //! condition of both formulas and of the interpolant.
 
-use crate::integrate::explicit::pair::Row;
+use crate::integrate::explicit::pair::TableRow;
 
 /// Order of the solution that is continued.
 pub(super) const ORDER: u32 = 9;
@@ -45,44 +45,44 @@ pub(super) const C: [f64; STAGES_DENSE] = [
     0.487,
 ];
 
-pub(super) const A2: Row<1> = [(1, 0.03571)];
-pub(super) const A3: Row<2> = [(1, -0.03833735636677017), (2, 0.13739763727944432)];
-pub(super) const A4: Row<2> = [(1, 0.0371476053422528), (3, 0.11144281602675842)];
-pub(super) const A5: Row<3> = [
+pub(super) const A2: TableRow<1> = [(1, 0.03571)];
+pub(super) const A3: TableRow<2> = [(1, -0.03833735636677017), (2, 0.13739763727944432)];
+pub(super) const A4: TableRow<2> = [(1, 0.0371476053422528), (3, 0.11144281602675842)];
+pub(super) const A5: TableRow<3> = [
     (1, 2.674764429871505),
     (3, -9.982382134885293),
     (4, 7.921017705013789),
 ];
-pub(super) const A6: Row<3> = [
+pub(super) const A6: TableRow<3> = [
     (1, 0.05242104050577351),
     (4, 0.17969111891759532),
     (5, 0.0006237879371938568),
 ];
-pub(super) const A7: Row<4> = [
+pub(super) const A7: TableRow<4> = [
     (1, 0.15924922236476322),
     (4, -0.4298429877241087),
     (5, 0.06665266542726088),
     (6, 0.757805152571522),
 ];
-pub(super) const A8: Row<3> = [
+pub(super) const A8: TableRow<3> = [
     (1, 0.07283333333333333),
     (6, 0.33593445906651037),
     (7, 0.2467322076001563),
 ];
-pub(super) const A9: Row<4> = [
+pub(super) const A9: TableRow<4> = [
     (1, 0.0729755859375),
     (6, 0.33480097296993333),
     (7, 0.11841582390506665),
     (8, -0.0345673828125),
 ];
-pub(super) const A10: Row<5> = [
+pub(super) const A10: TableRow<5> = [
     (1, 0.049112136634520964),
     (6, 0.03983857361308652),
     (7, 0.10696752889393549),
     (8, -0.021742591654586477),
     (9, -0.10559564748695649),
 ];
-pub(super) const A11: Row<6> = [
+pub(super) const A11: TableRow<6> = [
     (1, -0.027079888186412805),
     (6, 0.0333),
     (7, -0.16455260700360572),
@@ -90,7 +90,7 @@ pub(super) const A11: Row<6> = [
     (9, 0.1585264064439221),
     (10, 0.2185234256811225),
 ];
-pub(super) const A12: Row<7> = [
+pub(super) const A12: TableRow<7> = [
     (1, 0.055846577691088625),
     (6, 0.09166533166672539),
     (7, 0.2392399655523627),
@@ -99,7 +99,7 @@ pub(super) const A12: Row<7> = [
     (10, 0.042356241814742845),
     (11, 0.2253970470166604),
 ];
-pub(super) const A13: Row<8> = [
+pub(super) const A13: TableRow<8> = [
     (1, -0.4802510512725196),
     (6, -6.3596101625559305),
     (7, -0.2762313898040841),
@@ -109,7 +109,7 @@ pub(super) const A13: Row<8> = [
     (11, 5.936840409706221),
     (12, 6.590346245333925),
 ];
-pub(super) const A14: Row<9> = [
+pub(super) const A14: TableRow<9> = [
     (1, 0.3307533067671401),
     (6, 5.956207776829962),
     (7, -0.48683164004815277),
@@ -120,7 +120,7 @@ pub(super) const A14: Row<9> = [
     (12, -4.14080372924471),
     (13, 0.20383197231903866),
 ];
-pub(super) const A15: Row<10> = [
+pub(super) const A15: TableRow<10> = [
     (1, -0.5847111122998945),
     (6, -12.41268417116267),
     (7, 1.360245445660928),
@@ -132,7 +132,7 @@ pub(super) const A15: Row<10> = [
     (13, -0.6634483760201249),
     (14, 0.45096237872581374),
 ];
-pub(super) const A16: Row<9> = [
+pub(super) const A16: TableRow<9> = [
     (1, 1.9405755498106487),
     (6, 21.977984081145564),
     (7, 0.8230747326984729),
@@ -145,7 +145,7 @@ pub(super) const A16: Row<9> = [
 ];
 
 /// Weights of the solution of order 9; also the row of stage 17.
-pub(super) const B: Row<9> = [
+pub(super) const B: TableRow<9> = [
     (1, 0.015006690149797247),
     (8, -1.0551809927463813),
     (9, 0.2384947263782183),
@@ -158,7 +158,7 @@ pub(super) const B: Row<9> = [
 ];
 
 /// Weights of the embedded solution of order 8.
-pub(super) const B_EIGHTH: Row<8> = [
+pub(super) const B_EIGHTH: TableRow<8> = [
     (1, 0.018972105324811014),
     (8, 3.4081103145494938),
     (9, 0.1260323883820921),
@@ -169,7 +169,7 @@ pub(super) const B_EIGHTH: Row<8> = [
     (16, 0.04652989552070924),
 ];
 
-pub(super) const A18: Row<10> = [
+pub(super) const A18: TableRow<10> = [
     (1, 0.01571801061417788),
     (8, 0.48534034526573633),
     (9, 0.21077875689045467),
@@ -181,7 +181,7 @@ pub(super) const A18: Row<10> = [
     (15, -0.0237812137271033),
     (17, 0.02691804261928989),
 ];
-pub(super) const A19: Row<11> = [
+pub(super) const A19: TableRow<11> = [
     (1, 0.015697058325222044),
     (8, 0.4616075242202112),
     (9, 0.21139465166981133),
@@ -194,7 +194,7 @@ pub(super) const A19: Row<11> = [
     (17, 0.02668458089504036),
     (18, 0.011396834602855415),
 ];
-pub(super) const A20: Row<12> = [
+pub(super) const A20: TableRow<12> = [
     (1, 0.014389648842912163),
     (8, -1.2069012191237884),
     (9, 0.25056285546393764),
@@ -208,7 +208,7 @@ pub(super) const A20: Row<12> = [
     (18, 0.0342205668070975),
     (19, -0.1149726368734142),
 ];
-pub(super) const A21: Row<13> = [
+pub(super) const A21: TableRow<13> = [
     (1, 0.01452348029801042),
     (8, -0.5214243102465819),
     (9, 0.1866698844204604),
@@ -229,7 +229,7 @@ pub(super) const A21: Row<13> = [
 /// the rates there. The source gives powers of the fraction, whose coefficients
 /// reach 1e5 and cancel; these, found from them by solving the order conditions
 /// in 40 digits, stay below 100 and lose no digits.
-pub(super) const D: [Row<14>; DEGREE - 3] = [
+pub(super) const D: [TableRow<14>; DEGREE - 3] = [
     [
         (1, -0.14318472403950133),
         (8, 6.395996650650669),

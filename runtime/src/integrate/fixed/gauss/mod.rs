@@ -1,23 +1,20 @@
 //! The symplectic, symmetric Gauss–Legendre methods.
 
 mod solve;
-mod stepper;
+mod step;
 mod tables;
 
-use core::ops::ControlFlow;
-
-pub(super) use self::stepper::GaussStepper;
-use self::tables::Table;
-use super::driver::Grid;
-use crate::integrate::dense::DenseStep;
-use crate::integrate::error::IntegrationError;
+pub(super) use self::step::GaussStep;
+use self::tables::GaussTable;
+use super::grid::{Grid, GridSteps};
+use crate::integrate::error::InputError;
 use crate::integrate::integrator::Integrator;
-use crate::integrate::report::Solution;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::system::{Ode, State};
 
 /// The order of a [`Gauss`] method: twice its number of stages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum GaussOrder {
     /// One stage: the implicit midpoint rule.
     Two,
@@ -30,7 +27,7 @@ pub enum GaussOrder {
 }
 
 impl GaussOrder {
-    fn table(self) -> &'static Table {
+    fn table(self) -> &'static GaussTable {
         &tables::TABLES[match self {
             Self::Two => 0,
             Self::Four => 1,
@@ -38,10 +35,20 @@ impl GaussOrder {
             Self::Eight => 3,
         }]
     }
+
+    /// Integral from 0 to x of the Lagrange polynomial of node j; zero where there is no
+    /// such node.
+    pub(in crate::integrate) fn integral<S: Scalar>(self, j: usize, x: S) -> S {
+        let table = self.table();
+        let row = table.integrals.chunks_exact(table.nodes.len()).nth(j);
+        let coefficients = row.unwrap_or_default().iter().rev();
+        coefficients.fold(S::from_f64(0.0), |sum, &c| (sum + S::from_f64(c)) * x)
+    }
 }
 
 /// The iteration that solves the equations of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Solver {
     /// Fixed-point iteration: no derivatives, cheap, and converges where the
     /// step is short beside the shortest time scale of the system.
@@ -114,6 +121,7 @@ pub enum Solver {
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Gauss<T> {
     /// Order of the method.
     pub order: GaussOrder,
@@ -180,14 +188,9 @@ impl<T: Real> Gauss<T> {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Gauss<T> {
-    fn integrate(
-        &self,
-        ode: &O,
-        start: &State<T>,
-        end: T,
-        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        let new = || GaussStepper::new(self, &start.values);
-        self.grid().run(ode, start, end, new, observer)
+    type Steps = GridSteps<GaussStep<T>, T>;
+
+    fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
+        self.grid().steps(GaussStep::new(self, &start.values))
     }
 }

@@ -1,9 +1,9 @@
 //! Solving for the rates of the stages: K_i = f(t + c_i h, y + h Σ_j a_ij K_j).
 
 use super::Solver;
-use super::stepper::GaussStepper;
+use super::step::GaussStep;
 use crate::integrate::evaluator::Evaluator;
-use crate::integrate::fixed::driver::Failure;
+use crate::integrate::steps::Failure;
 use crate::scalar::{Real, Scalar};
 use crate::system::Ode;
 
@@ -23,7 +23,7 @@ const RUNAWAY: f64 = 1e-3;
 /// A matrix of derivatives that took more rounds than this is made anew.
 const STALE: u32 = 8;
 
-impl<T: Real> GaussStepper<T> {
+impl<T: Real> GaussStep<T> {
     /// Iterates the rates of the stages, from their increments in place, until
     /// the change is zero or rounding.
     pub(super) fn solve<O: Ode<T> + ?Sized>(
@@ -47,7 +47,7 @@ impl<T: Real> GaussStepper<T> {
             if let Err(failure) = self.evaluate(system, time, step) {
                 // An iterate that ran away says nothing about the equations.
                 if last > T::from_f64(RUNAWAY) {
-                    return self.give_up(round, last);
+                    return self.give_up(step, round, last);
                 }
                 return Err(failure);
             }
@@ -71,15 +71,19 @@ impl<T: Real> GaussStepper<T> {
                 return Ok(());
             }
             if without_progress > PATIENCE {
-                return self.give_up(round, change);
+                return self.give_up(step, round, change);
             }
         }
-        self.give_up(self.iteration_limit, best)
+        self.give_up(step, self.iteration_limit, best)
     }
 
-    fn give_up(&mut self, iterations: u32, change: T) -> Result<(), Failure<T>> {
+    fn give_up(&mut self, step: T, iterations: u32, change: T) -> Result<(), Failure<T>> {
         self.newton_step = T::ZERO;
-        Err(Failure::NotSolved { iterations, change })
+        Err(Failure::NotSolved {
+            step: step.abs(),
+            iterations,
+            change,
+        })
     }
 
     /// h Σ_j a_ij K_j, and the residue of the start.
@@ -182,10 +186,7 @@ impl<T: Real> GaussStepper<T> {
             }
         }
         if !self.newton.factorise() {
-            return Err(Failure::NotSolved {
-                iterations: 0,
-                change: T::NAN,
-            });
+            return self.give_up(step, 0, T::NAN);
         }
         self.newton_step = step;
         Ok(())

@@ -14,7 +14,7 @@ pub(super) type Split = (f64, f64);
 
 /// One of the methods.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct GaussTable {
     /// Nodes c.
     pub(super) nodes: &'static [f64],
     /// Rows of the matrix a, one after the other.
@@ -27,14 +27,14 @@ pub(super) struct Table {
 }
 
 /// The methods of 1 to 4 stages.
-pub(super) const TABLES: [Table; 4] = [
-    Table {
+pub(super) const TABLES: [GaussTable; 4] = [
+    GaussTable {
         nodes: &[0.5],
         matrix: &[(0.5, 0.0)],
         weights: &[(1.0, 0.0)],
         integrals: &[1.0],
     },
-    Table {
+    GaussTable {
         nodes: &[0.2113248654051871, 0.7886751345948129],
         matrix: &[
             (0.25, 0.0),
@@ -50,7 +50,7 @@ pub(super) const TABLES: [Table; 4] = [
             0.8660254037844386,
         ],
     },
-    Table {
+    GaussTable {
         nodes: &[0.11270166537925831, 0.5, 0.8872983346207417],
         matrix: &[
             (0.138671875, 0.00021701388888888888),
@@ -80,7 +80,7 @@ pub(super) const TABLES: [Table; 4] = [
             1.1111111111111112,
         ],
     },
-    Table {
+    GaussTable {
         nodes: &[
             0.06943184420297371,
             0.33000947820757187,

@@ -14,7 +14,7 @@ impl Each<f64> for ThePlainMethodIsMet {
     fn each<M>(&mut self, method: &M)
     where
         M: LaneMethod<Lopsided<f64>, f64>,
-        for<'a> M: Integrator<f64, AbsoluteAngles<'a, Lopsided<f64>>>,
+        for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
     {
         let starts = starts::<f64>();
         let (forwards, model) = (times::<f64>(), lopsided());
@@ -84,7 +84,7 @@ fn the_plain_methods_are_met_to_the_tolerance() {
 fn evaluations_are_counted<M>(method: &M, [accepted, rejected]: [u64; 2])
 where
     M: LaneMethod<Lopsided<f64>, f64>,
-    for<'a> M: Integrator<f64, AbsoluteAngles<'a, Lopsided<f64>>>,
+    for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
 {
     let (model, starts) = (lopsided(), starts());
     let cases = Cases::Starts(&model, &starts);
@@ -128,7 +128,7 @@ impl Each<f64> for ZeroNeedsNoAbsoluteTolerance {
     fn each<M>(&mut self, method: &M)
     where
         M: LaneMethod<Lopsided<f64>, f64>,
-        for<'a> M: Integrator<f64, AbsoluteAngles<'a, Lopsided<f64>>>,
+        for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
     {
         let still = Lopsided {
             drive: 0.0,

@@ -48,7 +48,7 @@ impl Each<f64> for StopsOfBoth {
     fn each<M>(&mut self, method: &M)
     where
         M: LaneMethod<Lopsided<f64>, f64>,
-        for<'a> M: Integrator<f64, AbsoluteAngles<'a, Lopsided<f64>>>,
+        for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
     {
         let (Self(starts, seen), model) = (self, lopsided());
         for end in [END, f64::INFINITY] {

@@ -25,7 +25,7 @@ trait Each<T: Lane> {
     fn each<M>(&mut self, method: &M)
     where
         M: LaneMethod<Lopsided<T>, T>,
-        for<'a> M: Integrator<T, AbsoluteAngles<'a, Lopsided<T>>>;
+        for<'a> M: Integrator<T, AbsoluteAngles<&'a Lopsided<T>>>;
 }
 
 /// Does it with all methods, with these options.
@@ -114,7 +114,7 @@ fn outcomes<T: Lane, M: LaneMethod<Lopsided<T>, T>>(
 /// The end by the plain method.
 fn plain<M>(method: &M, model: &Lopsided<f64>, start: &State<f64>, end: f64) -> End<f64>
 where
-    for<'a> M: Integrator<f64, AbsoluteAngles<'a, Lopsided<f64>>>,
+    for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
 {
     let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
     method.integrate(&AbsoluteAngles(model), start, end, go_on)

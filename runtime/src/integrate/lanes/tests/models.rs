@@ -78,7 +78,7 @@ impl Each<f64> for ThePlainMethodIsMet {
     fn each<M>(&mut self, method: &M)
     where
         M: LaneMethod<Lopsided<f64>, f64>,
-        for<'a> M: Integrator<f64, AbsoluteAngles<'a, Lopsided<f64>>>,
+        for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
     {
         let releases = bad_releases();
         let cases = Cases::Pairs(&releases);

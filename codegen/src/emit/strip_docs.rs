@@ -1,0 +1,61 @@
+//! Docs of a model in loops, and of the equations of its links.
+
+use super::Emission;
+use super::formulas::DocFormula;
+use crate::scene::Layout;
+
+impl Emission<'_> {
+    pub(super) fn strip_docs(&self) -> Vec<String> {
+        let energies = match self.scene.requests.energies {
+            true => "",
+            false => " Energies can be asked for with `emit(energies)`.",
+        };
+        let rows = self.scene.links.len();
+        let mut lines = match self.scene.layout {
+            Layout::Generations { branching, links } => vec![
+                format!(
+                    "A planar tree of {links} rigid links in {rows} generations, {branching} under each link but the last ones. Angles are absolute, in radians from the downward vertical; SI units throughout."
+                ),
+                String::new(),
+                "Links stand generation by generation, and in a generation copy by copy: copy c (from 0) under link i of a generation of n links is number c n + i of the next one. `link` finds one by its path.".into(),
+                String::new(),
+                format!(
+                    "The code is loops over generations, O(links), in vectors of siblings, and on all cores where there are many.{energies}"
+                ),
+            ],
+            _ => vec![
+                format!(
+                    "A planar tree of {rows} rigid links. Angles are absolute, in radians from the downward vertical, in the order of `LINK_NAMES`; SI units throughout."
+                ),
+                String::new(),
+                format!(
+                    "The code is a loop over the links, O(links), of the equations that are shown where they stand.{energies}"
+                ),
+            ],
+        };
+        if self.mechanics.drive.is_some() {
+            lines.extend(self.drive_docs());
+            self.show(&self.drive_formulas(), &mut lines);
+        }
+        lines
+    }
+
+    pub(super) fn equations_docs(&self) -> Vec<String> {
+        let mut lines = vec![
+            "The equations of one link, by articulated-body recursion in the plane (Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 7).".to_owned(),
+            String::new(),
+            "Subtrees that hang at (ℓ, w) answer the acceleration **a** of their pivot with the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is the mass of those that are single links, and zero for others. J is the moment of inertia that the joint feels, b the first moment, κ the bias torque, f the force with the joint held; primed are N and γ of the subtree that the link carries, and the acceleration of its children's pivot. The code carries −**a**, the apparent gravity, has all masses over m and all lengths over l of the commonest leaf, and angles of a link by its own length.".to_owned(),
+        ];
+        if let Some(link) = &self.mechanics.link {
+            let formulas = link.formulas(&self.mechanics.symbols);
+            let formulas = formulas.into_iter().map(|line| DocFormula {
+                left: line.left,
+                left_latex: line.left_latex,
+                right: line.right,
+            });
+            let formulas: Vec<_> = formulas.collect();
+            self.show_text(&formulas, formulas.len(), &mut lines);
+        }
+        lines
+    }
+}

@@ -1,0 +1,113 @@
+//! Substitutes of what a wrong model says of its sectors.
+
+use super::stub::is_plain;
+use crate::description::{Description, Expression, ExpressionKind, Node, Value};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use std::collections::BTreeSet;
+
+/// Budgets of the sectors.
+const BUDGETS: [&str; 4] = [
+    "budget_rest",
+    "budget_canonical",
+    "budget_velocity",
+    "budget_parseval",
+];
+/// Results of more elements say no more about a description that is wrong.
+const MOST_SECTORS: usize = 1024;
+
+/// Names of the differences of groups of single links, each once: names of links
+/// may be wrong.
+pub(super) fn places(description: &Description) -> BTreeSet<String> {
+    let mut groups: Vec<(String, usize)> = Vec::new();
+    let mut pending: Vec<&Node> = description.roots.iter().collect();
+    while let Some(node) = pending.pop() {
+        let copies = node.copies.map_or(1, |copies| copies.count as usize);
+        let name = node.name.to_string();
+        if copies > 1 && copies <= MOST_SECTORS && is_plain(&name) {
+            groups.push((name, copies));
+        }
+        pending.extend(&node.children);
+    }
+    let alone = groups.len() == 1;
+    let names = groups.iter().flat_map(|(name, copies)| {
+        let stem = if alone {
+            "d".to_owned()
+        } else {
+            format!("{name}_d")
+        };
+        let number = move |number: usize| match copies {
+            2 => stem.clone(),
+            _ => format!("{stem}{number}"),
+        };
+        (1..*copies).map(number)
+    });
+    names.collect()
+}
+
+/// The functions of sectors. Their results have as many elements as the tree
+/// has sectors, as far as that can be read.
+pub(super) fn budgets(description: &Description, runtime: &TokenStream) -> TokenStream {
+    let time = description.drive.as_ref().map(|_| quote!(time: T,));
+    let differences = description.roots.iter().map(differences);
+    let sectors = differences.fold(1_usize, usize::saturating_add);
+    let sectors = Literal::usize_unsuffixed(sectors.min(MOST_SECTORS));
+    let both = |name: &str| [format_ident!("{name}"), format_ident!("symmetric_{name}")];
+    let shares = BUDGETS.iter().flat_map(|name| both(name));
+    let mut transfers = both("sector_transfers").to_vec();
+    for order in 1..=8 {
+        transfers.push(format_ident!("sector_transfers_angle_{order}"));
+        transfers.push(format_ident!("sector_transfers_amplitude_{order}"));
+    }
+    let matrices = both("transfer_matrix");
+    quote! {
+        #(pub fn #shares<const N: usize>(
+            &self, #time first: &[T; N], second: &[T; N],
+        ) -> #runtime::Budget<T, #sectors> {
+            ::core::unimplemented!()
+        })*
+        #(pub fn #transfers<const N: usize>(
+            &self, first: &[T; N], second: &[T; N],
+        ) -> [#runtime::Transfer<T>; #sectors] {
+            ::core::unimplemented!()
+        })*
+        #(pub fn #matrices<const N: usize>(
+            &self, first: &[T; N], second: &[T; N],
+        ) -> [[T; #sectors]; #sectors] {
+            ::core::unimplemented!()
+        })*
+    }
+}
+
+/// Differences between copies in a subtree: a group of k has k − 1 of them
+/// everywhere it stands.
+fn differences(node: &Node) -> usize {
+    let copies = node.copies.map_or(1, |copies| copies.count.max(1) as usize);
+    let below = if node
+        .shape
+        .as_ref()
+        .is_some_and(|shape| shape == "generations")
+    {
+        // Σ (k − 1) kⁱ over all generations but the last.
+        let branching = rule_count(node, "branching").unwrap_or(1);
+        let generations = rule_count(node, "count").unwrap_or(1);
+        let power = u32::try_from(generations.saturating_sub(1)).unwrap_or(u32::MAX);
+        branching.saturating_pow(power).saturating_sub(1)
+    } else {
+        let children = node.children.iter().map(differences);
+        children.fold(0, usize::saturating_add)
+    };
+    copies.saturating_mul(below).saturating_add(copies - 1)
+}
+
+/// A whole number that a rule gives.
+fn rule_count(node: &Node, name: &str) -> Option<usize> {
+    let property = node.properties.iter().find(|p| p.name == name)?;
+    match &property.value {
+        Value::Single(Expression {
+            kind: ExpressionKind::Number(number),
+            ..
+        }) => number.numerator_text().parse().ok(),
+        _ => None,
+    }
+}

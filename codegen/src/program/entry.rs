@@ -1,0 +1,274 @@
+//! Entry points: purpose, arguments and shape of the functions that code has.
+
+use super::ValueId;
+use crate::mechanics::Counting;
+
+/// An argument of an entry point: an array, but for the time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Argument {
+    /// Time, s: a single number.
+    Time,
+    /// Absolute angles, rad.
+    Theta,
+    /// Angular velocities, rad/s.
+    Omega,
+    /// Momenta that belong to the absolute angles, kg m²/s.
+    AbsoluteMomenta,
+    /// Symmetric coordinates, rad.
+    Coordinates,
+    /// Their velocities, rad/s.
+    Rates,
+    /// Momenta that belong to the symmetric coordinates, kg m²/s.
+    Momenta,
+    /// Forces on the links, x and y of each, N.
+    Forces,
+    /// Angular accelerations, rad/s².
+    Alpha,
+    /// Small differences in the transverse sector with that number, rad.
+    Difference(usize),
+    /// Their rates, rad/s.
+    DifferenceRate(usize),
+    /// Generalized torques from outside, one for each absolute angle, N m.
+    Torques,
+    /// Angles or angular velocities, absolute: the transform serves both.
+    Absolute,
+    /// Angles or angular velocities, symmetric.
+    Symmetric,
+    /// Constants of one link of a tree in loops.
+    Constants,
+    /// Its motion: sine, cosine, angular velocity, joint angle, joint rate.
+    Motion,
+    /// Response of a subtree: deficit xx, xy, yy of the articulated inertia, bias
+    /// force, torque of its joint on the parent.
+    Response,
+    /// Sum of the responses of all subtrees on a link.
+    Sums,
+    /// Kept of a link for the way down: gain and offset of its acceleration.
+    Elimination,
+    /// Handed down by a link: the apparent gravity at its children's pivot; with
+    /// several places that at its own, and the acceleration at distance 1.
+    Carried,
+    /// Apparent gravity at a link's pivot.
+    Pivot,
+}
+
+/// The shape in which an entry point returns its outputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// One number.
+    Scalar,
+    /// An array.
+    Vector,
+    /// Arrays of that length.
+    Rows(usize),
+    /// A `Transfer`: kinetic part, potential part.
+    Transfer,
+    /// A number of `Transfer`s.
+    Transfers(usize),
+    /// That many numbers (one alone is no array), and an array of the others.
+    Split(usize),
+    /// A `Budget` of that many sectors: energies, transfers, powers.
+    Budget(usize),
+}
+
+/// Definition of the kinetic energy of a sector (physics §5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnergyDefinition {
+    /// A0: ½ pᵀ B(0)⁻¹ p.
+    Rest,
+    /// A1: ½ pᵀ B(θ)⁻¹ p.
+    Canonical,
+    /// B: Parseval for the velocities.
+    Parseval,
+    /// C: ½ ωᵀ B(θ) ω.
+    Velocity,
+}
+
+/// A kind of points that all links have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointKind {
+    /// The pivot.
+    Pivot,
+    /// The centre of mass.
+    Centre,
+    /// The end.
+    End,
+}
+
+impl PointKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Pivot, Self::Centre, Self::End];
+
+    /// Its name in code.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pivot => "pivot",
+            Self::Centre => "centre",
+            Self::End => "end",
+        }
+    }
+}
+
+/// Purpose of an entry point; the emitter documents it accordingly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// θ̈ from θ, ω.
+    Accelerations,
+    /// θ̈ from θ, ω and torques from outside.
+    AccelerationsUnder,
+    /// The coefficients of θ and ω in powers of the time: order 0 of the
+    /// recurrences, which is θ̈ and the sines and cosines that it goes without.
+    TaylorCoefficients,
+    /// K.
+    KineticEnergy,
+    /// U.
+    PotentialEnergy,
+    /// p from θ, ω.
+    AbsoluteMomenta,
+    /// ω from θ, p.
+    AbsoluteVelocities,
+    /// ω and ṗ from θ, p.
+    CanonicalRates,
+    /// M at θ.
+    MassMatrix,
+    /// ∂²U/∂θ∂θ at θ.
+    StiffnessMatrix,
+    /// Symmetric coordinates from absolute angles.
+    ToSymmetric,
+    /// Absolute angles from symmetric coordinates.
+    FromSymmetric,
+    /// q̈ from q, q̇.
+    SymmetricAccelerations,
+    /// p from q, q̇.
+    SymmetricMomenta,
+    /// q̇ from q, p.
+    SymmetricVelocities,
+    /// H in symmetric coordinates and momenta.
+    Hamiltonian,
+    /// H_d of the transfer with that number.
+    SubHamiltonian(usize),
+    /// W to first order in the difference angles.
+    AngleTransfer(usize),
+    /// W to second order in the amplitude.
+    AmplitudeTransfer(usize),
+    /// W to another order: the transfer, and the form in its list.
+    HigherTransfer(usize, usize),
+    /// The coefficients of that quadratic form.
+    QuadraticForm(usize),
+    /// W exactly, from coordinates and momenta.
+    ExactTransfer(usize),
+    /// W exactly, from coordinates and velocities.
+    ExactTransferFromRates(usize),
+    /// Power of friction on H_d.
+    FrictionPower(usize),
+    /// Energies of all sectors, the transfers into them and the power of other
+    /// forces.
+    Budget(EnergyDefinition),
+    /// W of all sectors by parts: exact, or through an order.
+    SectorTransfers(Option<(Counting, u32)>),
+    /// {E_s, E_r} of the sectors by Parseval.
+    TransferMatrix,
+    /// Power of the drive on H_d.
+    AntiphaseDrivePower(usize),
+    /// The drive itself: acceleration of the root's pivot, torque on the root.
+    Drive,
+    /// Power of the drive on the whole tree.
+    DrivePower,
+    /// Power of friction and drag on the whole tree.
+    TotalFrictionPower,
+    /// The observable with that number.
+    Observable(usize, ObservableForm),
+    /// Accelerations of small differences in the transverse sector with that number.
+    Transverse(usize),
+    /// Their energy.
+    TransverseEnergy(usize),
+    /// Its rate without friction.
+    TransverseTransfer(usize),
+    /// The power of friction on it.
+    TransverseFriction(usize),
+    /// Positions of these points of all links.
+    Positions(PointKind),
+    /// Their velocities.
+    PointVelocities(PointKind),
+    /// Generalized torques Q of forces there.
+    PointTorques(PointKind),
+    /// Masses, moments of inertia and places of the links.
+    LinkProperties,
+    /// A function of the recursion, for one link of a tree in loops.
+    Link(LinkFunction),
+    /// Apparent gravity at the root's pivot of a tree in loops, in reduced units.
+    RootGravity,
+    /// Contribution of the drive to that, and its torque on the root, in reduced units.
+    RootDrive,
+}
+
+/// The functions that the recursion calls for each link of a tree in loops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkFunction {
+    /// The response of a link without children.
+    Leaf,
+    /// The response of a child about its parent's pivot.
+    Attach,
+    /// The response and the elimination of a link with children.
+    Inner,
+    /// The apparent gravity at a child's pivot.
+    Pivot,
+    /// The acceleration of a link with children, and what it hands down.
+    Accelerate,
+    /// The acceleration of a link without children.
+    AccelerateLeaf,
+}
+
+impl LinkFunction {
+    /// All of them, in the order of their entry points.
+    pub const ALL: [Self; 6] = [
+        Self::Leaf,
+        Self::Attach,
+        Self::Inner,
+        Self::Pivot,
+        Self::Accelerate,
+        Self::AccelerateLeaf,
+    ];
+
+    /// Its name in code.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Leaf => "leaf",
+            Self::Attach => "attach",
+            Self::Inner => "inner",
+            Self::Pivot => "pivot",
+            Self::Accelerate => "accelerate",
+            Self::AccelerateLeaf => "accelerate_leaf",
+        }
+    }
+}
+
+/// Quantity that a function gives of an observable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObservableForm {
+    /// F from coordinates and velocities.
+    Value,
+    /// dF/dt from coordinates and velocities.
+    Rate,
+    /// The part of dF/dt that is friction and drag.
+    FrictionRate,
+    /// F from coordinates and momenta.
+    FromMomenta,
+    /// dF/dt from coordinates and momenta.
+    RateFromMomenta,
+}
+
+/// An entry point: the program pruned to its outputs becomes a function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Function name.
+    pub name: String,
+    /// Its purpose.
+    pub purpose: Purpose,
+    /// Arguments in order.
+    pub arguments: Vec<Argument>,
+    /// Output values.
+    pub outputs: Vec<ValueId>,
+    /// Shape of the outputs.
+    pub shape: Shape,
+}

@@ -1,0 +1,174 @@
+//! Entry points of where links are: positions and velocities of their points, and the
+//! torques of forces there.
+
+use super::entries::EntryList;
+use super::lower::Environment;
+use super::pair::Pair;
+use super::{Argument, PointKind, Purpose, Shape, ValueId};
+use crate::mechanics::expression::Expr;
+use crate::mechanics::{LinkPositions, Mechanics, RelativePosition};
+use crate::scene::{LINK_PROPERTIES, LinkId, Scene};
+
+/// The tree, the positions in it, and a kind of points.
+#[derive(Clone, Copy)]
+struct Points<'a> {
+    scene: &'a Scene,
+    links: &'a [LinkPositions],
+    kind: PointKind,
+}
+
+impl Points<'_> {
+    /// The point of a link from its pivot; none of the pivot itself.
+    fn of(&self, link: usize) -> Option<&RelativePosition> {
+        match self.kind {
+            PointKind::Pivot => None,
+            PointKind::Centre => Some(&self.links[link].centre),
+            PointKind::End => Some(&self.links[link].end),
+        }
+    }
+
+    /// The pivot of a link from that of its parent.
+    fn pivot(&self, link: usize) -> Option<(usize, &RelativePosition)> {
+        let LinkId(parent) = self.scene.links[link].parent?;
+        Some((parent, self.links[link].pivot.as_ref()?))
+    }
+
+    fn name(&self, link: usize) -> &str {
+        &self.scene.links[link].name
+    }
+}
+
+impl EntryList<'_, '_> {
+    pub(super) fn positions(
+        &mut self,
+        scene: &Scene,
+        mechanics: &Mechanics,
+        links: &[LinkPositions],
+    ) {
+        use Argument::{Forces, Omega, Theta};
+        let frame = &mechanics.absolute;
+        let mut environment = Environment::new(frame, Theta, Some(Omega), None);
+        for kind in PointKind::ALL {
+            let points = Points { scene, links, kind };
+            let of = kind.name();
+            let positions = self.along_tree(&mut environment, points, "pivot", |of| &of.position);
+            self.push(
+                &format!("{of}s"),
+                Purpose::Positions(kind),
+                &[Theta],
+                positions,
+                Shape::Rows(2),
+            );
+            let velocities =
+                self.along_tree(&mut environment, points, "velocity", |of| &of.velocity);
+            self.push(
+                &format!("{of}_velocities"),
+                Purpose::PointVelocities(kind),
+                &[Theta, Omega],
+                velocities,
+                Shape::Rows(2),
+            );
+            let torques = self.torques(&mut environment, points);
+            self.push(
+                &format!("{of}_torques"),
+                Purpose::PointTorques(kind),
+                &[Theta, Forces],
+                torques,
+                Shape::Vector,
+            );
+        }
+        let properties = scene.links.iter().flat_map(|link| link.properties());
+        let properties: Vec<_> = properties
+            .map(|quantity| self.lowering.value_of(quantity))
+            .collect();
+        self.push(
+            "link_properties",
+            Purpose::LinkProperties,
+            &[],
+            properties,
+            Shape::Rows(LINK_PROPERTIES.len()),
+        );
+    }
+
+    fn pair(&mut self, environment: &mut Environment<'_>, exprs: &[Expr; 2]) -> Pair {
+        let [x, y] = exprs;
+        [x, y].map(|expr| self.lowering.expr(environment, expr))
+    }
+
+    /// Sums of a vector from the root to the points of all links.
+    fn along_tree(
+        &mut self,
+        environment: &mut Environment<'_>,
+        points: Points<'_>,
+        what: &str,
+        part: fn(&RelativePosition) -> &[Expr; 2],
+    ) -> Vec<ValueId> {
+        let zero = self.lowering.builder.zero_pair();
+        let mut pivots: Vec<Pair> = Vec::with_capacity(points.links.len());
+        let mut sums = Vec::with_capacity(2 * points.links.len());
+        for link in 0..points.links.len() {
+            let name = points.name(link);
+            let pivot = match points.pivot(link) {
+                Some((parent, step)) => {
+                    let step = self.pair(environment, part(step));
+                    let builder = &mut self.lowering.builder;
+                    let pivot = builder.add_pairs(pivots[parent], step);
+                    builder.name_pair(pivot, &format!("{what}@_{name}"))
+                }
+                None => zero,
+            };
+            pivots.push(pivot);
+            let point = match points.of(link) {
+                Some(step) => {
+                    let step = self.pair(environment, part(step));
+                    self.lowering.builder.add_pairs(pivot, step)
+                }
+                None => pivot,
+            };
+            sums.extend(point);
+        }
+        sums
+    }
+
+    /// Q_i = ∂r_i/∂θ_i · F_i + Σ ∂r_c/∂θ_i · S_c of forces F at points r, with the pivots
+    /// r_c of the children c and the sum S of all forces on a subtree.
+    fn torques(&mut self, environment: &mut Environment<'_>, points: Points<'_>) -> Vec<ValueId> {
+        let count = points.links.len();
+        let zero = self.lowering.builder.integer(0);
+        let mut torques = vec![zero; count];
+        // Levers of pivots on each link, and the forces there: copies share a pivot.
+        let mut hanging: Vec<Vec<(Pair, Pair)>> = vec![Vec::new(); count];
+        for link in (0..count).rev() {
+            let mut sum = [0, 1].map(|axis| {
+                let element = 2 * link + axis;
+                self.lowering.builder.input(Argument::Forces, element)
+            });
+            let mut torque = zero;
+            if let Some(relative) = points.of(link) {
+                let lever = self.pair(environment, &relative.lever);
+                torque = self.lowering.builder.dot(lever, sum);
+            }
+            let builder = &mut self.lowering.builder;
+            for (lever, force) in std::mem::take(&mut hanging[link]) {
+                let moment = builder.dot(lever, force);
+                torque = builder.add(torque, moment);
+                sum = builder.add_pairs(sum, force);
+            }
+            torques[link] = torque;
+            let Some((parent, pivot)) = points.pivot(link) else {
+                continue;
+            };
+            builder.name_pair(sum, &format!("force@_from_{}", points.name(link)));
+            let lever = self.pair(environment, &pivot.lever);
+            let builder = &mut self.lowering.builder;
+            match hanging[parent]
+                .iter_mut()
+                .find(|(known, _)| *known == lever)
+            {
+                Some((_, force)) => *force = builder.add_pairs(*force, sum),
+                None => hanging[parent].push((lever, sum)),
+            }
+        }
+        torques
+    }
+}

@@ -1,0 +1,131 @@
+//! The entry points of the energy transfer into one difference.
+
+use super::entries::EntryList;
+use super::lower::Environment;
+use super::{Argument, Purpose, Shape, ValueId};
+use crate::mechanics::{Counting, Frame, Mechanics, TransferFormulas, TransferParts};
+use crate::scene::CoordinateKind;
+
+impl EntryList<'_, '_> {
+    pub(super) fn transfer(
+        &mut self,
+        mechanics: &Mechanics,
+        frame: &Frame,
+        number: usize,
+        transfer: &TransferFormulas,
+    ) {
+        use Argument::{Coordinates, Momenta, Rates};
+        let several = mechanics
+            .coordinates
+            .iter()
+            .filter(|c| matches!(c.kind, CoordinateKind::Difference { .. }))
+            .count()
+            > 1;
+        let place = if several {
+            format!("_{}", mechanics.coordinates[transfer.coordinate].name)
+        } else {
+            String::new()
+        };
+        let mut phase = Environment::new(frame, Coordinates, None, Some(Momenta));
+        let mut motion = Environment::new(frame, Coordinates, Some(Rates), None);
+        let canonical = [Coordinates, Momenta];
+
+        let energy = self.parts(&mut phase, &transfer.energy);
+        let total = self.lowering.builder.add(energy[0], energy[1]);
+        self.push(
+            &format!("antiphase_energy{place}"),
+            Purpose::SubHamiltonian(number),
+            &canonical,
+            vec![total],
+            Shape::Scalar,
+        );
+        if let Some(parts) = &transfer.angle {
+            let outputs = self.parts(&mut phase, parts);
+            self.push(
+                &format!("transfer_angle_1{place}"),
+                Purpose::AngleTransfer(number),
+                &canonical,
+                outputs,
+                Shape::Transfer,
+            );
+        }
+        if let Some(parts) = &transfer.amplitude {
+            let outputs = self.parts(&mut phase, parts);
+            self.push(
+                &format!("transfer_amplitude_2{place}"),
+                Purpose::AmplitudeTransfer(number),
+                &canonical,
+                outputs,
+                Shape::Transfer,
+            );
+        }
+        for (index, truncated) in transfer.higher.iter().enumerate() {
+            let counting = match truncated.counting {
+                Counting::Angle => "angle",
+                Counting::Amplitude => "amplitude",
+            };
+            let outputs = self.parts(&mut phase, &truncated.parts);
+            self.push(
+                &format!("transfer_{counting}_{}{place}", truncated.order),
+                Purpose::HigherTransfer(number, index),
+                &canonical,
+                outputs,
+                Shape::Transfer,
+            );
+        }
+        if let Some(form) = &transfer.quadratic_form {
+            let outputs = self.exprs(&mut phase, form);
+            self.push(
+                &format!("transfer_quadratic_form{place}"),
+                Purpose::QuadraticForm(number),
+                &canonical,
+                outputs,
+                Shape::Vector,
+            );
+        }
+        if let Some(parts) = &transfer.exact {
+            let outputs = self.parts(&mut phase, parts);
+            self.push(
+                &format!("transfer_exact{place}"),
+                Purpose::ExactTransfer(number),
+                &canonical,
+                outputs,
+                Shape::Transfer,
+            );
+            let outputs = self.parts(&mut motion, parts);
+            self.push(
+                &format!("transfer_exact_from_rates{place}"),
+                Purpose::ExactTransferFromRates(number),
+                &[Coordinates, Rates],
+                outputs,
+                Shape::Transfer,
+            );
+        }
+        if !transfer.friction.is_zero() {
+            let power = self.lowering.expr(&mut motion, &transfer.friction);
+            self.push(
+                &format!("antiphase_friction_power{place}"),
+                Purpose::FrictionPower(number),
+                &[Coordinates, Rates],
+                vec![power],
+                Shape::Scalar,
+            );
+        }
+        if !transfer.drive.is_zero() {
+            let power = self.lowering.expr(&mut motion, &transfer.drive);
+            self.push(
+                &format!("antiphase_drive_power{place}"),
+                Purpose::AntiphaseDrivePower(number),
+                &[Argument::Time, Coordinates, Rates],
+                vec![power],
+                Shape::Scalar,
+            );
+        }
+    }
+
+    fn parts(&mut self, environment: &mut Environment<'_>, parts: &TransferParts) -> Vec<ValueId> {
+        let kinetic = self.lowering.expr(environment, &parts.kinetic);
+        let potential = self.lowering.expr(environment, &parts.potential);
+        vec![kinetic, potential]
+    }
+}

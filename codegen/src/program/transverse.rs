@@ -1,0 +1,87 @@
+//! Entry points of small differences between copies that move in phase.
+
+use super::entries::EntryList;
+use super::lower::Environment;
+use super::{Argument, Purpose, Shape};
+use crate::mechanics::{Mechanics, TransverseFormulas, TransverseMechanics};
+
+impl EntryList<'_, '_> {
+    pub(super) fn transverse(&mut self, mechanics: &Mechanics, all: &TransverseMechanics) {
+        use Argument::{Alpha, Difference, DifferenceRate, Omega, Theta};
+        let frame = &mechanics.absolute;
+        let names = self.lowering.coordinate_names(frame);
+        for (number, formulas) in all.sectors.iter().enumerate() {
+            let TransverseFormulas {
+                sector,
+                differences,
+                rates,
+                mass,
+                residual,
+                energy,
+                transfer,
+                friction,
+            } = formulas;
+            let mut environment = Environment::new(frame, Theta, Some(Omega), None);
+            for (symbols, argument) in [
+                (&all.accelerations, Alpha),
+                (differences, Difference(number)),
+                (rates, DifferenceRate(number)),
+            ] {
+                for (index, &symbol) in symbols.iter().enumerate() {
+                    let value = self.lowering.builder.input(argument, index);
+                    environment.supply(symbol, value);
+                }
+            }
+            let block = sector.first.0..sector.first.0 + sector.links;
+            let matrix = self.lowering.matrix(&mut environment, mass);
+            let right = self.exprs(&mut environment, residual);
+            let right = right
+                .into_iter()
+                .map(|value| self.lowering.builder.neg(value));
+            let right = right.collect();
+            let outputs = self.lowering.builder.solve(matrix, right, &names[block]);
+            let (delta, rate) = (Difference(number), DifferenceRate(number));
+            let name = &sector.name;
+            let motion = self.timed(&[Theta, Omega, Alpha, delta, rate]);
+            self.push(
+                &format!("transverse_accelerations_{name}"),
+                Purpose::Transverse(number),
+                &motion,
+                outputs,
+                Shape::Vector,
+            );
+            for (quantity, purpose, arguments, value) in [
+                (
+                    "energy",
+                    Purpose::TransverseEnergy(number),
+                    &[Theta, delta, rate][..],
+                    energy,
+                ),
+                (
+                    "transfer",
+                    Purpose::TransverseTransfer(number),
+                    &motion,
+                    transfer,
+                ),
+                (
+                    "friction_power",
+                    Purpose::TransverseFriction(number),
+                    &[rate],
+                    friction,
+                ),
+            ] {
+                if quantity == "friction_power" && friction.is_zero() {
+                    continue;
+                }
+                let value = self.lowering.expr(&mut environment, value);
+                self.push(
+                    &format!("transverse_{quantity}_{name}"),
+                    purpose,
+                    arguments,
+                    vec![value],
+                    Shape::Scalar,
+                );
+            }
+        }
+    }
+}

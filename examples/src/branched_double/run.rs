@@ -1,0 +1,42 @@
+//! The program: all angles, their tables, files and charts.
+
+use serde_json::json;
+
+use super::table;
+use super::{Apparatus, Arguments, Findings, Frequencies, Run, charts, growth, samples, scenes};
+use crate::failure::Failure;
+use crate::program::Job;
+
+/// Runs the experiment from every angle. The samples of an angle are written as
+/// soon as they are there.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let frequencies = Frequencies::of(&scenes::BranchedDouble::new())?;
+    let apparatus = Apparatus::new(arguments.friction)?;
+    let progress = job.progress(arguments.angles_deg.len());
+    let mut runs = Vec::new();
+    for (index, &angle) in arguments.angles_deg.iter().enumerate() {
+        progress.begin(&format!("{angle:?}°"));
+        let run = Run::new(angle, arguments, |part| progress.within(index, part))?;
+        samples::write(job, &run)?;
+        runs.push(run);
+    }
+    let findings: Vec<Findings> = runs.iter().map(Findings::new).collect();
+    let report = table::report(arguments, &apparatus, frequencies, &runs, &findings);
+    let bands = growth::report(&runs, &findings);
+    job.print(&format!("{report}\n{bands}\n"))?;
+    charts::write(job, arguments, frequencies, &runs)?;
+    growth::write(job, arguments, &runs, &findings)?;
+    let work = runs.iter().map(|run| {
+        json!({
+            "angle_deg": run.angle_deg,
+            "steps": run.work.steps,
+            "rejected": run.work.rejected,
+            "evaluations": run.work.evaluations,
+        })
+    });
+    job.report("runs", work.collect::<Vec<_>>());
+    Ok(())
+}

@@ -1,0 +1,197 @@
+//! Why a program could not finish.
+
+use std::error::Error;
+use std::io;
+use std::path::PathBuf;
+
+use branched_pendulum::ParameterError;
+use branched_pendulum::analysis::truncation::TruncationError;
+use branched_pendulum::analysis::{ModesError, SectorModesError, SpectrumError};
+use branched_pendulum::data::CsvError;
+use branched_pendulum_charts::ChartError;
+
+/// Why a program could not finish. Causes are told by `source`, once each.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Failure {
+    /// A parameter that no model can have.
+    #[error("the model is not possible")]
+    Parameter(#[from] ParameterError),
+    /// The equations of motion were not integrated to the end.
+    #[error("the run from {angle_deg}° did not reach its end")]
+    Integration {
+        /// Initial angle of the run, in degrees.
+        angle_deg: f64,
+        /// The integrator's error, whatever the precision it ran in.
+        source: Box<dyn Error + Send + Sync>,
+    },
+    /// The linear modes could not be found.
+    #[error("the linear modes could not be found")]
+    Modes(#[from] ModesError),
+    /// The linear modes of the sectors could not be found.
+    #[error("the linear modes of the sectors could not be found")]
+    SectorModes(#[from] SectorModesError),
+    /// A spectrum could not be taken.
+    #[error("the spectrum of θ_m could not be taken")]
+    Spectrum(#[from] SpectrumError),
+    /// Forms of W could not be compared.
+    #[error("the forms of W could not be compared")]
+    Truncation(#[from] TruncationError),
+    /// The output folder could not be made.
+    #[error("cannot make the output folder {}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A file could not be written.
+    #[error("cannot write {}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A table could not be written.
+    #[error("a table could not be written")]
+    Csv(#[from] CsvError),
+    /// A chart could not be drawn.
+    #[error("a chart could not be drawn")]
+    Chart(#[from] ChartError),
+    /// Text could not be printed.
+    #[error("cannot write to the standard output")]
+    Print(#[source] io::Error),
+    /// The reader of the standard output has read enough.
+    #[error("the standard output was closed")]
+    Closed,
+}
+
+impl Failure {
+    /// A run that an integrator has not brought to its end.
+    pub fn integration(angle_deg: f64, error: impl Error + Send + Sync + 'static) -> Self {
+        Self::Integration {
+            angle_deg,
+            source: Box::new(error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Failure;
+    use crate::program::messages;
+    use branched_pendulum::analysis::truncation::TruncationError;
+    use branched_pendulum::analysis::variational::LyapunovError;
+    use branched_pendulum::analysis::{ModesError, SectorModesError};
+    use branched_pendulum::data::CsvError;
+    use branched_pendulum::integrate::IntegrationError;
+    use branched_pendulum::prelude::*;
+    use branched_pendulum::system::OdeFn;
+    use branched_pendulum_charts::ChartError;
+    use std::error::Error;
+    use std::io;
+    use std::path::PathBuf;
+
+    fn refused() -> io::Error {
+        io::Error::from(io::ErrorKind::PermissionDenied)
+    }
+
+    fn chart() -> ChartError {
+        ChartError::Io {
+            path: PathBuf::from("chart.svg"),
+            source: refused(),
+        }
+    }
+
+    fn csv() -> CsvError {
+        CsvError::Io {
+            path: PathBuf::from("samples.csv"),
+            action: "write",
+            source: refused(),
+        }
+    }
+
+    /// Of a run that is given one step for a second.
+    fn integration() -> IntegrationError<f64> {
+        let ode = OdeFn::new(1, |_: f64, _: &[f64], rates: &mut [f64]| rates[0] = 1e9);
+        let method = Dop853::new(Options {
+            step_limit: 1,
+            ..Options::with_tolerance(1e-9)
+        });
+        let start = State::new(0.0, vec![0.0]);
+        let run = method.integrate(&ode, &start, 1.0, |_| std::ops::ControlFlow::Continue(()));
+        run.expect_err("one step does not reach the end")
+    }
+
+    /// Of a run that is asked to end at no time.
+    fn request() -> IntegrationError<f64> {
+        let ode = OdeFn::new(1, |_: f64, _: &[f64], rates: &mut [f64]| rates[0] = 1.0);
+        let start = State::new(0.0, vec![0.0]);
+        let go_on = |_: &mut DenseStep<'_, f64>| std::ops::ControlFlow::Continue(());
+        let run = Rk4::new(0.1).integrate(&ode, &start, f64::NAN, go_on);
+        run.expect_err("NaN is no time")
+    }
+
+    fn no_rows() -> ModesError {
+        ModesError::Empty { matrix: "mass" }
+    }
+
+    fn modes() -> SectorModesError {
+        SectorModesError::Sector {
+            sector: "child",
+            source: no_rows(),
+        }
+    }
+
+    fn parameter() -> ParameterError {
+        branched_pendulum::emitted::require_positive("mass of `child`", -1.0).expect_err("negative")
+    }
+
+    /// Every error of the workspace that has a cause: no text of a chain stands
+    /// in a message above it.
+    #[test]
+    fn every_cause_is_told_once() {
+        let truncation = || TruncationError::Integration(integration());
+        let folder = || PathBuf::from("output");
+        let chains: Vec<Box<dyn Error>> = vec![
+            Box::new(chart()),
+            Box::new(ChartError::Encode(Box::new(refused()))),
+            Box::new(csv()),
+            Box::new(request()),
+            Box::new(RunError::<f64, CsvError>::Integration(request())),
+            Box::new(RunError::Observer {
+                error: csv(),
+                last: State::new(0.0, vec![0.0]),
+                report: *integration().report().expect("it has begun"),
+            }),
+            Box::new(truncation()),
+            Box::new(LyapunovError::Integration(integration())),
+            Box::new(SectorModesError::Matrices(no_rows())),
+            Box::new(modes()),
+            Box::new(Failure::Parameter(parameter())),
+            Box::new(Failure::integration(50.0, integration())),
+            Box::new(Failure::Modes(no_rows())),
+            Box::new(Failure::SectorModes(modes())),
+            Box::new(Failure::Truncation(truncation())),
+            Box::new(Failure::Folder {
+                path: folder(),
+                source: refused(),
+            }),
+            Box::new(Failure::File {
+                path: folder(),
+                source: refused(),
+            }),
+            Box::new(Failure::Csv(csv())),
+            Box::new(Failure::Chart(chart())),
+            Box::new(Failure::Print(refused())),
+        ];
+        for chain in chains {
+            let messages = messages(chain.as_ref());
+            for (index, cause) in messages.iter().enumerate().skip(1) {
+                let told = messages[..index].iter().any(|above| above.contains(cause));
+                assert!(!told, "twice: {messages:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! The command line: numbers with their ranges, `--output` and `--repeat`.
+
+use std::ffi::OsString;
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, Command, Parser};
+use serde_json::{Map, Value};
+
+/// The command line of a program.
+pub trait Arguments: Parser {
+    /// Folder of results where none is given; none for a program that writes
+    /// files only where it is asked to.
+    const FOLDER: Option<&'static str>;
+
+    /// The options that all programs have.
+    fn results(&self) -> &Results;
+
+    /// Compares options with each other.
+    ///
+    /// # Errors
+    /// A sentence about two options that exclude each other.
+    fn check(&self) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// The options that all programs have.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct Results {
+    /// where tables, charts and run.json go; files of the same name there
+    /// are replaced
+    #[arg(long, value_name = "FOLDER", verbatim_doc_comment)]
+    pub output: Option<PathBuf>,
+    /// repeats the run that a run.json records; no other option but --output
+    #[arg(long, value_name = "FILE")]
+    pub repeat: Option<PathBuf>,
+}
+
+/// Names of [`Results`] among all options.
+const OUTPUT: &str = "output";
+const REPEAT: &str = "repeat";
+
+/// Reads the command line, the program's name included. Returns the arguments,
+/// and all values as text, those by default included, for `run.json`.
+///
+/// # Errors
+/// The text to be printed instead of a run: the help, or a mistake.
+pub fn parse<A: Arguments>(
+    words: impl IntoIterator<Item = OsString>,
+) -> Result<(A, Map<String, Value>), clap::Error> {
+    let mut command = command::<A>();
+    let given: Vec<OsString> = words.into_iter().collect();
+    let mut matches = command.try_get_matches_from_mut(&given)?;
+    if let Some(file) = matches.get_one::<PathBuf>(REPEAT) {
+        let words = repeated(&command, &matches, file)
+            .map_err(|message| command.error(ErrorKind::ValueValidation, message))?;
+        let name = given.into_iter().take(1);
+        matches = command.try_get_matches_from_mut(name.chain(words))?;
+    }
+    let arguments = A::from_arg_matches(&matches).map_err(|error| error.format(&mut command))?;
+    arguments
+        .check()
+        .map_err(|message| command.error(ErrorKind::ValueValidation, message))?;
+    Ok((arguments, values(&command, &matches)))
+}
+
+fn command<A: Arguments>() -> Command {
+    match A::FOLDER {
+        Some(folder) => A::command().mut_arg(OUTPUT, |output| output.default_value(folder)),
+        None => A::command(),
+    }
+}
+
+/// The words of the run that `file` records, with the output folder of this one.
+fn repeated(
+    command: &Command,
+    matches: &ArgMatches,
+    file: &std::path::Path,
+) -> Result<Vec<OsString>, String> {
+    let given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
+    let ids = command.get_arguments().map(|argument| argument.get_id());
+    let mut others = ids.filter(|id| *id != OUTPUT && *id != REPEAT);
+    if let Some(id) = others.find(|id| given(id.as_str())) {
+        return Err(format!(
+            "`--repeat` takes the value of `{id}` from its file"
+        ));
+    }
+    let shown = file.display();
+    let text = std::fs::read(file).map_err(|error| format!("cannot read {shown}: {error}"))?;
+    let record: Value = serde_json::from_slice(&text)
+        .map_err(|error| format!("{shown} is no run.json: {error}"))?;
+    let program = record["program"].as_str().unwrap_or("nothing");
+    if program != command.get_name() {
+        return Err(format!("{shown} records a run of {program}"));
+    }
+    let recorded = record["arguments"].as_object();
+    let recorded = recorded.ok_or_else(|| format!("{shown} has no arguments"))?;
+    let mut words = Vec::new();
+    for (id, value) in recorded {
+        let value = value.as_str().unwrap_or_default();
+        let argument = command.get_arguments().find(|a| a.get_id() == id.as_str());
+        let argument = argument.ok_or_else(|| format!("{shown}: there is no option `{id}`"))?;
+        words.push(match argument.get_long() {
+            Some(long) => format!("--{long}={value}").into(),
+            None => value.into(),
+        });
+    }
+    if let Some(folder) = matches.get_one::<PathBuf>(OUTPUT) {
+        words.push("--output".into());
+        words.push(folder.into());
+    }
+    Ok(words)
+}
+
+/// All values but those of [`Results`], as they would be written.
+fn values(command: &Command, matches: &ArgMatches) -> Map<String, Value> {
+    let mut values = Map::new();
+    for argument in command.get_arguments() {
+        let id = argument.get_id().as_str();
+        if id == OUTPUT || id == REPEAT {
+            continue;
+        }
+        if let Ok(Some(mut raw)) = matches.try_get_raw(id)
+            && let Some(value) = raw.next()
+        {
+            values.insert(id.to_owned(), value.to_string_lossy().into());
+        }
+    }
+    values
+}
+
+/// Reads a number within a range, in the unit that messages name.
+pub fn number(
+    range: RangeInclusive<f64>,
+    unit: &'static str,
+) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
+    move |text| match text.trim().parse::<f64>() {
+        Ok(number) if range.contains(&number) => Ok(number),
+        Ok(number) if number.is_finite() => Err(must_be(&range, unit)),
+        _ => Err(format!("not a number; it {}", must_be(&range, unit))),
+    }
+}
+
+/// Tells a range, as `must be from 0.1 to 1000 s`.
+pub fn must_be(range: &RangeInclusive<f64>, unit: &str) -> String {
+    let (low, high) = (plain(*range.start()), plain(*range.end()));
+    let gap = if unit.is_empty() { "" } else { " " };
+    format!("must be from {low} to {high}{gap}{unit}")
+}
+
+/// A number as one writes it: with an exponent where it is small or large.
+pub fn plain(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+        format!("{value:e}")
+    } else {
+        value.to_string()
+    }
+}
+
+/// Reads the command line of a test, without the program's name.
+///
+/// # Errors
+/// The text that would be printed.
+pub fn parse_line<A: Arguments>(line: &str) -> Result<A, String> {
+    let name = A::command().get_name().to_owned();
+    let words = std::iter::once(name.as_str()).chain(line.split_whitespace());
+    let parsed = parse(words.map(OsString::from));
+    parsed
+        .map(|(arguments, _)| arguments)
+        .map_err(|error| error.to_string())
+}

@@ -1,0 +1,122 @@
+//! Files that are whole or absent: written under another name beside, and
+//! renamed when they are complete.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// The parts being written, and the names of the files that are complete.
+#[derive(Debug, Default)]
+pub(super) struct Ledger {
+    pub(super) parts: Vec<PathBuf>,
+    pub(super) files: Vec<String>,
+}
+
+/// A ledger that the watcher of Ctrl-C sees, too.
+pub(super) type SharedLedger = Arc<Mutex<Ledger>>;
+
+/// Locks what another thread may have left by a panic: the ledger is right
+/// after each line that changes it.
+pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A file of a folder while it is being written. Dropped before [`Part::finish`],
+/// it leaves nothing.
+#[derive(Debug)]
+pub struct Part {
+    file: BufWriter<File>,
+    part: PathBuf,
+    path: PathBuf,
+    ledger: SharedLedger,
+    finished: bool,
+}
+
+impl Part {
+    pub(super) fn create(folder: &Path, name: &str, ledger: &SharedLedger) -> io::Result<Self> {
+        let part = folder.join(format!(".{name}.part"));
+        // Known as soon as it is there: who ends the process now removes it.
+        let mut parts = locked(ledger);
+        let file = File::create(&part)?;
+        parts.parts.push(part.clone());
+        drop(parts);
+        Ok(Self {
+            file: BufWriter::new(file),
+            part,
+            path: folder.join(name),
+            ledger: Arc::clone(ledger),
+            finished: false,
+        })
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    /// If the rest of it cannot be written, or if it cannot be renamed.
+    pub fn finish(mut self) -> io::Result<()> {
+        self.file.flush()?;
+        let mut ledger = locked(&self.ledger);
+        fs::rename(&self.part, &self.path)?;
+        ledger.parts.retain(|part| *part != self.part);
+        let name = self.path.file_name().unwrap_or_default();
+        let name = name.to_string_lossy().into_owned();
+        if !ledger.files.contains(&name) {
+            ledger.files.push(name);
+        }
+        drop(ledger);
+        self.finished = true;
+        Ok(())
+    }
+}
+
+impl Write for Part {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        if !self.finished {
+            let _ = fs::remove_file(&self.part);
+            locked(&self.ledger).parts.retain(|part| *part != self.part);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Part, SharedLedger, locked};
+    use std::fs;
+    use std::io::Write;
+
+    #[test]
+    fn a_file_is_whole_or_absent() {
+        let folder = std::env::temp_dir().join(format!("whole-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let ledger = SharedLedger::default();
+        let names = || {
+            let entries = fs::read_dir(&folder).unwrap();
+            entries.map(|e| e.unwrap().file_name()).collect::<Vec<_>>()
+        };
+        let mut part = Part::create(&folder, "a.csv", &ledger).unwrap();
+        part.write_all(b"half").unwrap();
+        assert_eq!(names(), [".a.csv.part"]);
+        drop(part);
+        assert!(names().is_empty() && locked(&ledger).parts.is_empty());
+        let mut part = Part::create(&folder, "a.csv", &ledger).unwrap();
+        part.write_all(b"whole").unwrap();
+        part.finish().unwrap();
+        assert_eq!(names(), ["a.csv"]);
+        assert_eq!(fs::read(folder.join("a.csv")).unwrap(), b"whole");
+        assert_eq!(locked(&ledger).files, ["a.csv"]);
+        fs::remove_dir_all(&folder).unwrap();
+        assert!(Part::create(&folder, "a.csv", &ledger).is_err());
+        assert!(locked(&ledger).parts.is_empty());
+    }
+}

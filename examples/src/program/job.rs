@@ -1,0 +1,276 @@
+//! One run of a program: what it prints, the files that it leaves, and the
+//! record of both.
+
+use std::cell::{Cell, RefCell};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use branched_pendulum::data::{Column, CsvError, CsvWriter};
+use branched_pendulum_charts::Chart;
+use serde_json::{Map, Value, json};
+
+use super::files::{Part, SharedLedger, locked};
+use super::progress::Progress;
+use crate::failure::Failure;
+
+/// Name of the record of a run.
+pub const RECORD: &str = "run.json";
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// Everything is there.
+    Finished,
+    /// Ctrl-C, or the system's request to end.
+    Interrupted,
+    /// A failure, in its own words.
+    Failed(String),
+}
+
+/// The record of a run, beside its results: who ran, with which arguments, how
+/// it ended, and which files it left. Its arguments are what `--repeat` reads.
+#[derive(Debug)]
+pub(super) struct Record {
+    pub(super) program: String,
+    pub(super) folder: Option<PathBuf>,
+    /// True if the folder was not there before.
+    made: bool,
+    arguments: Map<String, Value>,
+    report: Map<String, Value>,
+    pub(super) ledger: SharedLedger,
+}
+
+impl Record {
+    /// Writes the record beside the files that are complete; without any, takes
+    /// an empty folder away that was made for them. Returns a sentence about
+    /// what is there, none for a run without a folder.
+    pub(super) fn close(&self, ended: &Ended) -> Result<Option<String>, Failure> {
+        let Some(folder) = &self.folder else {
+            return Ok(None);
+        };
+        let mut files = locked(&self.ledger).files.clone();
+        files.retain(|file| file != RECORD);
+        if files.is_empty() {
+            if self.made {
+                let _ = fs::remove_dir(folder);
+            }
+            return Ok(Some("no file was finished".to_owned()));
+        }
+        let ended = match ended {
+            Ended::Finished => "finished".to_owned(),
+            Ended::Interrupted => "interrupted".to_owned(),
+            Ended::Failed(message) => format!("failed: {message}"),
+        };
+        let record = json!({
+            "program": self.program,
+            "version": env!("CARGO_PKG_VERSION"),
+            "system": format!("{} {}", std::env::consts::ARCH, std::env::consts::OS),
+            "arguments": self.arguments,
+            "report": self.report,
+            "ended": ended,
+            "files": files,
+        });
+        write(
+            folder,
+            RECORD,
+            format!("{record:#}\n").as_bytes(),
+            &self.ledger,
+        )?;
+        let count = files.len();
+        let plural = if count == 1 { "file is" } else { "files are" };
+        Ok(Some(format!("{count} {plural} in {}", folder.display())))
+    }
+}
+
+fn write(folder: &Path, name: &str, bytes: &[u8], ledger: &SharedLedger) -> Result<(), Failure> {
+    let written = Part::create(folder, name, ledger).and_then(|mut part| {
+        part.write_all(bytes)?;
+        part.finish()
+    });
+    written.map_err(|source| Failure::File {
+        path: folder.join(name),
+        source,
+    })
+}
+
+/// One run of a program.
+#[derive(Debug)]
+pub struct Job {
+    pub(super) record: Arc<Mutex<Record>>,
+    ledger: SharedLedger,
+    pub(super) progress: Arc<Mutex<Progress>>,
+    folder: Option<PathBuf>,
+    /// Nobody reads the standard output any more.
+    closed: Cell<bool>,
+    /// Text that tests read in place of the standard output.
+    kept: Option<RefCell<String>>,
+}
+
+impl Job {
+    /// Starts a run whose results go into `folder`, which is made with those
+    /// above it unless it is there: before the work, so that a folder that
+    /// cannot be made costs none.
+    ///
+    /// # Errors
+    /// [`Failure::Folder`].
+    pub fn start(
+        program: &str,
+        folder: Option<PathBuf>,
+        arguments: Map<String, Value>,
+    ) -> Result<Self, Failure> {
+        let mut made = false;
+        if let Some(path) = &folder {
+            made = !path.exists();
+            fs::create_dir_all(path).map_err(|source| Failure::Folder {
+                path: path.clone(),
+                source,
+            })?;
+        }
+        let ledger = SharedLedger::default();
+        let record = Record {
+            program: program.to_owned(),
+            folder: folder.clone(),
+            made,
+            arguments,
+            report: Map::new(),
+            ledger: Arc::clone(&ledger),
+        };
+        Ok(Self {
+            record: Arc::new(Mutex::new(record)),
+            ledger,
+            progress: Arc::default(),
+            folder,
+            closed: Cell::new(false),
+            kept: None,
+        })
+    }
+
+    /// A run of a test, which prints nothing.
+    ///
+    /// # Errors
+    /// [`Failure::Folder`].
+    pub fn quiet(folder: &Path) -> Result<Self, Failure> {
+        let mut job = Self::start("test", Some(folder.to_path_buf()), Map::new())?;
+        job.kept = Some(RefCell::default());
+        Ok(job)
+    }
+
+    /// Prints text. A reader that closes the pipe has read enough: the run goes
+    /// on for the sake of its files, and prints no more.
+    ///
+    /// # Errors
+    /// [`Failure::Print`], or [`Failure::Closed`] where there are no files.
+    pub fn print(&self, text: &str) -> Result<(), Failure> {
+        if let Some(kept) = &self.kept {
+            kept.borrow_mut().push_str(text);
+            return Ok(());
+        }
+        if self.closed.get() {
+            return Ok(());
+        }
+        let write = || {
+            let mut out = io::stdout().lock();
+            out.write_all(text.as_bytes()).and_then(|()| out.flush())
+        };
+        match locked(&self.progress).suspend(write) {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.closed.set(true);
+                match self.folder {
+                    Some(_) => Ok(()),
+                    None => Err(Failure::Closed),
+                }
+            }
+            result => result.map_err(Failure::Print),
+        }
+    }
+
+    /// Shows the progress of `parts` parts from now on.
+    pub fn progress(&self, parts: usize) -> Progress {
+        let progress = Progress::new(parts);
+        *locked(&self.progress) = progress.clone();
+        progress
+    }
+
+    /// Puts a value into the record.
+    pub fn report(&self, name: &str, value: impl Into<Value>) {
+        let mut record = locked(&self.record);
+        record.report.insert(name.to_owned(), value.into());
+    }
+
+    /// Writes a file of results, if there is a folder for them.
+    ///
+    /// # Errors
+    /// [`Failure::File`].
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
+        match &self.folder {
+            Some(folder) => write(folder, name, bytes, &self.ledger),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes a table of results whose rows `rows` gives to a writer.
+    ///
+    /// # Errors
+    /// [`Failure::File`] or [`Failure::Csv`].
+    pub fn csv(
+        &self,
+        name: &str,
+        columns: &[Column],
+        rows: impl FnOnce(&mut CsvWriter<Part>) -> Result<(), CsvError>,
+    ) -> Result<(), Failure> {
+        let Some(folder) = &self.folder else {
+            return Ok(());
+        };
+        let path = folder.join(name);
+        let failed = |source| Failure::File {
+            path: path.clone(),
+            source,
+        };
+        let part = Part::create(folder, name, &self.ledger).map_err(failed)?;
+        let mut writer = CsvWriter::new(part, &path, columns)?;
+        rows(&mut writer)?;
+        writer.finish()?.finish().map_err(failed)
+    }
+
+    /// Draws a chart as SVG and PNG; `name` has no extension.
+    ///
+    /// # Errors
+    /// [`Failure::Chart`] or [`Failure::File`].
+    pub fn chart(&self, name: &str, chart: &Chart) -> Result<(), Failure> {
+        if self.folder.is_none() {
+            return Ok(());
+        }
+        self.write(&format!("{name}.svg"), chart.to_svg()?.as_bytes())?;
+        self.write(&format!("{name}.png"), &chart.to_png()?)
+    }
+
+    /// Names of the files that are complete, in the order of writing.
+    pub fn files(&self) -> Vec<String> {
+        locked(&self.ledger).files.clone()
+    }
+
+    /// Returns true where nobody reads the standard output any more.
+    pub fn is_closed(&self) -> bool {
+        self.closed.get()
+    }
+
+    /// Writes the record and, after a run that finished, prints the list of
+    /// files. Returns a sentence about them, none for a run without a folder.
+    ///
+    /// # Errors
+    /// [`Failure::File`] or [`Failure::Print`].
+    pub fn end(&self, ended: &Ended) -> Result<Option<String>, Failure> {
+        locked(&self.progress).clear();
+        let left = locked(&self.record).close(ended)?;
+        if let (Ended::Finished, Some(folder)) = (ended, &self.folder) {
+            let mut text = String::from("Files written:\n");
+            for file in self.files() {
+                text.push_str(&format!("  {}\n", folder.join(file).display()));
+            }
+            self.print(&text)?;
+        }
+        Ok(left)
+    }
+}

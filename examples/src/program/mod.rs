@@ -1,0 +1,90 @@
+//! The frame that all programs share: how one starts, shows its progress, keeps
+//! its results and ends.
+//!
+//! - [`command_line`]: options, `--output` and `--repeat`,
+//! - [`job`]: one run: what it prints, its files, its `run.json`,
+//! - [`files`]: files that are whole or absent,
+//! - [`progress`]: a bar on a terminal.
+//!
+//! A program ends with 0 where it is done, 1 after a failure, 2 for a wrong
+//! command line, 130 after Ctrl-C and 143 where it was told to end. All but the
+//! first say so in one line, with the folder of what was finished.
+
+pub mod command_line;
+pub mod files;
+mod interrupt;
+pub mod job;
+pub mod progress;
+
+use std::error::Error;
+use std::process::ExitCode;
+
+pub use command_line::{Arguments, Results};
+pub use job::{Ended, Job};
+pub use progress::Progress;
+
+use crate::failure::Failure;
+
+/// Reads the command line and runs the program.
+pub fn main<A: Arguments>(run: impl FnOnce(&A, &Job) -> Result<(), Failure>) -> ExitCode {
+    let (arguments, given) = match command_line::parse::<A>(std::env::args_os()) {
+        Ok(parsed) => parsed,
+        Err(answer) => {
+            // The help, too, comes as such an answer.
+            let code = u8::try_from(answer.exit_code()).unwrap_or(2);
+            return match answer.print() {
+                Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => ExitCode::FAILURE,
+                _ => ExitCode::from(code),
+            };
+        }
+    };
+    let name = A::command().get_name().to_owned();
+    let folder = arguments.results().output.clone();
+    let job = match Job::start(&name, folder, given) {
+        Ok(job) => job,
+        Err(failure) => {
+            say(&name, &messages(&failure).join(": "));
+            return ExitCode::FAILURE;
+        }
+    };
+    interrupt::watch(&job);
+    let result = run(&arguments, &job);
+    let ended = match &result {
+        Ok(()) | Err(Failure::Closed) => Ended::Finished,
+        Err(failure) => Ended::Failed(messages(failure).join(": ")),
+    };
+    let left = job.end(&ended);
+    let left = left.map(|left| left.map_or(String::new(), |left| format!("; {left}")));
+    match (result, left) {
+        (Ok(()), Ok(_)) if !job.is_closed() => ExitCode::SUCCESS,
+        (Ok(()) | Err(Failure::Closed), Ok(left)) => {
+            say(&name, &format!("standard output was closed{left}"));
+            ExitCode::SUCCESS
+        }
+        (Err(failure), Ok(left)) => {
+            say(&name, &(messages(&failure).join(": ") + &left));
+            ExitCode::FAILURE
+        }
+        (Ok(()), Err(failure)) | (Err(failure), Err(_)) => {
+            say(&name, &messages(&failure).join(": "));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Writes a line to the standard error stream, which may be closed.
+fn say(program: &str, text: &str) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stderr(), "{program}: {text}");
+}
+
+/// Messages of an error and of its causes, the outermost first.
+pub fn messages(error: &dyn Error) -> Vec<String> {
+    let mut messages = vec![error.to_string()];
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        messages.push(error.to_string());
+        cause = error.source();
+    }
+    messages
+}

@@ -1,0 +1,103 @@
+//! Bands and cells as filled areas.
+
+use crate::arrange::{PanelPlan, Plan};
+use crate::axis::{coordinate, drawable};
+use crate::cells::Grid;
+use crate::description::Series;
+use crate::drawing::{Mark, Point};
+use crate::legend;
+use crate::style::{Color, Fill, Style};
+
+/// The cells of a series, as far as they are in view.
+pub(crate) fn cells(
+    series: &Series,
+    style: Style,
+    grid: &Grid,
+    plan: &Plan,
+    place: &PanelPlan,
+    marks: &mut Vec<Mark>,
+) {
+    let frame = &place.frame;
+    let across = |at: f64| {
+        let x = frame.left + plan.x.scale.place(at) * frame.width();
+        x.clamp(frame.left, frame.right)
+    };
+    let up = |at: f64| {
+        let y = frame.bottom - place.scale.place(at) * frame.height();
+        y.clamp(frame.top, frame.bottom)
+    };
+    let (x_log, y_log) = (plan.x.scale.log, place.scale.log);
+    let samples = series.x.iter().zip(&series.y);
+    let shown = samples.filter(|(x, y)| drawable(x_log, **x) && drawable(y_log, **y));
+    let polygons = shown.filter_map(|(x, y)| {
+        let (left, right) = grid.across(coordinate(x_log, *x));
+        let (low, high) = grid.up(coordinate(y_log, *y));
+        let (left, right, low, high) = (across(left), across(right), up(low), up(high));
+        let polygon = vec![(left, low), (left, high), (right, high), (right, low)];
+        (left < right && high < low).then_some(polygon)
+    });
+    marks.push(Mark::Areas {
+        polygons: polygons.collect(),
+        color: style.color,
+        fill: Fill::Crisp,
+    });
+}
+
+/// The area of a band, in one piece between gaps; nothing for other series.
+pub(crate) fn band(
+    series: &Series,
+    style: Style,
+    plan: &Plan,
+    place: &PanelPlan,
+    marks: &mut Vec<Mark>,
+) {
+    let Some(low) = &series.low else { return };
+    let frame = &place.frame;
+    let point = |x: f64, y: f64| -> Option<Point> {
+        let (x, y) = (plan.x.scale.fraction(x)?, place.scale.fraction(y)?);
+        Some((
+            frame.left + x.clamp(0.0, 1.0) * frame.width(),
+            frame.bottom - y.clamp(0.0, 1.0) * frame.height(),
+        ))
+    };
+    let mut polygons = Vec::new();
+    let (mut upper, mut lower): (Vec<Point>, Vec<Point>) = Default::default();
+    let mut close = |upper: &mut Vec<Point>, lower: &mut Vec<Point>| {
+        let mut polygon = std::mem::take(upper);
+        polygon.extend(std::mem::take(lower).into_iter().rev());
+        if polygon.len() > 2 {
+            polygons.push(polygon);
+        }
+    };
+    for ((x, high), low) in series.x.iter().zip(&series.y).zip(low) {
+        match point(*x, *high).zip(point(*x, *low)) {
+            Some((high, low)) => {
+                upper.push(high);
+                lower.push(low);
+            }
+            None => close(&mut upper, &mut lower),
+        }
+    }
+    close(&mut upper, &mut lower);
+    marks.push(Mark::Areas {
+        polygons,
+        color: style.color,
+        fill: Fill::Sheer,
+    });
+}
+
+/// The sample in a legend, its left end in the middle of the line.
+pub(crate) fn sample((x, middle): Point, color: Color, fill: Fill) -> Mark {
+    let (left, right) = (x + 0.2 * legend::SAMPLE, x + 0.8 * legend::SAMPLE);
+    let (top, bottom) = (middle - 5.0, middle + 5.0);
+    Mark::Areas {
+        polygons: vec![vec![
+            (left, bottom),
+            (left, top),
+            (right, top),
+            (right, bottom),
+        ]],
+        color,
+        fill,
+    }
+}

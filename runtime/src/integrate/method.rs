@@ -1,0 +1,364 @@
+//! Methods by name, for programs whose users choose one.
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::fmt;
+use core::str::FromStr;
+
+use super::error::InputError;
+use super::evaluator::{Evaluator, NonFinite};
+use super::explicit::{Dop853, Dopri5, Verner98};
+use super::fixed::{Gauss, GaussOrder, Rk4};
+use super::integrator::Integrator;
+use super::options::Options;
+use super::piece::Piece;
+use super::steps::{Failure, Goal, Steps};
+use super::taylor::Taylor;
+use crate::scalar::Real;
+use crate::system::{State, TaylorOde};
+
+/// A method by its name, without its tolerance or its step.
+///
+/// Written and parsed as `dop853`, `gauss8` and so on, in capitals or not;
+/// [`ALL`](Self::ALL) lists them.
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::{OdeFn, RatesOnly};
+///
+/// let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| rates[0] = -y[0]);
+/// let method: Method = "verner98".parse()?;
+/// let start = State::new(0.0, vec![1.0]);
+/// let end = method
+///     .with(1e-10)
+///     .integrate(&RatesOnly(&decay), &start, 1.0, |_| ControlFlow::Continue(()))?;
+/// assert!((end.state.values[0] - (-1.0_f64).exp()).abs() < 1e-10);
+///
+/// let error = "verner89".parse::<Method>().unwrap_err().to_string();
+/// assert!(error.starts_with("there is no method `verner89`; did you mean `verner98`?"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Method {
+    /// [`Rk4`].
+    Rk4,
+    /// [`Dopri5`].
+    Dopri5,
+    /// [`Dop853`].
+    Dop853,
+    /// [`Verner98`].
+    Verner98,
+    /// [`Taylor`].
+    Taylor,
+    /// [`Gauss`], by fixed-point iteration.
+    Gauss(GaussOrder),
+    /// [`Gauss::for_animation`].
+    Animation,
+}
+
+impl Method {
+    /// All methods.
+    pub const ALL: &[Self] = &[
+        Self::Rk4,
+        Self::Dopri5,
+        Self::Dop853,
+        Self::Verner98,
+        Self::Taylor,
+        Self::Gauss(GaussOrder::Two),
+        Self::Gauss(GaussOrder::Four),
+        Self::Gauss(GaussOrder::Six),
+        Self::Gauss(GaussOrder::Eight),
+        Self::Animation,
+    ];
+
+    /// The name that is parsed.
+    fn word(self) -> &'static str {
+        match self {
+            Self::Rk4 => "rk4",
+            Self::Dopri5 => "dopri5",
+            Self::Dop853 => "dop853",
+            Self::Verner98 => "verner98",
+            Self::Taylor => "taylor",
+            Self::Gauss(GaussOrder::Two) => "gauss2",
+            Self::Gauss(GaussOrder::Four) => "gauss4",
+            Self::Gauss(GaussOrder::Six) => "gauss6",
+            Self::Gauss(GaussOrder::Eight) => "gauss8",
+            Self::Animation => "animation",
+        }
+    }
+
+    /// The name for titles and legends: `Dormand–Prince 8(5,3)`.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Rk4 => "RK4",
+            Self::Dopri5 => "Dormand–Prince 5(4)",
+            Self::Dop853 => "Dormand–Prince 8(5,3)",
+            Self::Verner98 => "Verner 9(8)",
+            Self::Taylor => "Taylor",
+            Self::Gauss(GaussOrder::Two) => "Gauss 2",
+            Self::Gauss(GaussOrder::Four) => "Gauss 4",
+            Self::Gauss(GaussOrder::Six) => "Gauss 6",
+            Self::Gauss(GaussOrder::Eight) => "Gauss 8",
+            Self::Animation => "midpoint",
+        }
+    }
+
+    /// Returns true if the method takes a tolerance; the others take a step.
+    pub fn is_adaptive(self) -> bool {
+        matches!(
+            self,
+            Self::Dopri5 | Self::Dop853 | Self::Verner98 | Self::Taylor
+        )
+    }
+
+    /// The method with the tolerance `setting`, or with steps of that length,
+    /// all else by default.
+    ///
+    /// [`Taylor`] carries the rounding errors of its sums along at tolerances
+    /// below 1e-12, where they begin to count.
+    pub fn with<T: Real>(self, setting: T) -> AnyIntegrator<T> {
+        if self.is_adaptive() {
+            let near_rounding = self == Self::Taylor && setting.to_f64() < 1e-12;
+            self.with_options(Options {
+                compensated: near_rounding,
+                ..Options::with_tolerance(setting)
+            })
+        } else {
+            self.fixed(setting)
+        }
+    }
+
+    /// The method with these options. One that takes a step has no use for
+    /// them but the step's length, [`Options::initial_step`], and
+    /// [`Options::step_limit`].
+    pub fn with_options<T: Real>(self, options: Options<T>) -> AnyIntegrator<T> {
+        match self {
+            Self::Dopri5 => AnyIntegrator::Dopri5(Dopri5::new(options)),
+            Self::Dop853 => AnyIntegrator::Dop853(Dop853::new(options)),
+            Self::Verner98 => AnyIntegrator::Verner98(Verner98::new(options)),
+            Self::Taylor => AnyIntegrator::Taylor(Taylor::new(options)),
+            Self::Rk4 | Self::Gauss(_) | Self::Animation => {
+                // Without a step the run is refused, as with any that is no step.
+                let step = options.initial_step.unwrap_or(T::NAN);
+                self.fixed(step).with_step_limit(options.step_limit)
+            }
+        }
+    }
+
+    /// The method with steps of this length.
+    fn fixed<T: Real>(self, step: T) -> AnyIntegrator<T> {
+        match self {
+            Self::Gauss(order) => AnyIntegrator::Gauss(Gauss::new(order, step)),
+            Self::Animation => AnyIntegrator::Gauss(Gauss::for_animation(step)),
+            _ => AnyIntegrator::Rk4(Rk4::new(step)),
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.word())
+    }
+}
+
+impl FromStr for Method {
+    type Err = UnknownMethod;
+
+    fn from_str(name: &str) -> Result<Self, UnknownMethod> {
+        let found = Self::ALL
+            .iter()
+            .find(|method| method.word().eq_ignore_ascii_case(name));
+        found.copied().ok_or_else(|| UnknownMethod {
+            name: name.to_string(),
+        })
+    }
+}
+
+/// A name that no method has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownMethod {
+    /// The name given.
+    pub name: String,
+}
+
+impl UnknownMethod {
+    /// The method whose name is nearest, if one is near.
+    pub fn nearest(&self) -> Option<Method> {
+        let name = self.name.to_ascii_lowercase();
+        let distances = Method::ALL
+            .iter()
+            .map(|&method| (distance(&name, method.word()), method));
+        let (distance, method) = distances.min_by_key(|&(distance, _)| distance)?;
+        (2 * distance < method.word().len()).then_some(method)
+    }
+}
+
+impl fmt::Display for UnknownMethod {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "there is no method `{}`", self.name)?;
+        if let Some(method) = self.nearest() {
+            write!(f, "; did you mean `{method}`?")?;
+        }
+        write!(f, " (methods: ")?;
+        for (index, method) in Method::ALL.iter().enumerate() {
+            let separator = if index == 0 { "" } else { ", " };
+            write!(f, "{separator}{method}")?;
+        }
+        write!(f, ")")
+    }
+}
+
+impl core::error::Error for UnknownMethod {}
+
+/// Number of letters to insert, to leave out or to replace between two words.
+fn distance(one: &str, other: &str) -> usize {
+    let mut row: Vec<usize> = (0..=other.chars().count()).collect();
+    for (i, letter) in one.chars().enumerate() {
+        let mut diagonal = core::mem::replace(&mut row[0], i + 1);
+        for (j, own) in other.chars().enumerate() {
+            let replaced = diagonal + usize::from(letter != own);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row.last().copied().unwrap_or(0)
+}
+
+/// Any of the methods that have a [`Method`], as one type.
+///
+/// An [`Integrator`] like each of them. [`Taylor`] asks for systems that give
+/// their Taylor coefficients; [`RatesOnly`](crate::system::RatesOnly) makes
+/// such a system of any other, which `Taylor` alone then refuses.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum AnyIntegrator<T> {
+    /// The classical method of order 4.
+    Rk4(Rk4<T>),
+    /// Dormand and Prince's 5(4).
+    Dopri5(Dopri5<T>),
+    /// Dormand and Prince's 8(5,3).
+    Dop853(Dop853<T>),
+    /// Verner's 9(8).
+    Verner98(Verner98<T>),
+    /// Taylor series.
+    Taylor(Taylor<T>),
+    /// Gauss–Legendre methods.
+    Gauss(Gauss<T>),
+}
+
+impl<T: Real> AnyIntegrator<T> {
+    /// The method with another number of steps, made and failed together,
+    /// after which a run ends with an error.
+    pub fn with_step_limit(mut self, limit: u64) -> Self {
+        *match &mut self {
+            Self::Rk4(method) => &mut method.step_limit,
+            Self::Dopri5(method) => &mut method.options.step_limit,
+            Self::Dop853(method) => &mut method.options.step_limit,
+            Self::Verner98(method) => &mut method.options.step_limit,
+            Self::Taylor(method) => &mut method.options.step_limit,
+            Self::Gauss(method) => &mut method.step_limit,
+        } = limit;
+        self
+    }
+}
+
+impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for AnyIntegrator<T> {
+    type Steps = AnySteps<T, O>;
+
+    fn steps(&self, ode: &O, start: &State<T>) -> Result<AnySteps<T, O>, InputError<T>> {
+        Ok(match self {
+            Self::Rk4(method) => AnySteps::Rk4(method.steps(ode, start)?),
+            Self::Dopri5(method) => AnySteps::Dopri5(method.steps(ode, start)?),
+            Self::Dop853(method) => AnySteps::Dop853(method.steps(ode, start)?),
+            Self::Verner98(method) => AnySteps::Verner98(method.steps(ode, start)?),
+            Self::Taylor(method) => AnySteps::Taylor(method.steps(ode, start)?),
+            Self::Gauss(method) => AnySteps::Gauss(method.steps(ode, start)?),
+        })
+    }
+}
+
+/// The method at work.
+#[allow(unreachable_pub)]
+pub enum AnySteps<T: Real, O: TaylorOde<T> + ?Sized> {
+    Rk4(<Rk4<T> as Integrator<T, O>>::Steps),
+    Dopri5(<Dopri5<T> as Integrator<T, O>>::Steps),
+    Dop853(<Dop853<T> as Integrator<T, O>>::Steps),
+    Verner98(<Verner98<T> as Integrator<T, O>>::Steps),
+    Taylor(<Taylor<T> as Integrator<T, O>>::Steps),
+    Gauss(<Gauss<T> as Integrator<T, O>>::Steps),
+}
+
+/// Asks the method at work.
+macro_rules! of_any {
+    ($any:expr, $steps:ident => $answer:expr) => {
+        match $any {
+            AnySteps::Rk4($steps) => $answer,
+            AnySteps::Dopri5($steps) => $answer,
+            AnySteps::Dop853($steps) => $answer,
+            AnySteps::Verner98($steps) => $answer,
+            AnySteps::Taylor($steps) => $answer,
+            AnySteps::Gauss($steps) => $answer,
+        }
+    };
+}
+
+impl<T: Real, O: TaylorOde<T> + ?Sized> Steps<T, O> for AnySteps<T, O> {
+    fn step(
+        &mut self,
+        system: &mut Evaluator<'_, T, O>,
+        time: T,
+        goal: Goal<T>,
+    ) -> Result<T, Failure<T>> {
+        of_any!(self, steps => steps.step(system, time, goal))
+    }
+
+    fn prepare(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
+        of_any!(self, steps => steps.prepare(system, time))
+    }
+
+    fn piece(&self) -> Piece<'_, T> {
+        of_any!(self, steps => Steps::<T, O>::piece(steps))
+    }
+
+    fn advance(&mut self) {
+        of_any!(self, steps => Steps::<T, O>::advance(steps));
+    }
+
+    fn restart(&mut self, values: &[T]) {
+        of_any!(self, steps => Steps::<T, O>::restart(steps, values));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Method, distance};
+    use alloc::string::ToString;
+
+    #[test]
+    fn names_are_parsed_as_they_are_written() {
+        for &method in Method::ALL {
+            assert_eq!(method.to_string().parse(), Ok(method));
+            assert_eq!(method.to_string().to_uppercase().parse(), Ok(method));
+        }
+    }
+
+    #[test]
+    fn an_unknown_name_is_answered_with_all_and_the_nearest() {
+        let error = |name: &str| name.parse::<Method>().unwrap_err();
+        assert_eq!(error("dop583").nearest(), Some(Method::Dop853));
+        assert_eq!(error("Tailor").nearest(), Some(Method::Taylor));
+        assert_eq!(error("euler").nearest(), None);
+        let message = error("euler").to_string();
+        assert!(Method::ALL.iter().all(|m| message.contains(&m.to_string())));
+    }
+
+    #[test]
+    fn distances_count_letters() {
+        assert_eq!(distance("", "rk4"), 3);
+        assert_eq!(distance("kitten", "sitting"), 3);
+    }
+}

@@ -1,0 +1,172 @@
+//! The polynomial of one step: what dense output is made of, in all methods.
+
+// A sealed trait names the types.
+#![allow(unreachable_pub)]
+
+use super::explicit::{alternating, bernstein, blend};
+use super::fixed::GaussOrder;
+use super::taylor::Ahead;
+use crate::scalar::{Dual, Real, Scalar};
+
+/// How a polynomial is written, s being the fraction of the step and r = 1 − s.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Form {
+    /// y + s (d₀ + r (d₁ + s (d₂ + …))), the terms being d₀, d₁, ….
+    Alternating,
+    /// y + Σ_k d_k b_k(s), the b_k being Bernstein polynomials.
+    Bernstein,
+    /// The cubic through both ends; the terms are the rates at the start and,
+    /// apart, those at the end.
+    Hermite,
+    /// The collocation polynomial; the terms are the rates of the stages and, apart,
+    /// a correction that grows with s, if there is one.
+    Collocation(GaussOrder),
+    /// Σ y\[k\] τᵏ; the terms are the coefficients, order by order from y\[0\] on.
+    Taylor,
+    /// The straight line.
+    Linear,
+}
+
+impl Form {
+    /// Returns true if the polynomial of a state of `n` components has so many terms of
+    /// both kinds. Those of a method do; a file may say anything.
+    pub(super) fn fits(self, n: usize, terms: [usize; 2]) -> bool {
+        match self {
+            Self::Alternating => terms[0] >= n,
+            Self::Bernstein => terms[0] >= bernstein(0.0).len() * n,
+            Self::Hermite => terms == [n, n],
+            Self::Collocation(_) => terms[1] == 0 || terms[1] == n,
+            Self::Taylor | Self::Linear => true,
+        }
+    }
+}
+
+/// A step and the polynomial that leads from its start to its end.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece<'a, T> {
+    pub(crate) form: Form,
+    /// State at the start.
+    pub(crate) start: &'a [T],
+    /// State at the end.
+    pub(crate) end: &'a [T],
+    /// Terms of the form, and those that it has apart.
+    pub(crate) terms: [&'a [T]; 2],
+    /// Length of the step, with its sign.
+    pub(crate) length: T,
+}
+
+impl<'a, T: Real> Piece<'a, T> {
+    /// A state, and no step.
+    pub(crate) fn resting(state: &'a [T]) -> Self {
+        Self {
+            form: Form::Linear,
+            start: state,
+            end: state,
+            terms: [&[]; 2],
+            length: T::ZERO,
+        }
+    }
+
+    /// Writes the solution at the fraction `fraction` of the step, from 0 to 1.
+    pub(crate) fn value(&self, fraction: T, out: &mut [T]) {
+        if self.form == Form::Taylor {
+            return run_packs::<T, _>(Ahead {
+                coefficients: self.terms[0],
+                tau: fraction * self.length,
+                start: self.start,
+                end: out,
+                residues: None,
+            });
+        }
+        self.evaluate(fraction, out, |value| value);
+    }
+
+    /// Writes the derivative of the solution by the fraction.
+    pub(crate) fn slope(&self, fraction: T, out: &mut [T]) {
+        let fraction = Dual::<T, 1>::variable(fraction, 0);
+        self.evaluate(fraction, out, |value| value.tangents[0]);
+    }
+
+    /// Writes what `part` takes of the values at the fraction `s`.
+    fn evaluate<S: Lift<T>>(&self, s: S, out: &mut [T], part: impl Fn(S) -> T) {
+        let n = self.start.len();
+        let [terms, apart] = self.terms;
+        let r = S::from_f64(1.0) - s;
+        match self.form {
+            Form::Alternating => {
+                for (i, (out, &start)) in out.iter_mut().zip(self.start).enumerate() {
+                    *out = part(alternating(s, start, terms, n, i));
+                }
+            }
+            Form::Bernstein => {
+                let weights = bernstein(s);
+                for (i, (out, &start)) in out.iter_mut().zip(self.start).enumerate() {
+                    *out = part(blend(&weights, start, terms, n, i));
+                }
+            }
+            // y + s (Δy + r (d₁ + s (d₂ − d₁))), d₁ = h k₀ − Δy, d₂ = Δy − h k₁
+            Form::Hermite => {
+                let rates = terms.iter().zip(apart);
+                let ends = self.start.iter().zip(self.end);
+                for (out, ((&start, &end), (&first, &last))) in out.iter_mut().zip(ends.zip(rates))
+                {
+                    let increment = end - start;
+                    let left = self.length * first - increment;
+                    let right = increment - self.length * last;
+                    let bend = S::lift(left) + s * S::lift(right - left);
+                    *out = part(S::lift(start) + s * (S::lift(increment) + r * bend));
+                }
+            }
+            Form::Collocation(order) => {
+                let weight = |j| S::lift(self.length) * order.integral(j, s);
+                let weights: [S; 4] = core::array::from_fn(weight);
+                for (i, (out, &start)) in out.iter_mut().zip(self.start).enumerate() {
+                    let mut value = S::lift(start);
+                    for (rates, &weight) in terms.chunks_exact(n).zip(&weights) {
+                        value = value + weight * S::lift(rates[i]);
+                    }
+                    if let Some(&correction) = apart.get(i) {
+                        value = value + s * S::lift(correction);
+                    }
+                    *out = part(value);
+                }
+            }
+            Form::Taylor => {
+                let tau = s * S::lift(self.length);
+                for (i, out) in out.iter_mut().enumerate() {
+                    let coefficients = terms.iter().skip(i).step_by(n).rev();
+                    let zero = S::from_f64(0.0);
+                    *out = part(coefficients.fold(zero, |sum, &c| sum * tau + S::lift(c)));
+                }
+            }
+            Form::Linear => {
+                let ends = self.start.iter().zip(self.end);
+                for (out, (&start, &end)) in out.iter_mut().zip(ends) {
+                    *out = part(S::lift(start) + s * S::lift(end - start));
+                }
+            }
+        }
+    }
+}
+
+/// A number that a number `W` is taken for: itself, or a constant among numbers with
+/// derivatives.
+pub trait Lift<W>: Scalar {
+    /// Returns the number.
+    fn lift(number: W) -> Self;
+}
+
+impl<W: Scalar> Lift<W> for W {
+    #[inline(always)]
+    fn lift(number: W) -> W {
+        number
+    }
+}
+
+impl<T: Scalar> Lift<T> for Dual<T, 1> {
+    #[inline(always)]
+    fn lift(number: T) -> Self {
+        Self::constant(number)
+    }
+}

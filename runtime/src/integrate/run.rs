@@ -1,0 +1,216 @@
+//! A run under way, whoever asks for its steps.
+
+use core::borrow::Borrow;
+use core::marker::PhantomData;
+
+use super::dense::{DenseError, DenseStep, Made};
+use super::error::{IntegrationError, RunError};
+use super::evaluator::{Evaluator, NonFinite};
+use super::integrator::Integrator;
+use super::piece::Piece;
+use super::report::{Report, Solution, StopReason};
+use super::request::{check_start, check_times};
+use super::steps::{Goal, Steps};
+use crate::scalar::Real;
+use crate::system::{Ode, State, Workspace};
+
+/// A method at work on equations, with the time it has reached and its account.
+///
+/// The equations `O` are owned or borrowed: they are what `B` is or refers to.
+#[derive(Clone, Debug)]
+pub(super) struct Run<B, O: ?Sized, S, T> {
+    pub(super) ode: B,
+    equations: PhantomData<fn(&O)>,
+    steps: S,
+    workspace: Workspace<T>,
+    report: Report<T>,
+    dimension: usize,
+    /// Times at the start and at the end of the last step; equal where there is none.
+    times: [T; 2],
+    /// True if the last step is still between its start and its end.
+    made: bool,
+    /// True if values inside it can be had.
+    prepared: bool,
+}
+
+impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> {
+    /// A run of `method` about to leave `start`, which is checked, and whose way to
+    /// `times` is.
+    pub(super) fn new<M>(
+        method: &M,
+        ode: B,
+        start: &State<T>,
+        times: &[T],
+    ) -> Result<Self, IntegrationError<T>>
+    where
+        M: Integrator<T, O, Steps = S> + ?Sized,
+    {
+        check_start(ode.borrow(), (start.time, &start.values))?;
+        check_times(start.time, times)?;
+        Ok(Self {
+            steps: method.steps(ode.borrow(), start)?,
+            ode,
+            equations: PhantomData,
+            workspace: Workspace::new(),
+            report: Report::new(),
+            dimension: start.values.len(),
+            times: [start.time; 2],
+            made: false,
+            prepared: false,
+        })
+    }
+
+    /// Time that the run has reached.
+    pub(super) fn time(&self) -> T {
+        self.times[1]
+    }
+
+    /// The state that the run has reached.
+    pub(super) fn state(&self) -> &[T] {
+        let piece = self.steps.piece();
+        if self.made { piece.end } else { piece.start }
+    }
+
+    /// The goal `end`.
+    pub(super) fn goal(&self, end: T) -> Goal<T> {
+        let forwards = end >= self.time();
+        self.way(Some(end), if forwards { T::ONE } else { -T::ONE })
+    }
+
+    /// The way in a direction, to an end if there is one.
+    pub(super) fn way(&self, end: Option<T>, direction: T) -> Goal<T> {
+        Goal {
+            end,
+            direction,
+            steps_before: self.report.accepted + self.report.rejected,
+        }
+    }
+
+    /// Splits into the steps and what they work with.
+    fn parts(&mut self) -> (&mut S, Evaluator<'_, T, O>) {
+        let system = Evaluator {
+            ode: self.ode.borrow(),
+            dimension: self.dimension,
+            workspace: &mut self.workspace,
+            report: &mut self.report,
+        };
+        (&mut self.steps, system)
+    }
+
+    /// Makes the next step towards the goal.
+    ///
+    /// # Errors
+    /// As the method's, with the last good state, from which the run can be asked
+    /// to go on.
+    #[inline(always)]
+    pub(super) fn step(&mut self, goal: Goal<T>) -> Result<(), IntegrationError<T>> {
+        if self.made {
+            self.steps.advance();
+            self.made = false;
+        }
+        let start = self.times[1];
+        self.times = [start; 2];
+        let (steps, mut system) = self.parts();
+        match steps.step(&mut system, start, goal) {
+            Ok(end) => {
+                self.times = [start, end];
+                (self.made, self.prepared) = (true, false);
+                Ok(())
+            }
+            Err(failure) => {
+                let last = State::new(start, self.steps.piece().start.to_vec());
+                Err(failure.error(last, &self.report))
+            }
+        }
+    }
+
+    /// Makes the next step towards the goal; none where that is reached.
+    #[inline(always)]
+    pub(super) fn step_to(
+        &mut self,
+        goal: Goal<T>,
+    ) -> Result<Option<DenseStep<'_, T>>, IntegrationError<T>> {
+        if goal.end == Some(self.time()) {
+            return Ok(None);
+        }
+        self.step(goal)?;
+        Ok(Some(DenseStep::new(self)))
+    }
+
+    /// Starts anew from these values.
+    pub(super) fn restart(&mut self, time: T, values: &[T]) {
+        self.steps.restart(values);
+        self.times = [time; 2];
+        self.made = false;
+    }
+
+    /// The end of the run.
+    pub(super) fn solution(&self, stop: StopReason) -> Solution<T> {
+        Solution {
+            state: State {
+                time: self.time(),
+                values: self.state().to_vec(),
+            },
+            report: Report {
+                stop,
+                ..self.report
+            },
+        }
+    }
+
+    /// The end of a run whose observer failed when it saw this time and state.
+    #[cold]
+    pub(super) fn stopped_at<E>(&self, time: T, values: &[T], error: E) -> RunError<T, E> {
+        RunError::Observer {
+            error,
+            last: State::new(time, values.to_vec()),
+            report: Report {
+                stop: StopReason::StoppedByObserver,
+                ..self.report
+            },
+        }
+    }
+
+    /// The end of a run whose last step had no value to give: time and length were right,
+    /// so the rates were not finite.
+    #[cold]
+    pub(super) fn dense_failure(&self, error: DenseError<T>) -> IntegrationError<T> {
+        let Solution { state, report } = self.solution(StopReason::NonFinite);
+        let (time, values) = match error {
+            DenseError::NonFinite { time, values } => (time, values),
+            DenseError::OutsideStep { .. } | DenseError::Length { .. } => {
+                (state.time, state.values.clone())
+            }
+        };
+        IntegrationError::NonFinite {
+            time,
+            values,
+            last: state,
+            report,
+        }
+    }
+}
+
+impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Made<T> for Run<B, O, S, T> {
+    fn times(&self) -> [T; 2] {
+        self.times
+    }
+
+    fn piece(&self) -> Piece<'_, T> {
+        self.steps.piece()
+    }
+
+    fn prepare(&mut self) -> Result<(), NonFinite<T>> {
+        if !self.prepared {
+            let start = self.times[0];
+            let (steps, mut system) = self.parts();
+            steps.prepare(&mut system, start)?;
+            self.prepared = true;
+        }
+        Ok(())
+    }
+
+    fn report(&self) -> &Report<T> {
+        &self.report
+    }
+}

@@ -1,0 +1,319 @@
+//! Motion step by step, or frame by frame, at the caller's pace.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::dense::{DenseStep, Made};
+use super::error::{InputError, IntegrationError};
+use super::integrator::Integrator;
+use super::report::Report;
+use super::request::{check_start, check_times};
+use super::run::Run;
+use super::sum::two_sum;
+use crate::scalar::Real;
+use crate::system::{Ode, State};
+
+/// A motion under way: [`Integrator::start`] begins it, the caller asks for its
+/// steps or its frames.
+///
+/// It keeps what the method has learnt: rates, the length of the steps, factors of
+/// Newton's method. Nothing is allocated after the start, but by errors.
+///
+/// - [`advance`](Self::advance) moves the time by the length of a frame. Steps are as
+///   long as the method makes them, whatever the frames are; the state at a frame
+///   comes from the dense output. So the motion is the same at any rate of frames.
+/// - [`step`](Self::step) makes one step, as long as the method chooses it.
+/// - [`step_to`](Self::step_to) makes one that goes no further than a given time, as
+///   those of [`Integrator::integrate`] are.
+///
+/// State and equations may be changed between any two requests:
+/// [`set_state`](Self::set_state), [`ode_mut`](Self::ode_mut). Step limits count the
+/// steps of one request.
+///
+/// The equations may be borrowed (`&ode` is an [`Ode`] too) or owned.
+///
+/// # Examples
+///
+/// A rod that a hand pushes while it swings:
+///
+/// ```
+/// use branched_pendulum::integrate::Stepper;
+/// use branched_pendulum::prelude::*;
+///
+/// struct Rod {
+///     push: f64,
+/// }
+///
+/// impl Ode<f64> for Rod {
+///     fn dimension(&self) -> usize {
+///         2
+///     }
+///     fn rates(&self, _time: f64, state: &[f64], rates: &mut [f64]) {
+///         rates[0] = state[1];
+///         rates[1] = self.push - 14.7 * state[0].sin();
+///     }
+/// }
+///
+/// struct Game {
+///     rod: Stepper<Gauss<f64>, Rod>,
+/// }
+///
+/// let frame = 1.0 / 60.0;
+/// let method = Gauss::for_animation(frame);
+/// let rest = State::at_rest(0.0, &[0.0]);
+/// let mut game = Game { rod: method.start(Rod { push: 0.0 }, &rest)? };
+/// for number in 0..120 {
+///     if number == 60 {
+///         game.rod.ode_mut().push = 3.0;
+///     }
+///     game.rod.advance(frame)?;
+///     assert_eq!(game.rod.state()[0] != 0.0, number >= 60);
+/// }
+/// assert!((game.rod.time() - 2.0).abs() < 1e-15);
+/// # Ok::<(), IntegrationError<f64>>(())
+/// ```
+///
+/// Steps, with errors of one's own:
+///
+/// ```
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::OdeFn;
+///
+/// let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| rates[0] = -y[0]);
+/// let method = Dop853::new(Options::with_tolerance(1e-10));
+/// let mut stepper = method.start(&decay, &State::new(0.0, vec![1.0]))?;
+/// let mut text = Vec::new();
+/// while let Some(step) = stepper.step_to(1.0)? {
+///     use std::io::Write;
+///     writeln!(text, "{} {}", step.end_time(), step.end()[0])?;
+/// }
+/// assert!((stepper.state()[0] - (-1.0_f64).exp()).abs() < 1e-10);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Stepper<M, O, T = f64>
+where
+    T: Real,
+    O: Ode<T>,
+    M: Integrator<T, O>,
+{
+    run: Run<O, O, M::Steps, T>,
+    /// 1, or −1 backwards.
+    direction: T,
+    /// Time that the caller has reached, and what its rounding left over.
+    time: T,
+    residue: T,
+    /// True if that is inside the last step: `inside` is the state there.
+    is_inside: bool,
+    inside: Vec<T>,
+    /// True if state or equations are no longer those of the last step.
+    changed: bool,
+}
+
+impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
+    pub(super) fn new(method: &M, ode: O, start: &State<T>) -> Result<Self, IntegrationError<T>> {
+        Ok(Self {
+            run: Run::new(method, ode, start, &[])?,
+            direction: T::ONE,
+            time: start.time,
+            residue: T::ZERO,
+            is_inside: false,
+            inside: start.values.clone(),
+            changed: false,
+        })
+    }
+
+    /// Time of the state.
+    pub fn time(&self) -> T {
+        self.time
+    }
+
+    /// The state.
+    pub fn state(&self) -> &[T] {
+        if self.is_inside {
+            &self.inside
+        } else {
+            self.run.state()
+        }
+    }
+
+    /// Time and state, for instance to start from. Allocates.
+    pub fn to_state(&self) -> State<T> {
+        State {
+            time: self.time,
+            values: self.state().to_vec(),
+        }
+    }
+
+    /// The account of all steps so far.
+    pub fn report(&self) -> &Report<T> {
+        self.run.report()
+    }
+
+    /// The equations.
+    pub fn ode(&self) -> &O {
+        &self.run.ode
+    }
+
+    /// The equations, to change them. The next step starts anew from the state.
+    pub fn ode_mut(&mut self) -> &mut O {
+        self.changed = true;
+        &mut self.run.ode
+    }
+
+    /// Goes on from another time and state.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError`] if they are not finite or their number is not that of before;
+    /// nothing has changed then.
+    pub fn set_state(&mut self, time: T, values: &[T]) -> Result<(), InputError<T>> {
+        check_start(&self.run.ode, (time, values))?;
+        check_length(self.inside.len(), values.len())?;
+        self.inside.copy_from_slice(values);
+        (self.time, self.residue) = (time, T::ZERO);
+        (self.is_inside, self.changed) = (true, true);
+        Ok(())
+    }
+
+    /// Makes the next step of the length that the method chooses, and returns it. The
+    /// state is then that at its end.
+    ///
+    /// # Errors
+    ///
+    /// As [`Integrator::integrate`]. State and time are then the last good ones, to be
+    /// changed or to go on from.
+    pub fn step(&mut self) -> Result<DenseStep<'_, T>, IntegrationError<T>> {
+        self.make_step(None, self.direction)?;
+        Ok(DenseStep::new(&mut self.run))
+    }
+
+    /// Makes the next step, not beyond the time `end`, and returns it; none where that
+    /// is reached. It may lie before the present time.
+    ///
+    /// # Errors
+    ///
+    /// As [`step`](Self::step), and if `end` is not finite.
+    pub fn step_to(&mut self, end: T) -> Result<Option<DenseStep<'_, T>>, IntegrationError<T>> {
+        check_times(self.time, &[end])?;
+        if end == self.time {
+            return Ok(None);
+        }
+        let direction = if end > self.time { T::ONE } else { -T::ONE };
+        self.make_step(Some(end), direction)?;
+        Ok(Some(DenseStep::new(&mut self.run)))
+    }
+
+    /// The states at the ends of the steps to the time `end`, one after the other; it
+    /// ends after an error. Each allocates; [`step_to`](Self::step_to) does not.
+    pub fn states_to(
+        &mut self,
+        end: T,
+    ) -> impl Iterator<Item = Result<State<T>, IntegrationError<T>>> {
+        let mut failed = false;
+        core::iter::from_fn(move || {
+            if failed {
+                return None;
+            }
+            match self.step_to(end) {
+                Ok(None) => return None,
+                Ok(Some(_)) => {}
+                Err(error) => {
+                    failed = true;
+                    return Some(Err(error));
+                }
+            }
+            Some(Ok(self.to_state()))
+        })
+    }
+
+    /// Moves the time by `duration`, backwards if it is negative, and the state with
+    /// it.
+    ///
+    /// The sum of the times carries its rounding error along: any number of frames
+    /// leads where their product does.
+    ///
+    /// # Errors
+    ///
+    /// As [`step`](Self::step), and if `duration` is not finite. Where a step fails,
+    /// time and state are those at the end of the step before.
+    pub fn advance(&mut self, duration: T) -> Result<(), IntegrationError<T>> {
+        if !duration.is_finite() {
+            return Err(InputError::FixedStep { value: duration }.into());
+        }
+        if duration == T::ZERO {
+            return Ok(());
+        }
+        let direction = if duration > T::ZERO { T::ONE } else { -T::ONE };
+        if self.changed || direction != self.direction {
+            self.start_anew(direction)?;
+        }
+        let (time, residue) = two_sum(self.time, duration + self.residue);
+        let goal = self.run.way(None, direction);
+        // Steps and frames of equal length meet but for rounding.
+        let rounding = T::from_f64(2.0) * T::EPSILON * time.abs();
+        while (time - self.run.time()) * direction > rounding {
+            if let Err(error) = self.run.step(goal) {
+                self.stay();
+                return Err(error);
+            }
+        }
+        self.is_inside = (self.run.time() - time) * direction > rounding;
+        (self.time, self.residue) = (time, residue);
+        if self.is_inside {
+            let value = DenseStep::new(&mut self.run).eval(time, &mut self.inside);
+            if let Err(error) = value {
+                self.stay();
+                return Err(self.run.dense_failure(error));
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes a step from where the caller is.
+    fn make_step(&mut self, end: Option<T>, direction: T) -> Result<(), IntegrationError<T>> {
+        if self.changed || self.is_inside || direction != self.direction {
+            self.start_anew(direction)?;
+        }
+        let goal = self.run.way(end, direction);
+        let made = self.run.step(goal);
+        self.stay();
+        made
+    }
+
+    /// Sees the state at the end of the last step.
+    fn stay(&mut self) {
+        (self.time, self.residue) = (self.run.time(), T::ZERO);
+        self.is_inside = false;
+    }
+
+    /// Starts anew from the present state.
+    fn start_anew(&mut self, direction: T) -> Result<(), InputError<T>> {
+        check_length(self.run.ode.dimension(), self.inside.len())?;
+        if !self.is_inside {
+            self.inside.copy_from_slice(self.run.state());
+        }
+        self.run.restart(self.time, &self.inside);
+        self.direction = direction;
+        (self.is_inside, self.changed) = (false, false);
+        Ok(())
+    }
+}
+
+fn check_length<T>(expected: usize, found: usize) -> Result<(), InputError<T>> {
+    if expected == found {
+        Ok(())
+    } else {
+        Err(InputError::Dimension { expected, found })
+    }
+}
+
+impl<T: Real, O: Ode<T>, M: Integrator<T, O>> fmt::Debug for Stepper<M, O, T> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("Stepper")
+            .field("time", &self.time)
+            .field("state", &self.state())
+            .field("report", self.report())
+            .finish_non_exhaustive()
+    }
+}

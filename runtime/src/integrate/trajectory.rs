@@ -1,0 +1,200 @@
+//! A motion that is kept, with its state at any time.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::dense::{DenseError, DenseStep};
+use super::piece::{Form, Piece};
+use crate::scalar::Real;
+use crate::system::State;
+
+/// A motion that is kept: its steps with their polynomials, as
+/// [`Integrator::trajectory`](super::Integrator::trajectory) or an observer collects
+/// them.
+///
+/// States are those of [`DenseStep::eval`] in the run, bit for bit. Memory for a step: a
+/// state for each term of its polynomial, 8 or 9 beside the two ends for the explicit
+/// pairs, as many as stages for Gauss methods, as orders for Taylor series.
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::OdeFn;
+///
+/// let oscillator = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+///     rates[0] = y[1];
+///     rates[1] = -y[0];
+/// });
+/// let method = Dop853::new(Options::with_tolerance(1e-12));
+/// let start = State::at_rest(0.0, &[1.0]);
+/// let motion = method.trajectory(&oscillator, &start, 10.0)?;
+/// let (time, mut rates) = (7.3_f64, [0.0; 2]);
+/// assert!((motion.at(time)?[0] - time.cos()).abs() < 1e-11);
+/// motion.derivative_into(time, &mut rates)?;
+/// assert!((rates[1] + time.cos()).abs() < 1e-9);
+/// assert!(motion.at(10.1).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Trajectory<T> {
+    dimension: usize,
+    /// The start, and the end of each step.
+    times: Vec<T>,
+    steps: Vec<Kept<T>>,
+    /// The numbers of the start, then those of each step: its start, its end, its terms
+    /// of both kinds.
+    numbers: Vec<T>,
+}
+
+/// A step that is kept, without its numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Kept<T> {
+    form: Form,
+    length: T,
+    /// Place of its first number.
+    first: usize,
+    /// Numbers of its terms of both kinds.
+    terms: [usize; 2],
+}
+
+impl<T: Real> Trajectory<T> {
+    /// The trajectory that has not left `start` yet.
+    pub fn new(start: State<T>) -> Self {
+        Self {
+            dimension: start.values.len(),
+            times: vec![start.time],
+            steps: Vec::new(),
+            numbers: start.values,
+        }
+    }
+
+    /// Adds a step, which starts where the trajectory ends.
+    ///
+    /// # Errors
+    ///
+    /// [`DenseError`], if the step starts elsewhere, if its state is of another length,
+    /// or if its values cannot be computed.
+    pub fn push(&mut self, step: &mut DenseStep<'_, T>) -> Result<(), DenseError<T>> {
+        let (start, end) = (step.start_time(), step.end_time());
+        let turns = self.times.len() > 1 && (self.end_time() > self.start_time()) != (end > start);
+        if start != self.end_time() || turns {
+            let time = self.end_time();
+            return Err(DenseError::OutsideStep { time, start, end });
+        }
+        let piece = step.polynomial()?;
+        if piece.start.len() != self.dimension {
+            return Err(DenseError::Length {
+                expected: self.dimension,
+                found: piece.start.len(),
+            });
+        }
+        self.times.push(end);
+        self.steps.push(Kept {
+            form: piece.form,
+            length: piece.length,
+            first: self.numbers.len(),
+            terms: piece.terms.map(<[T]>::len),
+        });
+        for numbers in [piece.start, piece.end, piece.terms[0], piece.terms[1]] {
+            self.numbers.extend_from_slice(numbers);
+        }
+        Ok(())
+    }
+
+    /// Time of the start.
+    pub fn start_time(&self) -> T {
+        self.times.first().copied().unwrap_or(T::NAN)
+    }
+
+    /// Time of the end; before the start where the motion goes backwards.
+    pub fn end_time(&self) -> T {
+        self.times.last().copied().unwrap_or(T::NAN)
+    }
+
+    /// Times of the start and of the ends of all steps, in their order along the run.
+    pub fn times(&self) -> &[T] {
+        &self.times
+    }
+
+    /// The state at `time`. At the ends of a step it is the state there, bit for bit.
+    ///
+    /// # Errors
+    ///
+    /// [`DenseError::OutsideStep`] if the trajectory does not come by that time.
+    pub fn at(&self, time: T) -> Result<Vec<T>, DenseError<T>> {
+        let mut values = vec![T::ZERO; self.dimension];
+        self.at_into(time, &mut values)?;
+        Ok(values)
+    }
+
+    /// Writes the state at `time` to `out`.
+    ///
+    /// # Errors
+    ///
+    /// As [`at`](Self::at), and if `out` has not the length of the state.
+    pub fn at_into(&self, time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
+        match self.piece(time) {
+            Some((ends, piece)) => piece.at(ends, time, out),
+            // Before its first step it has a state at one time.
+            None if self.steps.is_empty() && time == self.start_time() => {
+                let start = Piece::resting(&self.numbers);
+                start.at([time; 2], time, out)
+            }
+            None => Err(self.outside(time)),
+        }
+    }
+
+    /// Writes the derivative of the state at `time` to `out`, as
+    /// [`DenseStep::derivative`] does; at the end of a step, that of the step before
+    /// it.
+    ///
+    /// # Errors
+    ///
+    /// As [`at_into`](Self::at_into); a trajectory without steps has none.
+    pub fn derivative_into(&self, time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
+        let Some((ends, piece)) = self.piece(time) else {
+            return Err(self.outside(time));
+        };
+        piece.derivative_at(ends, time, out)
+    }
+
+    fn outside(&self, time: T) -> DenseError<T> {
+        DenseError::OutsideStep {
+            time,
+            start: self.start_time(),
+            end: self.end_time(),
+        }
+    }
+
+    /// The first step that `time` lies in, and its times.
+    fn piece(&self, time: T) -> Option<([T; 2], Piece<'_, T>)> {
+        let forwards = self.end_time() >= self.start_time();
+        let before = |end: &T| if forwards { *end < time } else { *end > time };
+        let ends = self.times.get(1..)?;
+        let index = ends.partition_point(before);
+        let ends = [*self.times.get(index)?, *ends.get(index)?];
+        let inside = (ends[0] <= time && time <= ends[1]) || (ends[1] <= time && time <= ends[0]);
+        if !inside {
+            return None;
+        }
+        let kept = self.steps.get(index)?;
+        if !kept.form.fits(self.dimension, kept.terms) {
+            return None;
+        }
+        let numbers = self.numbers.get(kept.first..)?;
+        let (start, numbers) = numbers.split_at_checked(self.dimension)?;
+        let (end, numbers) = numbers.split_at_checked(self.dimension)?;
+        let (terms, numbers) = numbers.split_at_checked(kept.terms[0])?;
+        let piece = Piece {
+            form: kept.form,
+            start,
+            end,
+            terms: [terms, numbers.get(..kept.terms[1])?],
+            length: kept.length,
+        };
+        Some((ends, piece))
+    }
+}

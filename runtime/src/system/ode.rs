@@ -1,0 +1,108 @@
+//! Systems of first-order equations, which integrators see.
+
+use core::fmt;
+
+use super::Workspace;
+
+/// A system of first-order ordinary differential equations y' = f(t, y).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no system of first-order equations in `{T}`",
+    label = "not an `Ode<{T}>`",
+    note = "choose the coordinates of a model: `AbsoluteAngles(&model)`, with `emit(symmetric)` `SymmetricCoordinates(&model)`, with `emit(momenta)` `CanonicalVariables(&model)`",
+    note = "equations of your own: implement `Ode`, or `OdeFn::new(dimension, |time, state, rates| …)`"
+)]
+pub trait Ode<T> {
+    /// Number of components of the state.
+    fn dimension(&self) -> usize;
+
+    /// Writes f(t, y) to `rates`. Both slices have length
+    /// [`dimension`](Self::dimension).
+    ///
+    /// Where f is not defined, write NaN: integrators stop there at once, with
+    /// the time and the state.
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]);
+
+    /// Writes the same rates as [`rates`](Self::rates), in memory that the caller
+    /// keeps. Integrators call this one. Systems that need no memory leave it as it
+    /// is.
+    #[inline]
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        let _ = workspace;
+        self.rates(time, state, rates);
+    }
+}
+
+impl<T, O: Ode<T> + ?Sized> Ode<T> for &O {
+    fn dimension(&self) -> usize {
+        (**self).dimension()
+    }
+
+    #[inline]
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        (**self).rates(time, state, rates);
+    }
+
+    #[inline]
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        (**self).rates_with(workspace, time, state, rates);
+    }
+}
+
+/// A function as an [`Ode`].
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum::system::{Ode, OdeFn};
+///
+/// let oscillator = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+///     rates[0] = y[1];
+///     rates[1] = -y[0];
+/// });
+/// let mut rates = [0.0; 2];
+/// oscillator.rates(0.0, &[1.0, 0.5], &mut rates);
+/// assert_eq!(rates, [0.5, -1.0]);
+/// ```
+#[derive(Clone, Copy)]
+pub struct OdeFn<F> {
+    dimension: usize,
+    function: F,
+}
+
+impl<F> OdeFn<F> {
+    /// The system of `dimension` equations whose rates `function(time, state,
+    /// rates)` writes.
+    pub fn new<T>(dimension: usize, function: F) -> Self
+    where
+        F: Fn(T, &[T], &mut [T]),
+    {
+        Self {
+            dimension,
+            function,
+        }
+    }
+}
+
+impl<F> fmt::Debug for OdeFn<F> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            dimension,
+            function: _,
+        } = self;
+        formatter
+            .debug_struct("OdeFn")
+            .field("dimension", dimension)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<T, F: Fn(T, &[T], &mut [T])> Ode<T> for OdeFn<F> {
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    #[inline]
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        (self.function)(time, state, rates);
+    }
+}

@@ -1,0 +1,257 @@
+//! Where links are.
+
+use super::Pendulum;
+use crate::scalar::Scalar;
+
+/// A point that every link has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkPoint {
+    /// The pivot by which it hangs from its parent.
+    Pivot,
+    /// The centre of mass.
+    Centre,
+    /// The end: the `joint` of its description, or the one that its shape has; the
+    /// centre of mass of a link that has none.
+    End,
+}
+
+impl LinkPoint {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Pivot, Self::Centre, Self::End];
+}
+
+/// A link as data. SI units; places are along the link and across it: at angle 0
+/// downwards, and to the side to which positive angles move the link's end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkProperties<T> {
+    /// Index of the link that it hangs from; none of the root.
+    pub parent: Option<usize>,
+    /// Mass.
+    pub mass: T,
+    /// Moment of inertia about the centre of mass.
+    pub inertia: T,
+    /// Centre of mass, from the link's pivot.
+    pub centre: [T; 2],
+    /// The link's pivot on its parent, from the parent's pivot.
+    pub pivot: [T; 2],
+    /// End, from the link's pivot.
+    pub end: [T; 2],
+}
+
+/// Numbers in a row of properties.
+pub(crate) const COLUMNS: usize = 8;
+
+impl<T: Scalar> LinkProperties<T> {
+    /// Distance of the end from the pivot.
+    #[must_use]
+    pub fn length(&self) -> T {
+        let [along, across] = self.end;
+        (along * along + across * across).sqrt()
+    }
+
+    /// From a row of numbers in the order of the fields.
+    pub(crate) fn from_row(parent: Option<usize>, row: &[T; COLUMNS]) -> Self {
+        let &[
+            mass,
+            inertia,
+            c_along,
+            c_across,
+            p_along,
+            p_across,
+            e_along,
+            e_across,
+        ] = row;
+        Self {
+            parent,
+            mass,
+            inertia,
+            centre: [c_along, c_across],
+            pivot: [p_along, p_across],
+            end: [e_along, e_across],
+        }
+    }
+
+    /// A point of the link, from its pivot.
+    pub(crate) fn place(&self, point: LinkPoint) -> Option<[T; 2]> {
+        match point {
+            LinkPoint::Pivot => None,
+            LinkPoint::Centre => Some(self.centre),
+            LinkPoint::End => Some(self.end),
+        }
+    }
+}
+
+/// Positions and velocities of links, and the torques of forces on them. Emitted code
+/// implements it where `emit(positions)` asks for it.
+///
+/// Vectors are x, y: x to the side to which positive angles move a link's end, y
+/// upwards, from the root's pivot; where that is driven, in the frame of reference that
+/// moves with it. All slices have length [`LINKS`](Pendulum::LINKS); for others the
+/// results are NaN.
+///
+/// # Examples
+///
+/// A branch in the wind, as air drags at its ends, and held by a thread at a point of
+/// its twig:
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::LinkPoint;
+///
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     limb: rod(mass = 0.4, length = 0.5) [twig: rod(mass = 0.1, length = 0.3)],
+///     emit(positions),
+/// )]
+/// struct Branch;
+///
+/// let branch = Branch::new();
+/// let (theta, omega) = ([0.3, 0.5], [1.0, -2.0]);
+/// let velocities = branch.end_velocities(&theta, &omega);
+/// let wind = velocities.map(|[x, y]| [0.02 * (5.0 - x), -0.02 * y]);
+/// let mut torques = branch.end_torques(&theta, &wind);
+///
+/// // The power of the forces is that of the torques.
+/// let power = |(v, f): ([f64; 2], [f64; 2])| v[0] * f[0] + v[1] * f[1];
+/// let of_forces: f64 = velocities.into_iter().zip(wind).map(power).sum();
+/// let of_torques = torques[0] * omega[0] + torques[1] * omega[1];
+/// assert!((of_forces - of_torques).abs() < 1e-15);
+///
+/// // A force on another point of a link: as on its pivot, and its moment about that.
+/// let (twig, thread) = (1, [0.3, 0.1]);
+/// let pivot = branch.pivots(&theta)[twig];
+/// let point = [pivot[0] + 0.05, pivot[1] - 0.1];
+/// let mut pull = [[0.0; 2]; 2];
+/// pull[twig] = thread;
+/// for (sum, torque) in torques.iter_mut().zip(branch.pivot_torques(&theta, &pull)) {
+///     *sum += torque;
+/// }
+/// torques[twig] += (point[0] - pivot[0]) * thread[1] - (point[1] - pivot[1]) * thread[0];
+///
+/// // The tree as data.
+/// let link = branch.properties_of(twig).expect("it has two links");
+/// assert_eq!((link.parent, link.mass, link.length()), (Some(0), 0.1, 0.3));
+/// assert_eq!(branch.children(0).collect::<Vec<_>>(), [1]);
+/// // For any model in generic code:
+/// let mut ends = [[0.0; 2]; Branch::<f64>::LINKS];
+/// branch.points_into(LinkPoint::End, &theta, &mut ends);
+/// assert_eq!(ends, branch.ends(&theta));
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know where its links are",
+    note = "a model knows it with `emit(positions)` in its attribute"
+)]
+pub trait Positions<T: Scalar>: Pendulum<T> {
+    /// Mass, inertia and places of a link, and its parent; none where there is no such
+    /// link.
+    fn properties_of(&self, link: usize) -> Option<LinkProperties<T>>;
+
+    /// The links that hang from a link. Looks at all behind it.
+    fn children(&self, link: usize) -> impl Iterator<Item = usize> {
+        let behind = link.saturating_add(1)..Self::LINKS;
+        behind.filter(move |&other| {
+            let properties = self.properties_of(other);
+            properties.is_some_and(|properties| properties.parent == Some(link))
+        })
+    }
+
+    /// Writes the positions (m) of a point of every link at angles `theta` (rad).
+    fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]);
+
+    /// Writes the velocities (m/s) of a point of every link at angles `theta` (rad) and
+    /// angular velocities `omega` (rad/s).
+    fn point_velocities_into(
+        &self,
+        point: LinkPoint,
+        theta: &[T],
+        omega: &[T],
+        velocities: &mut [[T; 2]],
+    );
+
+    /// Writes the generalized torques Q = Jᵀ F (N m) of `forces` F (N) on a point of
+    /// every link, at angles `theta` (rad): the power of the forces is Q·ω.
+    fn point_torques_into(
+        &self,
+        point: LinkPoint,
+        theta: &[T],
+        forces: &[[T; 2]],
+        torques: &mut [T],
+    );
+}
+
+impl<T: Scalar, P: Positions<T>> Positions<T> for &P {
+    fn properties_of(&self, link: usize) -> Option<LinkProperties<T>> {
+        (**self).properties_of(link)
+    }
+
+    fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]) {
+        (**self).points_into(point, theta, points);
+    }
+
+    fn point_velocities_into(
+        &self,
+        point: LinkPoint,
+        theta: &[T],
+        omega: &[T],
+        velocities: &mut [[T; 2]],
+    ) {
+        (**self).point_velocities_into(point, theta, omega, velocities);
+    }
+
+    fn point_torques_into(
+        &self,
+        point: LinkPoint,
+        theta: &[T],
+        forces: &[[T; 2]],
+        torques: &mut [T],
+    ) {
+        (**self).point_torques_into(point, theta, forces, torques);
+    }
+}
+
+/// A number, or a vector of them, that says that there is no answer.
+pub trait Unknown {
+    /// NaN.
+    fn unknown() -> Self;
+}
+
+impl<T: Scalar> Unknown for T {
+    fn unknown() -> Self {
+        T::from_f64(f64::NAN)
+    }
+}
+
+impl<T: Scalar> Unknown for [T; 2] {
+    fn unknown() -> Self {
+        [T::unknown(); 2]
+    }
+}
+
+/// Fills a slice with what a function on arrays returns; NaN where lengths differ.
+#[inline]
+pub fn fill<A, B, C: Copy + Unknown, const N: usize>(
+    first: &[A],
+    second: &[B],
+    output: &mut [C],
+    function: impl FnOnce(&[A; N], &[B; N]) -> [C; N],
+) {
+    match (first.try_into(), second.try_into()) {
+        (Ok(first), Ok(second)) if output.len() == N => {
+            output.copy_from_slice(&function(first, second));
+        }
+        _ => output.fill(C::unknown()),
+    }
+}
+
+/// The properties of a link of a tree that is written out.
+pub fn properties<T: Scalar>(
+    parents: &[Option<usize>],
+    rows: &[[T; COLUMNS]],
+    link: usize,
+) -> Option<LinkProperties<T>> {
+    Some(LinkProperties::from_row(
+        *parents.get(link)?,
+        rows.get(link)?,
+    ))
+}

@@ -1,0 +1,235 @@
+//! Small differences between copies that move in phase.
+
+use super::{Ode, Pendulum};
+use crate::scalar::Scalar;
+
+/// Copies that move in phase, whose small differences follow equations of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TransverseSector {
+    /// Name of the model's link that stands for the copies.
+    pub name: &'static str,
+    /// Index of that link; the links that hang from it follow it.
+    pub first: usize,
+    /// Number of these links, itself included: of the differences.
+    pub links: usize,
+    /// Number of copies under one link of the whole tree.
+    pub copies: usize,
+    /// Number of links of the whole tree that hold such copies and move alike. Each has
+    /// differences of its own, which follow the same equations.
+    pub holders: usize,
+}
+
+/// An in-phase motion at one time, as slices of [`Pendulum::LINKS`] values.
+#[derive(Clone, Copy, Debug)]
+pub struct InPhaseMotion<'a, T> {
+    /// Angles, rad.
+    pub theta: &'a [T],
+    /// Angular velocities, rad/s.
+    pub omega: &'a [T],
+    /// Angular accelerations, rad/s².
+    pub alpha: &'a [T],
+}
+
+/// A model of copies in phase that knows how small differences between them go on:
+/// `in_phase(…)` with `emit(transverse)`.
+///
+/// Copies of a sector have the angles θ + e δ, with any numbers e that add up to 0 over
+/// the copies under one link and whose squares add up to the number of copies; ±1 for
+/// two. The differences δ of the copies and of all that hangs from them follow linear
+/// equations, exact for infinitesimal ones, whose coefficients are those of the in-phase
+/// motion (physics (12.2); for one link, Hill's equation). So a threshold costs that motion and
+/// a small linear system.
+///
+/// Sectors are counted in the order of [`TRANSVERSE`](Self::TRANSVERSE). Values are NaN
+/// for a sector that does not exist and for slices of other lengths.
+pub trait Transverse<T: Scalar>: Pendulum<T> {
+    /// The sectors.
+    const TRANSVERSE: &'static [TransverseSector];
+
+    /// Writes the second time derivatives (in rad/s²) of the differences of a sector
+    /// (in rad) with the given rates (in rad/s).
+    fn transverse_accelerations_into(
+        &self,
+        sector: usize,
+        time: T,
+        motion: InPhaseMotion<'_, T>,
+        difference: &[T],
+        difference_rate: &[T],
+        accelerations: &mut [T],
+    );
+
+    /// Returns the energy (in J) of the differences in the copies under one link, with
+    /// the potential energy of links that hang: quadratic.
+    fn transverse_energy_of(
+        &self,
+        sector: usize,
+        theta: &[T],
+        difference: &[T],
+        difference_rate: &[T],
+    ) -> T;
+
+    /// Returns the energy transfer W (in W) into the differences: the rate of their
+    /// energy but for friction and drag.
+    fn transverse_transfer_of(
+        &self,
+        sector: usize,
+        time: T,
+        motion: InPhaseMotion<'_, T>,
+        difference: &[T],
+        difference_rate: &[T],
+    ) -> T;
+
+    /// Returns the power (in W) of friction and drag on the energy of the differences.
+    fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T;
+}
+
+/// An in-phase motion and the small differences of one sector as a first-order system:
+/// the state is the angles, the differences, the angular velocities and the rates of
+/// the differences. Differences of any size belong to it, since their equations are
+/// linear.
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::TransverseOde;
+///
+/// /// The paper's pendulum, its children in phase.
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+///         child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+///     ],
+///     in_phase(child),
+///     emit(transverse),
+/// )]
+/// struct InPhase;
+///
+/// // Growth of the antiphase mode within 10 s of a release with vertical children.
+/// let model = InPhase::new();
+/// let ode = TransverseOde::new(&model, 0).unwrap();
+/// let growth = |degrees: f64| {
+///     let start = State::at_rest(0.0, &[degrees.to_radians(), 0.0, 1.0]);
+///     let mut largest = 0.0_f64;
+///     let method = Dop853::new(Options::with_tolerance(1e-10));
+///     method.integrate(&ode, &start, 10.0, |step| {
+///         largest = largest.max(step.end()[2].abs());
+///         ControlFlow::Continue(())
+///     })?;
+///     Ok::<_, IntegrationError<f64>>(largest)
+/// };
+/// assert!(growth(42.0).unwrap() < 10.0 && growth(44.0).unwrap() > 10.0);
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct TransverseOde<P> {
+    model: P,
+    index: usize,
+    sector: TransverseSector,
+}
+
+impl<P> TransverseOde<P> {
+    /// The differences of the sector with that index beside the motion of a model, or
+    /// of a reference to one; `None` without such a sector.
+    pub fn new<T: Scalar>(model: P, sector: usize) -> Option<Self>
+    where
+        P: Transverse<T>,
+    {
+        Some(Self {
+            model,
+            index: sector,
+            sector: *P::TRANSVERSE.get(sector)?,
+        })
+    }
+
+    /// The sector.
+    pub fn sector(&self) -> &TransverseSector {
+        &self.sector
+    }
+}
+
+impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
+    fn dimension(&self) -> usize {
+        2 * (P::LINKS + self.sector.links)
+    }
+
+    #[inline]
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        let (links, half) = (P::LINKS, P::LINKS + self.sector.links);
+        if state.len() != 2 * half || rates.len() != 2 * half {
+            rates.fill(T::from_f64(f64::NAN));
+            return;
+        }
+        let (angles, velocities) = state.split_at(half);
+        let (angle_rates, accelerations) = rates.split_at_mut(half);
+        angle_rates.copy_from_slice(velocities);
+        let (theta, difference) = angles.split_at(links);
+        let (omega, difference_rate) = velocities.split_at(links);
+        let (alpha, second) = accelerations.split_at_mut(links);
+        self.model.accelerations_into(time, theta, omega, alpha);
+        let motion = InPhaseMotion {
+            theta,
+            omega,
+            alpha,
+        };
+        self.model.transverse_accelerations_into(
+            self.index,
+            time,
+            motion,
+            difference,
+            difference_rate,
+            second,
+        );
+    }
+}
+
+impl<T: Scalar, P: Transverse<T>> Transverse<T> for &P {
+    const TRANSVERSE: &'static [TransverseSector] = P::TRANSVERSE;
+
+    #[inline]
+    fn transverse_accelerations_into(
+        &self,
+        sector: usize,
+        time: T,
+        motion: InPhaseMotion<'_, T>,
+        difference: &[T],
+        difference_rate: &[T],
+        accelerations: &mut [T],
+    ) {
+        (**self).transverse_accelerations_into(
+            sector,
+            time,
+            motion,
+            difference,
+            difference_rate,
+            accelerations,
+        );
+    }
+
+    #[inline]
+    fn transverse_energy_of(
+        &self,
+        sector: usize,
+        theta: &[T],
+        difference: &[T],
+        difference_rate: &[T],
+    ) -> T {
+        (**self).transverse_energy_of(sector, theta, difference, difference_rate)
+    }
+
+    #[inline]
+    fn transverse_transfer_of(
+        &self,
+        sector: usize,
+        time: T,
+        motion: InPhaseMotion<'_, T>,
+        difference: &[T],
+        difference_rate: &[T],
+    ) -> T {
+        (**self).transverse_transfer_of(sector, time, motion, difference, difference_rate)
+    }
+
+    #[inline]
+    fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T {
+        (**self).transverse_friction_power_of(sector, difference_rate)
+    }
+}

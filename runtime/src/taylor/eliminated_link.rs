@@ -1,0 +1,99 @@
+//! One link during the elimination along the tree.
+
+use crate::scalar::Scalar;
+use crate::simd::Pack;
+
+/// A link during the elimination: what it feels of itself and of its children.
+#[derive(Clone, Copy)]
+pub(super) struct EliminatedLink<P> {
+    /// J
+    pub(super) inertia: P,
+    /// K
+    pub(super) inertia_along: P,
+    /// q
+    pub(super) product: P,
+    /// b
+    pub(super) moment: [P; 2],
+    /// g
+    pub(super) moment_along: [P; 2],
+    /// N_xx, N_xy, N_yy
+    pub(super) deficit: [P; 3],
+}
+
+impl<P: Copy> EliminatedLink<P> {
+    #[inline(always)]
+    pub(super) fn none<T: Scalar>() -> Self
+    where
+        P: Pack<T>,
+    {
+        let zero = P::splat(T::from_f64(0.0));
+        Self::alone(zero, [zero; 2])
+    }
+
+    /// A link without children.
+    #[inline(always)]
+    pub(super) fn alone<T: Scalar>(inertia: P, [m_x, m_y]: [P; 2]) -> Self
+    where
+        P: Pack<T>,
+    {
+        let zero = P::splat(T::from_f64(0.0));
+        Self {
+            inertia,
+            inertia_along: inertia,
+            product: zero,
+            moment: [m_x, m_y],
+            moment_along: [zero.minus(m_y), m_x],
+            deficit: [zero; 3],
+        }
+    }
+
+    /// Adds b bᵀ/J, where `response` is b/J.
+    #[inline(always)]
+    pub(super) fn relieve<T: Scalar>(&mut self, [n_x, n_y]: [P; 2])
+    where
+        P: Pack<T>,
+    {
+        let ([b_x, b_y], [xx, xy, yy]) = (self.moment, self.deficit);
+        self.deficit = [
+            xx.plus_product(b_x, n_x),
+            xy.plus_product(b_x, n_y),
+            yy.plus_product(b_y, n_y),
+        ];
+    }
+
+    /// Takes what a child with this N, at this r, does to it.
+    #[inline(always)]
+    pub(super) fn carry<T: Scalar>(&mut self, [xx, xy, yy]: [P; 3], [r_x, r_y]: [P; 2])
+    where
+        P: Pack<T>,
+    {
+        // N r and N i r.
+        let across = [
+            xx.times(r_x).plus_product(xy, r_y),
+            xy.times(r_x).plus_product(yy, r_y),
+        ];
+        let along = [
+            xy.times(r_x).minus_product(xx, r_y),
+            yy.times(r_x).minus_product(xy, r_y),
+        ];
+        self.inertia = self
+            .inertia
+            .minus_product(r_x, across[0])
+            .minus_product(r_y, across[1]);
+        self.inertia_along = self
+            .inertia_along
+            .minus_product(r_x, along[1])
+            .plus_product(r_y, along[0]);
+        self.product = self
+            .product
+            .plus_product(r_x, across[1])
+            .minus_product(r_y, across[0]);
+        for x in 0..2 {
+            self.moment[x] = self.moment[x].minus(across[x]);
+            self.moment_along[x] = self.moment_along[x].minus(along[x]);
+        }
+        for (sum, own) in self.deficit.iter_mut().zip([xx, xy, yy]) {
+            *sum = sum.plus(own);
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Where the links of a tree in loops are.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::bodies::Shape;
+use crate::scalar::Scalar;
+use crate::system::positions::COLUMNS;
+use crate::system::{LinkPoint, LinkProperties};
+
+/// The links of a tree in loops as data. Emitted models hold them where positions are
+/// asked for.
+///
+/// All functions but [`of`](Self::of) take O(links), and allocate some numbers for each
+/// link. With u = (sin θ, −cos θ) and v = (cos θ, sin θ), a point at p along and q across
+/// a link is at p u + q v from its pivot, and ω (p v − q u) is its velocity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PropertyTable<T> {
+    shape: Shape,
+    rows: Vec<[T; COLUMNS]>,
+}
+
+/// A link in the order from the root: its number, its parent, its properties.
+type Visited<T> = (usize, Option<usize>, LinkProperties<T>);
+
+impl<T: Scalar> PropertyTable<T> {
+    /// Links with the constants of each or of each generation, in SI units, in the order
+    /// of the fields of [`LinkProperties`].
+    #[must_use]
+    pub fn new(shape: Shape, rows: Vec<[T; COLUMNS]>) -> Self {
+        Self { shape, rows }
+    }
+
+    /// Returns the same links on other scalars.
+    #[must_use]
+    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PropertyTable<S> {
+        PropertyTable {
+            shape: self.shape,
+            rows: self.rows.iter().map(|row| row.map(&convert)).collect(),
+        }
+    }
+
+    /// Returns the properties of a link.
+    #[must_use]
+    pub fn of(&self, link: usize) -> Option<LinkProperties<T>> {
+        let (parent, row) = self.shape.link(link)?;
+        Some(LinkProperties::from_row(parent, self.rows.get(row)?))
+    }
+
+    /// Writes positions as
+    /// [`Positions::points_into`](crate::Positions::points_into).
+    pub fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]) {
+        let one = vec![T::from_f64(1.0); theta.len()];
+        self.along_tree(point, theta, &one, points, turned);
+    }
+
+    /// Writes velocities as
+    /// [`Positions::point_velocities_into`](crate::Positions::point_velocities_into).
+    pub fn velocities_into(
+        &self,
+        point: LinkPoint,
+        theta: &[T],
+        omega: &[T],
+        velocities: &mut [[T; 2]],
+    ) {
+        self.along_tree(point, theta, omega, velocities, lever);
+    }
+
+    /// Sums, from the root to a point of each link, of what `step` says of a place on a
+    /// link, times its factor.
+    fn along_tree(
+        &self,
+        point: LinkPoint,
+        theta: &[T],
+        factors: &[T],
+        sums: &mut [[T; 2]],
+        step: impl Fn([T; 2], (T, T)) -> [T; 2],
+    ) {
+        let links = self.shape.links();
+        if [theta.len(), factors.len(), sums.len()] != [links; 3] {
+            return sums.fill([T::from_f64(f64::NAN); 2]);
+        }
+        let directions: Vec<(T, T)> = theta.iter().map(|angle| angle.sin_cos()).collect();
+        let mut pivots = vec![[T::from_f64(0.0); 2]; links];
+        for (link, parent, properties) in self.visited() {
+            let from = |start: [T; 2], place, carrier: usize| {
+                let [x, y] = step(place, directions[carrier]);
+                let factor = factors[carrier];
+                [start[0] + factor * x, start[1] + factor * y]
+            };
+            if let Some(parent) = parent {
+                pivots[link] = from(pivots[parent], properties.pivot, parent);
+            }
+            sums[link] = match properties.place(point) {
+                Some(place) => from(pivots[link], place, link),
+                None => pivots[link],
+            };
+        }
+    }
+
+    /// Writes torques as
+    /// [`Positions::point_torques_into`](crate::Positions::point_torques_into).
+    pub fn torques_into(
+        &self,
+        point: LinkPoint,
+        theta: &[T],
+        forces: &[[T; 2]],
+        torques: &mut [T],
+    ) {
+        let links = self.shape.links();
+        if [theta.len(), forces.len(), torques.len()] != [links; 3] {
+            return torques.fill(T::from_f64(f64::NAN));
+        }
+        torques.fill(T::from_f64(0.0));
+        let directions: Vec<(T, T)> = theta.iter().map(|angle| angle.sin_cos()).collect();
+        // Forces on the subtree of each link.
+        let mut sums = forces.to_vec();
+        for (link, parent, properties) in self.visited().into_iter().rev() {
+            let torque = |place, carrier: usize, [force_x, force_y]: [T; 2]| {
+                let [x, y] = lever(place, directions[carrier]);
+                x * force_x + y * force_y
+            };
+            if let Some(place) = properties.place(point) {
+                torques[link] = torques[link] + torque(place, link, forces[link]);
+            }
+            if let Some(parent) = parent {
+                let [x, y] = sums[link];
+                let own = torque(properties.pivot, parent, [x, y]);
+                torques[parent] = torques[parent] + own;
+                sums[parent] = [sums[parent][0] + x, sums[parent][1] + y];
+            }
+        }
+    }
+
+    /// The links from the root to the leaves.
+    fn visited(&self) -> Vec<Visited<T>> {
+        let mut visited = Vec::with_capacity(self.shape.links());
+        self.shape.each(|link, parent, row| {
+            if let Some(row) = self.rows.get(row) {
+                visited.push((link, parent, LinkProperties::from_row(parent, row)));
+            }
+        });
+        visited
+    }
+}
+
+impl Shape {
+    /// Returns the parent of a link but the root's, and the number of its row.
+    fn link(self, link: usize) -> Option<(Option<usize>, usize)> {
+        match self {
+            Self::Parents(parents) => {
+                let &parent = parents.get(link)?;
+                Some(((link > 0).then_some(parent as usize), link))
+            }
+            Self::Generations(copies) => {
+                let (generation, number) = super::place(copies, link)?;
+                // Links of the generation above, in front of this one.
+                let above: usize = copies.iter().take(generation).product();
+                let parent = || link - number - above + number % above;
+                Some(((generation > 0).then(parent), generation))
+            }
+        }
+    }
+}
+
+/// p u + q v.
+#[inline]
+fn turned<T: Scalar>([along, across]: [T; 2], (sine, cosine): (T, T)) -> [T; 2] {
+    [
+        along * sine + across * cosine,
+        across * sine - along * cosine,
+    ]
+}
+
+/// p v − q u, the derivative of [`turned`] by the angle.
+#[inline]
+fn lever<T: Scalar>([along, across]: [T; 2], (sine, cosine): (T, T)) -> [T; 2] {
+    [
+        along * cosine - across * sine,
+        along * sine + across * cosine,
+    ]
+}
