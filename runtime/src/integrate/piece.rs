@@ -7,6 +7,7 @@ use super::explicit::{alternating, bernstein, blend};
 use super::fixed::GaussOrder;
 use super::taylor::Ahead;
 use crate::scalar::{Dual, Real, Scalar};
+use crate::simd::run_packs;
 
 /// How a polynomial is written, s being the fraction of the step and r = 1 − s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
