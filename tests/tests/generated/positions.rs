@@ -54,6 +54,7 @@ fn oracle(text: &str) -> (Tree, Vec<[f64; 2]>) {
         friction: 0.0,
         drag: 0.0,
         spring: 0.0,
+        rest: 0.0,
     });
     let tree = Tree {
         gravity: 9.80665,

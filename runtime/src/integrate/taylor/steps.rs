@@ -14,8 +14,7 @@ use crate::integrate::piece::{Form, Piece};
 use crate::integrate::request::all_finite;
 use crate::integrate::steps::{Failure, Goal, StepLimits, Steps};
 use crate::scalar::Real;
-use crate::simd::Quad;
-use crate::simd::run_packs;
+use crate::simd::{Quad, run_packs};
 use crate::system::TaylorOde;
 
 /// The method at work on states of one dimension, with polynomials of one order.

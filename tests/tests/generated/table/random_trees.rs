@@ -99,7 +99,7 @@ fn random_trees_agree_with_the_closed_form() {
         let root = root.expect("every tree has gravity");
         let model = Tree::<LenderEquations, f64>::with_parents(
             &parents,
-            rows.collect(),
+            &rows.flatten().collect::<Vec<_>>(),
             [root[0], root[1]],
         );
         let tree = oracle_of(scene);
