@@ -11,7 +11,9 @@ use std::fmt;
 
 impl fmt::Display for Mechanics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "constants")?;
+        if !self.constants.is_empty() {
+            writeln!(f, "constants")?;
+        }
         for constant in &self.constants {
             writeln!(
                 f,

@@ -17,17 +17,18 @@ use crate::system::{LinkPoint, LinkProperties};
 #[derive(Clone, Debug, PartialEq)]
 pub struct PropertyTable<T> {
     shape: Shape,
-    rows: Vec<[T; COLUMNS]>,
+    /// One row after the other.
+    rows: Vec<T>,
 }
 
 /// A link in the order from the root: its number, its parent, its properties.
 type Visited<T> = (usize, Option<usize>, LinkProperties<T>);
 
 impl<T: Scalar> PropertyTable<T> {
-    /// Links with the constants of each or of each generation, in SI units, in the order
-    /// of the fields of [`LinkProperties`].
+    /// Links with the constants of each or of each generation, one after the other, in
+    /// SI units, in the order of the fields of [`LinkProperties`].
     #[must_use]
-    pub fn new(shape: Shape, rows: Vec<[T; COLUMNS]>) -> Self {
+    pub fn new(shape: Shape, rows: Vec<T>) -> Self {
         Self { shape, rows }
     }
 
@@ -36,15 +37,21 @@ impl<T: Scalar> PropertyTable<T> {
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PropertyTable<S> {
         PropertyTable {
             shape: self.shape,
-            rows: self.rows.iter().map(|row| row.map(&convert)).collect(),
+            rows: self.rows.iter().map(|&value| convert(value)).collect(),
         }
+    }
+
+    /// Returns a row, if there is one.
+    fn row(&self, number: usize) -> Option<&[T; COLUMNS]> {
+        let (rows, _) = self.rows.as_chunks();
+        rows.get(number)
     }
 
     /// Returns the properties of a link.
     #[must_use]
     pub fn of(&self, link: usize) -> Option<LinkProperties<T>> {
         let (parent, row) = self.shape.link(link)?;
-        Some(LinkProperties::from_row(parent, self.rows.get(row)?))
+        Some(LinkProperties::from_row(parent, self.row(row)?))
     }
 
     /// Writes positions as
@@ -136,7 +143,7 @@ impl<T: Scalar> PropertyTable<T> {
     fn visited(&self) -> Vec<Visited<T>> {
         let mut visited = Vec::with_capacity(self.shape.links());
         self.shape.each(|link, parent, row| {
-            if let Some(row) = self.rows.get(row) {
+            if let Some(row) = self.row(row) {
                 visited.push((link, parent, LinkProperties::from_row(parent, row)));
             }
         });

@@ -5,11 +5,19 @@ mod grammar;
 mod verdict;
 mod words;
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
 use branched_pendulum_codegen::stages;
 
 use crate::support::{Outcome, Random, run, split};
+
+/// Keeps these tests apart: they measure the processor time of the whole process.
+fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Descriptions to start from.
 const SEEDS: &[&str] = &[
@@ -116,6 +124,7 @@ fn flattened(tokens: TokenStream, all: &mut Vec<TokenTree>) {
 
 #[test]
 fn mutated_descriptions_give_a_scene_or_messages() {
+    let _alone = alone();
     let mut random = Random(20_250_101);
     let mut supply = Vec::new();
     // Brackets that do not match cannot be tokens.

@@ -8,11 +8,11 @@ use proc_macro2::{TokenStream, TokenTree};
 
 use super::grammar::description;
 use super::verdict::{Verdict, judge, peak_memory, processor_time};
-use super::{flattened, mutated};
+use super::{alone, flattened, mutated};
 use crate::support::Random;
 
 /// Most processor time for one description, in an unoptimised build on a busy machine.
-const TIME: Duration = Duration::from_secs(10);
+const TIME: Duration = Duration::from_secs(15);
 
 /// Most memory for all of them.
 const MEMORY: u64 = 1 << 30;
@@ -37,6 +37,7 @@ fn watch(present: Present) {
 
 /// Looks at `count` descriptions; gives those that broke something, with what.
 fn broken(seed: u64, count: usize) -> Vec<String> {
+    let _alone = alone();
     let mut random = Random(seed);
     let present: Present = Arc::default();
     watch(Arc::clone(&present));
@@ -126,6 +127,7 @@ const CURED: &[&str] = &[
 
 #[test]
 fn cured_descriptions_stay_cured() {
+    let _alone = alone();
     for source in CURED {
         let (attribute, item) = crate::support::split(source);
         let start = processor_time();

@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+"""Mutants of the physics and the integrators, and the tests that kill them.
+
+    tests/mutants.py --check        each mutant's text stands once in the source
+    tests/mutants.py --list         the table of README.md
+    tests/mutants.py COPY [NAME…]   runs mutants in COPY, a copy of this repository
+
+A run puts all mutants of expressions into COPY at once, each behind a switch that the
+environment sets, and so builds every test binary once; mutants of constants are built
+together, since each has a test that sees no other of them. A mutant that its test does
+not kill is an error.
+"""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+MECHANICS = ["-p", "branched-pendulum-tests", "--test", "mechanics"]
+FRONT_END = ["-p", "branched-pendulum-tests", "--test", "front_end"]
+LINK = ["-p", "branched-pendulum-codegen", "--test", "link"]
+LIBRARY = ["-p", "branched-pendulum", "--lib"]
+RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
+
+BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
+DRIVEN = "drive::accelerations_and_power_agree_with_both_oracles"
+CARTESIAN = "random_trees::accelerations_agree_with_cartesian_jacobians"
+
+C, R = "codegen/src", "runtime/src"
+
+# Name, file, text, mutant, test binary, test.
+EXPRESSIONS = [
+    ("sign of the Coriolis term", f"{C}/mechanics/frame.rs",
+     "-derivation.partial(&term, coordinate)", "derivation.partial(&term, coordinate)",
+     MECHANICS, BOTH_SOLVES),
+    ("sign of gravity", f"{C}/mechanics/frame.rs",
+     "row.push(potential);", "row.push(-potential);", MECHANICS, BOTH_SOLVES),
+    ("friction pushes", f"{C}/mechanics/frame.rs",
+     "row.push(-dissipative);", "row.push(dissipative);", MECHANICS, CARTESIAN),
+    ("sign of the drive", f"{C}/mechanics/frame.rs",
+     "row.push(-drive);", "row.push(drive);", MECHANICS, DRIVEN),
+    ("half of K on the diagonal", f"{C}/mechanics/frame.rs",
+     "Formula::integer(2).pow(-1)", "Formula::integer(1)", MECHANICS,
+     "random_trees::energies_agree_with_velocities_and_heights"),
+    ("inertia about the centre of mass missing", f"{C}/mechanics/lagrangian.rs",
+     "sums.add(index, index, inertia);", "sums.add(index, index, Formula::zero());",
+     MECHANICS, BOTH_SOLVES),
+    ("friction against the ground instead of the parent", f"{C}/mechanics/lagrangian.rs",
+     "self.relative(index, velocities)", "Formula::symbol(velocities[index])",
+     MECHANICS, CARTESIAN),
+    ("sign of rest angles", f"{C}/mechanics/lagrangian.rs",
+     "&strain - &rest", "&strain + &rest", MECHANICS, CARTESIAN),
+    ("sign of lateral levers", f"{C}/mechanics/positions.rs",
+     "&(along * &sin) + &(across * &cos)", "&(along * &sin) - &(across * &cos)",
+     MECHANICS, CARTESIAN),
+    ("reaction of a joint on the parent", f"{C}/program/link/torques.rs",
+     "builder.add(torques[parent], torque)", "builder.sub(torques[parent], torque)",
+     MECHANICS, BOTH_SOLVES),
+    ("sign of the pivot's vertical acceleration", f"{C}/mechanics/drive.rs",
+     "work.push(-(&y * &upwards));", "work.push(&y * &upwards);", MECHANICS, DRIVEN),
+    ("derivative of the cosine in time", f"{C}/mechanics/drive.rs",
+     "-(&sin * &self.time_derivative(argument))", "(&sin * &self.time_derivative(argument))",
+     MECHANICS, DRIVEN),
+    ("sign in the Poisson bracket", f"{C}/mechanics/bracket.rs",
+     "[forward, -backward]", "[forward, backward]", MECHANICS,
+     "paper::energy_transfer_to_second_order_in_the_amplitude"),
+    ("weight of gravity in H_d", f"{C}/mechanics/transfer.rs",
+     "Formula::integer(2 * norm)", "Formula::integer(norm)", MECHANICS, "paper::sub_hamiltonian"),
+    ("signs of differences", f"{C}/scene/coordinates.rs",
+     "if copy < index { 1 } else { -(index as i64) }",
+     "if copy < index { -1 } else { index as i64 }", MECHANICS,
+     "symmetric::coordinates_of_a_pair_and_of_a_triple"),
+    ("order of children", f"{C}/scene/expand.rs",
+     "siblings.push(index);", "siblings.insert(0, index);", FRONT_END, "scenes::nested_copies"),
+    ("weights of sectors in products", f"{C}/program/symmetric/field.rs",
+     "Rational::from_ratio((index * (index + 1)) as i64, count as i64)",
+     "Rational::from_ratio((index * index) as i64, count as i64)", MECHANICS,
+     "sectors::energies::energies_by_parseval_sum_to_the_energy"),
+    ("weights of sectors in the potential", f"{C}/program/symmetric/potential.rs",
+     "self.series.mul(&half, &norm)", "half", MECHANICS,
+     "sectors::energies::energies_agree_with_dense_matrices"),
+    ("sign of a fused product", f"{C}/program/fuse.rs",
+     "minus_product: minus,", "minus_product: false,", MECHANICS, BOTH_SOLVES),
+    ("torque of a joint in loops", f"{C}/program/link/entries.rs",
+     "builder.add(slowed, bent)", "builder.sub(slowed, bent)", LINK, ""),
+    ("weights of the classical method", f"{R}/integrate/fixed/rk4.rs",
+     "step / T::from_f64(6.0)", "step / T::from_f64(6.000_001)", RUNTIME,
+     "order::the_classical_method_has_order_four"),
+    ("second half step of Störmer and Verlet", f"{R}/integrate/fixed/verlet.rs",
+     "self.stage[k] + half * self.end_rates[k]", "self.stage[k] + step * self.end_rates[k]",
+     RUNTIME, "verlet::order_two_and_an_energy_that_does_not_drift"),
+    ("a rising event that is hit exactly is missed", f"{R}/integrate/events.rs",
+     "left.value < T::ZERO && right.value >= T::ZERO",
+     "left.value < T::ZERO && right.value > T::ZERO", RUNTIME, "events::"),
+    ("falling events are missed", f"{R}/integrate/events.rs",
+     "left.value > T::ZERO && right.value <= T::ZERO", "false", RUNTIME, "events::directions"),
+    ("last states of a batch", f"{R}/batch/blocks.rs",
+     "let end = next.min(last) + R::LANES;", "let end = next + R::LANES;", LIBRARY, "batch"),
+    ("product rule", f"{R}/scalar/dual.rs", "a * y + x * b", "a * y - x * b", RUNTIME,
+     "variational::the_derivative_of_the_flow_is_that_of_differences"),
+    ("derivative of the cosine", f"{R}/scalar/dual.rs",
+     "self.chain(cosine, -sine)", "self.chain(cosine, sine)", RUNTIME,
+     "variational::the_derivative_of_the_flow_is_that_of_differences"),
+    ("rounding error of a sum", f"{R}/scalar/wide/mod.rs",
+     "(a - (sum - other)) + (b - other)", "b - other", LIBRARY, "scalar::wide::tests"),
+    ("compensation of steps", f"{R}/integrate/sum.rs",
+     "(a - (sum - part)) + (b - part)", "a - a", RUNTIME,
+     "accuracy::compensated_sums_lose_less"),
+    ("frequencies in radians", f"{R}/analysis/modes.rs",
+     "squared.sqrt() / TAU", "squared.sqrt()", RUNTIME,
+     "modes::the_paper_s_frequencies_to_seven_digits"),
+]
+
+CONSTANTS = [
+    ("a node of DOP853 in the 12th digit", f"{R}/integrate/explicit/dop853/tables.rs",
+     "0.526001519587677318785587544488e-01", "0.526001519588677318785587544488e-01",
+     LIBRARY, "dop853"),
+    ("a coefficient of Dormand and Prince", f"{R}/integrate/explicit/dopri5/tables.rs",
+     "-25360.0 / 2187.0", "-25360.0 / 2187.000_000_01", LIBRARY, "dopri5"),
+    ("a node of Verner's method in the 12th digit", f"{R}/integrate/explicit/verner98/tables.rs",
+     "0.5538640526394373", "0.5538640526404373", LIBRARY, "verner98"),
+    ("a node of Gauss in the 12th digit", f"{R}/integrate/fixed/gauss/tables.rs",
+     "nodes: &[0.2113248654051871,", "nodes: &[0.2113248654061871,", LIBRARY, "gauss::tables"),
+]
+
+SWITCH = """
+#[doc(hidden)]
+#[allow(missing_docs)]
+pub fn mutant(number: u32) -> bool {
+    extern crate std;
+    static CHOSEN: std::sync::OnceLock<u32> = std::sync::OnceLock::new();
+    *CHOSEN.get_or_init(|| {
+        let text = std::env::var("MUTANT").unwrap_or_default();
+        text.parse().unwrap_or(0)
+    }) == number
+}
+"""
+
+
+def source(root, file, text):
+    """The text of a file in which `text` stands once."""
+    content = (root / file).read_text()
+    if content.count(text) != 1:
+        sys.exit(f"{file}: `{text}` stands there {content.count(text)} times")
+    return content
+
+
+def switched(number, text, mutant):
+    """Either text, by the number that the environment gives."""
+    test = f"crate::mutant({number})"
+    if text.startswith("let "):
+        name, value = text.removesuffix(";").split(" = ", 1)
+        _, other = mutant.removesuffix(";").split(" = ", 1)
+        return f"{name} = if {test} {{ {other} }} else {{ {value} }};"
+    if text.endswith(","):
+        name, value = text.removesuffix(",").split(": ", 1)
+        _, other = mutant.removesuffix(",").split(": ", 1)
+        return f"{name}: if {test} {{ {other} }} else {{ {value} }},"
+    if text.endswith(";"):
+        return f"if {test} {{ {mutant} }} else {{ {text} }}"
+    return f"(if {test} {{ {mutant} }} else {{ {text} }})"
+
+
+def tested(copy, number, binary, test):
+    """True if the tests pass with this mutant."""
+    environment = dict(os.environ, MUTANT=str(number), BRANCHED_PENDULUM_CACHE="off")
+    command = ["cargo", "test", *binary, "--", test]
+    run = subprocess.run(command, cwd=copy, env=environment, capture_output=True, text=True)
+    if "error: could not compile" in run.stderr:
+        sys.exit(run.stderr)
+    if "running 0 tests" in run.stdout and "FAILED" not in run.stdout:
+        sys.exit(f"no test `{test}`")
+    return run.returncode == 0
+
+
+def run(copy, wanted):
+    chosen = [m for m in EXPRESSIONS if not wanted or m[0] in wanted]
+    constants = [m for m in CONSTANTS if not wanted or m[0] in wanted]
+    originals = {}
+    survivors = []
+    try:
+        for package in {m[1].split("/src")[0] for m in chosen}:
+            file = f"{package}/src/lib.rs"
+            originals[file] = (copy / file).read_text()
+            (copy / file).write_text(originals[file] + SWITCH)
+        for name, file, text, mutant, *_ in chosen:
+            content = source(copy, file, text)
+            originals.setdefault(file, content)
+            number = 1 + [m[0] for m in EXPRESSIONS].index(name)
+            (copy / file).write_text(content.replace(text, switched(number, text, mutant)))
+        for name, _, _, _, binary, test in chosen:
+            number = 1 + [m[0] for m in EXPRESSIONS].index(name)
+            survived = tested(copy, number, binary, test)
+            print("SURVIVED" if survived else "killed", name, flush=True)
+            survivors += [name] if survived else []
+    finally:
+        for file, content in originals.items():
+            (copy / file).write_text(content)
+    originals = {}
+    try:
+        for _, file, text, mutant, *_ in constants:
+            originals[file] = source(copy, file, text)
+            (copy / file).write_text(originals[file].replace(text, mutant))
+        for name, _, _, _, binary, test in constants:
+            survived = tested(copy, 0, binary, test)
+            print("SURVIVED" if survived else "killed", name, flush=True)
+            survivors += [name] if survived else []
+    finally:
+        for file, content in originals.items():
+            (copy / file).write_text(content)
+    sys.exit(f"{len(survivors)} survived" if survivors else 0)
+
+
+def main(arguments):
+    if arguments == ["--check"]:
+        for _, file, text, *_ in EXPRESSIONS + CONSTANTS:
+            source(ROOT, file, text)
+    elif arguments == ["--list"]:
+        for name, file, _, _, _, test in EXPRESSIONS + CONSTANTS:
+            print(f"| {name} | `{file}` | `{test or 'link'}` |")
+    elif arguments and not arguments[0].startswith("-"):
+        run(Path(arguments[0]), arguments[1:])
+    else:
+        sys.exit(__doc__)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
