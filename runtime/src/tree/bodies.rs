@@ -131,8 +131,8 @@ impl<T: Scalar> Bodies<T> {
         compiled::<FrictionPower, T>()(self, omega)
     }
 
-    /// Potential energy, J, zero where all angles are zero and springs at rest: Σ m g H
-    /// + m g d (1 − cos θ) + m g e sin θ + ½ κ (θ − θ_parent − ρ)², the height of a
+    /// Potential energy, J, zero where all angles are zero and springs at rest:
+    /// Σ m g H + m g d (1 − cos θ) + m g e sin θ + ½ κ (θ − θ_parent − ρ)², the height of a
     /// link's pivot H = H_parent + ℓ (1 − cos θ_parent) + w sin θ_parent. NaN for a
     /// slice of another length than there are links.
     #[must_use]

@@ -83,6 +83,7 @@ impl<W: Scalar> StepStages<W> {
     }
 
     /// Writes the solution at the fraction `s` of the step.
+    #[cfg(feature = "std")]
     #[inline(always)]
     pub(super) fn value<M: EmbeddedPair>(&self, s: W, out: &mut [W]) {
         let n = self.start.len();

@@ -140,6 +140,13 @@ impl<S: FixedStep<T, O>, T: Real, O: ?Sized> Steps<T, O> for GridSteps<S, T> {
                 time + goal.direction * self.length
             };
             check_number(step_limit, system.report, goal.steps_before)?;
+            // Times so late that a step is lost in their rounding.
+            if end_time == time {
+                return Err(Failure::StepTooSmall {
+                    step: made,
+                    shortest: lost,
+                });
+            }
             match self.method.make(system, time, goal.direction * made) {
                 Ok(()) => {}
                 // Rates that are not finite may be those of an iterate far off.

@@ -100,7 +100,7 @@ impl<M, I, T: Real> Projected<M, I, T> {
         grid: Grid<T>,
         start: &State<T>,
         steps: S,
-    ) -> Result<GridSteps<ProjectedStep<S, I, T>, T>, InputError<T>>
+    ) -> Result<ProjectedSteps<S, I, T>, InputError<T>>
     where
         I: Clone,
     {
@@ -130,7 +130,7 @@ impl<M, I, T: Real> Projected<M, I, T> {
 impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
     for Projected<Gauss<T>, I, T>
 {
-    type Steps = GridSteps<ProjectedStep<GaussStep<T>, I, T>, T>;
+    type Steps = ProjectedSteps<GaussStep<T>, I, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
         let steps = GaussStep::new(&self.method, &start.values);
@@ -141,13 +141,16 @@ impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
 impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
     for Projected<Rk4<T>, I, T>
 {
-    type Steps = GridSteps<ProjectedStep<Rk4Step<T>, I, T>, T>;
+    type Steps = ProjectedSteps<Rk4Step<T>, I, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
         let steps = Rk4Step::new(&start.values);
         self.projected(self.method.grid(), start, steps)
     }
 }
+
+/// Projected steps of a given length.
+type ProjectedSteps<S, I, T> = GridSteps<ProjectedStep<S, I, T>, T>;
 
 /// A method whose end of a step may be moved.
 #[allow(unreachable_pub)]
