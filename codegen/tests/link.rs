@@ -18,7 +18,8 @@ const RULE: &str = "gravity = 9.80665, tree: generations(count = 4, branching = 
 /// has its centre of mass beside its pivot.
 const BUSH: &str = "gravity = 9.80665, trunk(mass = 0.3, com = (0.1, 0.02), inertia = 2e-3, \
     joint = (0.3, 0.05), friction = 1e-3, drag = 2e-3, spring = 0.1) [ \
-        left(mass = 0.2, com = 0.07, inertia = 1e-3, joint = 0.2, friction = 3e-3, spring = 0.2) [ \
+        left(mass = 0.2, com = 0.07, inertia = 1e-3, joint = 0.2, friction = 3e-3, spring = 0.2, \
+        rest = -0.4) [ \
             tip: rod(mass = 0.05, length = 0.1, friction = 1e-3), \
             weight(mass = 0.04, com = (0, 0.03), inertia = 1e-4, drag = 1e-3) ], \
         right: rod(mass = 0.1, length = 0.25, spring = 0.05) ], \
@@ -257,7 +258,9 @@ struct Algebra<'s> {
 
 /// Symbols that stand for elements of arguments.
 fn stand_in(argument: Argument, index: usize) -> SymbolId {
-    SymbolId(10_000 + 100 * argument as u32 + index as u32)
+    let known = ARGUMENTS.iter().position(|known| *known == argument);
+    let number = known.expect("an argument of link functions");
+    SymbolId(10_000 + 100 * number as u32 + index as u32)
 }
 
 const ARGUMENTS: [Argument; 7] = [
@@ -335,9 +338,11 @@ impl Algebra<'_> {
                 Column::InverseInertia => &(unit * unit) / &inertia,
                 Column::Along => &ell * &inverse,
                 Column::Across => &w * &inverse,
-                Column::Friction | Column::Drag | Column::Spring | Column::DriveTorque => {
-                    self.s(SymbolId(20_000 + *column as u32))
-                }
+                Column::Friction
+                | Column::Drag
+                | Column::Spring
+                | Column::Rest
+                | Column::DriveTorque => self.s(SymbolId(20_000 + *column as u32)),
             };
             values.push((stand_in(Argument::Constants, index), value));
         }
@@ -358,7 +363,7 @@ impl Algebra<'_> {
         let joint = |index| self.s(stand_in(Argument::Motion, index));
         let terms = [
             self.s(s.torque),
-            &has(Column::Spring) * &joint(3),
+            &has(Column::Spring) * &(&joint(3) - &has(Column::Rest)),
             &has(Column::Friction) * &joint(4),
             &has(Column::Drag) * &self.s(s.omega),
             -has(Column::DriveTorque),

@@ -85,7 +85,7 @@ mod tests {
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
     use branched_pendulum::data::CsvError;
-    use branched_pendulum::integrate::IntegrationError;
+    use branched_pendulum::integrate::{IntegrationError, RunError};
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::OdeFn;
     use branched_pendulum_charts::ChartError;

@@ -149,6 +149,7 @@ impl Emission<'_> {
         let unused = entry.arguments.iter().filter(|a| !used(a) && !read(a));
         let unused = unused.map(|argument| ident(argument.name()));
         let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
+        let runtime = self.runtime();
         let calls = parts.parts.iter().map(|part| {
             let arguments = part.arguments.iter();
             let arguments = arguments.map(|argument| ident(argument.name()));
@@ -156,7 +157,7 @@ impl Emission<'_> {
                 let number = Literal::usize_unsuffixed(part.number);
                 let handed = arguments.map(|name| quote!(#name));
                 let handed = together(handed.chain([quote!(&mut #shared)]).collect());
-                quote!(T::outlined::<#number, _, _>(self, #handed);)
+                quote!(#runtime::emitted::outlined::<#number, T, _, _>(self, #handed);)
             } else {
                 let name = part.name(entry);
                 quote!(self.#name(#(#arguments,)* &mut #shared);)

@@ -64,7 +64,8 @@ impl Emission<'_> {
         }
         let lines = self.sunk_lines(entry, &needed, &written);
         let links = (0..self.scene.links.len()).map(Literal::usize_unsuffixed);
-        let turns = quote!(let turns = T::turns([#(theta(#links)),*]););
+        let runtime = self.runtime();
+        let turns = quote!(let turns = #runtime::emitted::Turns::among([#(theta(#links)),*]););
         if !written.long {
             let lines = lines.iter().map(|line| &line.tokens);
             return Some(quote!(#turns #(#lines)*));

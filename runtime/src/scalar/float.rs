@@ -4,15 +4,14 @@
 use super::Lanes;
 use super::kind::{ByKind, Compiled};
 use super::lanes::{Lane, Sealed};
-use super::{InstructionSet, Real, Scalar, sincos};
+use super::{Real, Scalar, sincos};
 #[cfg(target_arch = "x86_64")]
 use crate::simd as register;
-use crate::simd::{Kernel, PackKernel, StateKernel, dispatch, run_f64};
+use crate::simd::{PackKernel, StateKernel, dispatch, run_f32, run_f64};
 
 macro_rules! implement_scalar {
     ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
-     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident, $compiled:ident
-     $(, $packs:path)?) => {
+     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident, $compiled:ident, $packs:path) => {
         impl Scalar for $float {
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
@@ -43,29 +42,6 @@ macro_rules! implement_scalar {
             fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
                 question.of_plain()
             }
-
-            #[inline]
-            fn dispatch<K: Kernel<Self>>(kernel: K) -> K::Output {
-                dispatch::run_wide(InstructionSet::widest(), kernel)
-            }
-
-            #[inline(always)]
-            fn run_state<K: StateKernel<Self>>(
-                model: &K::Model,
-                time: Self,
-                theta: &[Self],
-                omega: &[Self],
-                out: &mut [Self],
-            ) -> bool {
-                dispatch::run_state::<Self, K>(model, time, theta, omega, out)
-            }
-
-            $(
-                #[inline(always)]
-                fn run_packs<K: PackKernel<Self>>(kernel: K) {
-                    $packs(kernel);
-                }
-            )?
         }
 
         impl Lane for $float {
@@ -88,6 +64,22 @@ macro_rules! implement_scalar {
             #[inline(always)]
             fn compiled<C: Compiled>() -> C::Function<Self> {
                 C::$compiled()
+            }
+
+            #[inline(always)]
+            fn run_state<K: StateKernel<Self>>(
+                model: &K::Model,
+                time: Self,
+                theta: &[Self],
+                omega: &[Self],
+                out: &mut [Self],
+            ) -> bool {
+                dispatch::run_state::<Self, K>(model, time, theta, omega, out)
+            }
+
+            #[inline(always)]
+            fn run_packs<K: PackKernel<Self>>(kernel: K) {
+                $packs(kernel);
             }
         }
 
@@ -146,7 +138,8 @@ implement_scalar!(
     F32x4,
     F32x8,
     F32x16,
-    of_f32
+    of_f32,
+    run_f32
 );
 
 #[cfg(test)]

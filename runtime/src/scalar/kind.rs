@@ -1,4 +1,4 @@
-//! What depends on the kind of a number: plain, a register, or any other.
+//! What depends on the kind of a number: plain, wide, or any other.
 
 // The traits appear in the interface of public ones, so that they must be `pub`, and
 // are named by no one else.
@@ -7,6 +7,7 @@
 use core::marker::PhantomData;
 
 use super::{Lane, Scalar};
+use crate::simd::Simd;
 
 /// A question that numbers of several kinds answer each in their own way. Numbers put
 /// it to [`Scalar::by_kind`].
@@ -22,6 +23,15 @@ pub trait ByKind<S: Scalar>: Sized {
     fn of_plain(self) -> Self::Output
     where
         S: Lane,
+    {
+        self.of_any()
+    }
+
+    /// Answers for a wide number of several plain ones, or for one that fuses.
+    #[inline(always)]
+    fn of_wide<T: Lane>(self) -> Self::Output
+    where
+        S: Simd<T>,
     {
         self.of_any()
     }

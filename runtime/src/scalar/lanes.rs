@@ -2,8 +2,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::kind::Compiled;
-use super::register::Register;
+use super::kind::{ByKind, Compiled};
+use super::register::{PackKernel, Register, StateKernel};
 use super::{Real, Scalar};
 
 /// A number that has lanes: `f64` or `f32`.
@@ -28,6 +28,20 @@ pub trait Sealed: Scalar {
 
     /// Returns a function that is compiled with this crate.
     fn compiled<C: Compiled>() -> C::Function<Self>;
+
+    /// Runs a computation on one state in fused arithmetic. Returns false, and does
+    /// nothing, where the machine has none.
+    fn run_state<K: StateKernel<Self>>(
+        model: &K::Model,
+        time: Self,
+        theta: &[Self],
+        omega: &[Self],
+        out: &mut [Self],
+    ) -> bool;
+
+    /// Runs a computation in packs of four numbers, with the vector instructions that
+    /// the machine has for them.
+    fn run_packs<K: PackKernel<Self>>(kernel: K);
 }
 
 /// `N` numbers that go through the same operations, each in its lane: one
@@ -102,7 +116,10 @@ impl<T: Lane, const N: usize> Neg for Lanes<T, N> {
 }
 
 impl<T: Lane, const N: usize> Scalar for Lanes<T, N> {
-    const SEVERAL: bool = true;
+    #[inline(always)]
+    fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
+        question.of_wide::<T>()
+    }
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {

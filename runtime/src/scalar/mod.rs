@@ -49,9 +49,9 @@ mod wide;
 
 pub use dual::Dual;
 pub use lanes::{Lane, Lanes};
+pub use turns::Turns;
 #[doc(hidden)]
 pub(crate) use turns::at;
-pub use turns::{Turned, Turns};
 pub use wide::Double;
 
 pub use crate::simd::InstructionSet;
@@ -63,7 +63,6 @@ pub(crate) use lanes::Sealed;
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-use crate::simd::{Kernel, PackKernel, Part, Quad, StateKernel};
 use kind::ByKind;
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
@@ -101,11 +100,6 @@ pub trait Scalar:
     + Sync
     + 'static
 {
-    /// Whether this is several numbers side by side: what computes with few numbers
-    /// need not put them side by side then.
-    #[doc(hidden)]
-    const SEVERAL: bool = false;
-
     /// The value of this type nearest to `value`; for lanes, the same value in
     /// each. Used for constants, and for them only.
     fn from_f64(value: f64) -> Self;
@@ -134,31 +128,6 @@ pub trait Scalar:
         (sines, cosines)
     }
 
-    /// Sines and cosines of angles that code asks for a few at a time, where it
-    /// needs them.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn turns<const N: usize>(angles: [Self; N]) -> Turns<Self, N> {
-        Turns::new(Self::sin_cos_ahead(&angles))
-    }
-
-    /// The sines and cosines of all angles, if they are computed at once. `None`
-    /// if they are computed when asked for, and may be by
-    /// [`sin_cos_near`](Self::sin_cos_near).
-    #[doc(hidden)]
-    #[inline(always)]
-    fn sin_cos_ahead<const N: usize>(angles: &[Self; N]) -> Option<Turned<Self, N>> {
-        Some(Self::sin_cos_each(angles))
-    }
-
-    /// [`sin_cos_each`](Self::sin_cos_each) of angles among those of which
-    /// [`sin_cos_ahead`](Self::sin_cos_ahead) gave `None`.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn sin_cos_near<const N: usize>(angles: &[Self; N]) -> Turned<Self, N> {
-        Self::sin_cos_each(angles)
-    }
-
     /// Square root.
     fn sqrt(self) -> Self;
 
@@ -167,14 +136,6 @@ pub trait Scalar:
     #[inline(always)]
     fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
         question.of_any()
-    }
-
-    /// Runs a computation with the widest registers of the machine that hold such
-    /// numbers; with plain numbers where there are none.
-    #[doc(hidden)]
-    #[inline]
-    fn dispatch<K: Kernel<Self>>(kernel: K) -> K::Output {
-        kernel.run::<Self>()
     }
 
     /// `self * factor + addend`, fused where the type says so: rounded once then,
@@ -187,37 +148,6 @@ pub trait Scalar:
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
         self * factor + addend
-    }
-
-    /// Computes a part of a long emitted function in a function of its own, which
-    /// is compiled for the instructions that the type stands for.
-    #[doc(hidden)]
-    #[inline(never)]
-    fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(model: &M, arguments: A) -> M::Output {
-        model.part(arguments)
-    }
-
-    /// Runs a computation on one state in fused arithmetic. Returns false, and does
-    /// nothing, where the type or the machine has none.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn run_state<K: StateKernel<Self>>(
-        model: &K::Model,
-        time: Self,
-        theta: &[Self],
-        omega: &[Self],
-        out: &mut [Self],
-    ) -> bool {
-        let _ = (model, time, theta, omega, out);
-        false
-    }
-
-    /// Runs a computation of Taylor coefficients in the vector instructions
-    /// that the machine has for this type.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn run_packs<K: PackKernel<Self>>(kernel: K) {
-        kernel.run::<Quad<Self>>();
     }
 }
 

@@ -3,7 +3,6 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Register;
-use super::part::Part;
 use crate::scalar::Scalar;
 
 /// `N` registers that go through one computation in step: while an operation on
@@ -52,8 +51,6 @@ impl<R: Register, const N: usize> Neg for Block<R, N> {
 }
 
 impl<R: Register, const N: usize> Scalar for Block<R, N> {
-    const SEVERAL: bool = true;
-
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self([R::from_f64(value); N])
@@ -93,10 +90,5 @@ impl<R: Register, const N: usize> Scalar for Block<R, N> {
             self.0[i] = self.0[i].sqrt();
         }
         self
-    }
-
-    #[inline(always)]
-    fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(model: &M, arguments: A) -> M::Output {
-        R::outlined(model, arguments)
     }
 }

@@ -23,7 +23,8 @@ use x86 as machine;
 
 use super::Register;
 use super::{Fused, Simd};
-use crate::scalar::{Lane, Sealed};
+use crate::scalar::kind::ByKind;
+use crate::scalar::{Lane, Scalar, Sealed};
 
 /// Vector instructions that a build can choose among at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -62,7 +63,7 @@ impl fmt::Display for InstructionSet {
 
 /// A computation that is compiled for several instruction sets. What it calls
 /// profits only as far as it is inlined: write `#[inline(always)]`.
-pub(crate) trait Kernel {
+pub trait Routine {
     /// What it returns.
     type Output;
 
@@ -73,13 +74,13 @@ pub(crate) trait Kernel {
 /// Runs `kernel` with the instructions of `set`, or with the widest that the
 /// machine has, if these are narrower.
 #[cfg(test)]
-pub(crate) fn run<K: Kernel>(set: InstructionSet, kernel: K) -> K::Output {
+pub(crate) fn run<K: Routine>(set: InstructionSet, kernel: K) -> K::Output {
     machine::run(set.min(InstructionSet::widest()), kernel)
 }
 
 /// Runs `kernel` with the widest instructions of the machine.
 #[inline(always)]
-pub(crate) fn run_widest<K: Kernel>(kernel: K) -> K::Output {
+pub(crate) fn run_widest<K: Routine>(kernel: K) -> K::Output {
     machine::run(InstructionSet::widest(), kernel)
 }
 
@@ -89,7 +90,7 @@ pub(crate) fn run_widest<K: Kernel>(kernel: K) -> K::Output {
 /// # Errors
 /// Gives the kernel back if the machine has none.
 #[cfg(test)]
-pub(crate) fn run_fused<K: Kernel>(kernel: K) -> Result<K::Output, K> {
+pub(crate) fn run_fused<K: Routine>(kernel: K) -> Result<K::Output, K> {
     match InstructionSet::widest() {
         InstructionSet::Build => Err(kernel),
         set => Ok(machine::run(set, kernel)),
@@ -116,6 +117,51 @@ pub trait StateKernel<T> {
     fn run<V: Simd<T>>(model: &Self::Model, time: T, theta: &[T], omega: &[T], out: &mut [T]);
 }
 
+/// Computes one state of the model in fused arithmetic. False, and nothing done, where
+/// the type or the machine has none.
+#[inline(always)]
+pub(crate) fn in_fused<T: Scalar, K: StateKernel<T>>(
+    model: &K::Model,
+    time: T,
+    theta: &[T],
+    omega: &[T],
+    out: &mut [T],
+) -> bool {
+    T::by_kind(InFused::<'_, K, T> {
+        model,
+        time,
+        theta,
+        omega,
+        out,
+    })
+}
+
+/// Asks for fused arithmetic.
+struct InFused<'a, K: StateKernel<T>, T> {
+    model: &'a K::Model,
+    time: T,
+    theta: &'a [T],
+    omega: &'a [T],
+    out: &'a mut [T],
+}
+
+impl<S: Scalar, K: StateKernel<S>> ByKind<S> for InFused<'_, K, S> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn of_any(self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn of_plain(self) -> bool
+    where
+        S: Lane,
+    {
+        S::run_state::<K>(self.model, self.time, self.theta, self.omega, self.out)
+    }
+}
+
 /// Runs `K` with the widest instructions that fuse: 512 bits have twice as many
 /// registers, which plain numbers gain by too. False, and nothing done, if the machine has
 /// none that do, or if a slice has another length.
@@ -136,14 +182,14 @@ where
 /// Runs `kernel` in a function of its own with AVX2 and FMA. For types that exist
 /// where the machine has them, and for their methods alone.
 #[inline(always)]
-pub(crate) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
+pub(crate) fn outlined_avx2<K: Routine>(kernel: K) -> K::Output {
     machine::outlined_avx2(kernel)
 }
 
 /// The same with AVX-512.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub(crate) fn outlined_avx512<K: Kernel>(kernel: K) -> K::Output {
+pub(crate) fn outlined_avx512<K: Routine>(kernel: K) -> K::Output {
     machine::outlined_avx512(kernel)
 }
 
@@ -169,12 +215,39 @@ pub(crate) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
 /// A kernel whose registers are chosen.
 struct Chosen<K, R>(K, core::marker::PhantomData<R>);
 
-impl<K: RegisterKernel<R::Lane>, R: Register> Kernel for Chosen<K, R> {
+impl<K: RegisterKernel<R::Lane>, R: Register> Routine for Chosen<K, R> {
     type Output = K::Output;
 
     #[inline(always)]
     fn run(self) -> K::Output {
         self.0.run::<R>()
+    }
+}
+
+/// Runs `kernel` with the widest numbers of the machine that are made of `T`.
+#[inline(always)]
+pub(crate) fn in_widest<T: Scalar, K: super::Kernel<T>>(kernel: K) -> K::Output {
+    T::by_kind(InWidest(kernel))
+}
+
+/// Asks for the widest numbers.
+struct InWidest<K>(K);
+
+impl<S: Scalar, K: super::Kernel<S>> ByKind<S> for InWidest<K> {
+    type Output = K::Output;
+
+    #[inline(always)]
+    fn of_any(self) -> K::Output {
+        self.0.run::<S>()
+    }
+
+    // Not everywhere where it is asked for.
+    #[inline]
+    fn of_plain(self) -> K::Output
+    where
+        S: Lane,
+    {
+        run_wide(InstructionSet::widest(), self.0)
     }
 }
 

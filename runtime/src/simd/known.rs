@@ -2,7 +2,6 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::part::Part;
 use crate::scalar::Scalar;
 
 /// A number, which may bring its sine and cosine along: code written for any number
@@ -63,8 +62,6 @@ impl<S: Scalar> Neg for Known<S> {
 }
 
 impl<S: Scalar> Scalar for Known<S> {
-    const SEVERAL: bool = S::SEVERAL;
-
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         Self::number(S::from_f64(value))
@@ -92,10 +89,5 @@ impl<S: Scalar> Scalar for Known<S> {
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
         Self::number(self.number.mul_add(factor.number, addend.number))
-    }
-
-    #[inline(always)]
-    fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(model: &M, arguments: A) -> M::Output {
-        S::outlined(model, arguments)
     }
 }

@@ -26,8 +26,8 @@ pub(crate) use block::Block;
 pub use dispatch::{InstructionSet, StateKernel};
 pub(crate) use known::Known;
 pub use one::Fused;
-pub use part::Part;
-pub(crate) use quad::{OneLink, run_f64, two_sum};
+pub use part::{Part, outlined};
+pub(crate) use quad::{OneLink, run_f32, run_f64, run_packs, two_sum};
 pub use quad::{Pack, PackKernel, Quad};
 #[cfg(target_arch = "x86_64")]
 pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
@@ -86,6 +86,27 @@ pub trait Simd<T>: Scalar {
     fn larger_size(self, other: Self) -> Self
     where
         T: Real;
+
+    /// Returns sines and cosines of all angles, if they are computed at once; none if
+    /// they are computed when asked for, by [`sin_cos_near`](Self::sin_cos_near).
+    #[inline(always)]
+    fn sin_cos_ahead<const N: usize>(angles: &[Self; N]) -> Option<([Self; N], [Self; N])> {
+        Some(Self::sin_cos_each(angles))
+    }
+
+    /// Returns sines and cosines of angles among those of which
+    /// [`sin_cos_ahead`](Self::sin_cos_ahead) gave none.
+    #[inline(always)]
+    fn sin_cos_near<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
+        Self::sin_cos_each(angles)
+    }
+
+    /// Runs `kernel` in a function of its own, which is compiled for the instructions
+    /// that the number stands for.
+    #[inline(never)]
+    fn in_own_function<K: dispatch::Routine>(kernel: K) -> K::Output {
+        kernel.run()
+    }
 
     /// Returns sines and cosines of `M` blocks: the same values as
     /// [`Scalar::sin_cos_each`].

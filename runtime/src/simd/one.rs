@@ -4,9 +4,9 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::part::{Part, PartOf};
 use super::{Register, Simd, dispatch};
 use crate::scalar::Scalar;
+use crate::scalar::kind::ByKind;
 use crate::scalar::sincos::fused;
 
 /// A plain number whose [`Scalar::mul_add`] is fused: what a lane of the wide
@@ -64,11 +64,8 @@ macro_rules! fused {
             }
 
             #[inline(always)]
-            fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(
-                model: &M,
-                arguments: A,
-            ) -> M::Output {
-                dispatch::outlined_avx2(PartOf { model, arguments })
+            fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
+                question.of_wide::<$float>()
             }
         }
 
@@ -82,6 +79,11 @@ macro_rules! fused {
             type Chunk = $float;
 
             const LANES: usize = 1;
+
+            #[inline(always)]
+            fn in_own_function<K: dispatch::Routine>(kernel: K) -> K::Output {
+                dispatch::outlined_avx2(kernel)
+            }
 
             #[inline(always)]
             fn mask(meant: impl Fn(usize) -> bool) -> bool {

@@ -1,6 +1,9 @@
-//! Parts of emitted functions that are too long to be one.
+//! Parts of functions that are too long to be one.
 
-use super::dispatch::Kernel;
+use super::Simd;
+use super::dispatch::Routine;
+use crate::scalar::kind::ByKind;
+use crate::scalar::{Lane, Scalar};
 
 /// A part of an emitted function that is too long to be one.
 #[doc(hidden)]
@@ -12,13 +15,46 @@ pub trait Part<const NUMBER: usize, A> {
     fn part(&self, arguments: A) -> Self::Output;
 }
 
-/// A [`Part`] with what it gets.
-pub(crate) struct PartOf<'a, const NUMBER: usize, M, A> {
-    pub(crate) model: &'a M,
-    pub(crate) arguments: A,
+/// Computes a part in a function of its own, which is compiled for the instructions
+/// that the number `S` stands for.
+#[doc(hidden)]
+#[inline(always)]
+pub fn outlined<const NUMBER: usize, S, A, M>(model: &M, arguments: A) -> M::Output
+where
+    S: Scalar,
+    M: Part<NUMBER, A>,
+{
+    S::by_kind(PartOf { model, arguments })
 }
 
-impl<const NUMBER: usize, A, M: Part<NUMBER, A>> Kernel for PartOf<'_, NUMBER, M, A> {
+/// A [`Part`] with what it gets.
+struct PartOf<'a, const NUMBER: usize, M, A> {
+    model: &'a M,
+    arguments: A,
+}
+
+impl<S, const NUMBER: usize, A, M> ByKind<S> for PartOf<'_, NUMBER, M, A>
+where
+    S: Scalar,
+    M: Part<NUMBER, A>,
+{
+    type Output = M::Output;
+
+    #[inline(never)]
+    fn of_any(self) -> M::Output {
+        self.model.part(self.arguments)
+    }
+
+    #[inline(always)]
+    fn of_wide<T: Lane>(self) -> M::Output
+    where
+        S: Simd<T>,
+    {
+        S::in_own_function(self)
+    }
+}
+
+impl<const NUMBER: usize, A, M: Part<NUMBER, A>> Routine for PartOf<'_, NUMBER, M, A> {
     type Output = M::Output;
 
     #[inline(always)]

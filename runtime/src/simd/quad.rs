@@ -1,6 +1,7 @@
 //! Four numbers side by side: what the recurrences work on.
 
-use crate::scalar::Scalar;
+use crate::scalar::kind::ByKind;
+use crate::scalar::{Lane, Scalar};
 
 /// Four numbers side by side in memory, aligned as vector instructions like it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -197,6 +198,38 @@ pub(crate) fn two_sum<T, P: Pack<T>>(a: P, b: P) -> (P, P) {
 #[inline(always)]
 pub(crate) fn run_f64<K: PackKernel<f64>>(kernel: K) {
     machine::run(kernel);
+}
+
+/// Runs `kernel` in packs of plain numbers: there are no others for `f32`.
+#[inline(always)]
+pub(crate) fn run_f32<K: PackKernel<f32>>(kernel: K) {
+    kernel.run::<Quad<f32>>();
+}
+
+/// Runs `kernel` with the vector instructions that the machine has for such numbers.
+#[inline(always)]
+pub(crate) fn run_packs<T: Scalar, K: PackKernel<T>>(kernel: K) {
+    T::by_kind(InPacks(kernel));
+}
+
+/// Asks for packs.
+struct InPacks<K>(K);
+
+impl<S: Scalar, K: PackKernel<S>> ByKind<S> for InPacks<K> {
+    type Output = ();
+
+    #[inline(always)]
+    fn of_any(self) {
+        self.0.run::<Quad<S>>();
+    }
+
+    #[inline(always)]
+    fn of_plain(self)
+    where
+        S: Lane,
+    {
+        S::run_packs(self.0);
+    }
 }
 
 /// A computation in packs.

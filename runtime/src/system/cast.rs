@@ -3,6 +3,7 @@
 use core::marker::PhantomData;
 
 use crate::scalar::{Scalar, at};
+use crate::simd::dispatch::in_fused;
 use crate::simd::{Register, Simd, StateKernel};
 
 use super::{Ode, Pendulum};
@@ -105,7 +106,7 @@ pub trait Cast<T: Scalar>: Pendulum<T> {
         Self: Sized,
     {
         if fit::<T, Self>(theta, omega, alpha)
-            && !T::run_state::<OneState<Self>>(self, time, theta, omega, alpha)
+            && !in_fused::<T, OneState<Self>>(self, time, theta, omega, alpha)
         {
             unfused(self, time, theta, omega, alpha);
         }

@@ -19,10 +19,13 @@
 use super::bias::{Bias, ConstantBias, MovingBias};
 use super::dense::Matrices;
 use super::elimination::TaylorElimination;
+use super::linear::LinearSystem;
 use super::orders::Orders;
-use super::series::SERIES;
-use crate::scalar::Scalar;
-use crate::simd::{OneLink, Quad};
+use super::series::{Row, SERIES};
+use crate::scalar::kind::ByKind;
+use crate::scalar::{Lane, Scalar};
+use crate::simd::{OneLink, Quad, Simd, run_packs};
+use core::marker::PhantomData;
 
 /// Says which link of a tree hangs on which.
 pub trait Connectivity<const N: usize> {
@@ -174,30 +177,68 @@ fn run<T: Scalar, C: Connectivity<N>, B: Bias<T, N>, const N: usize, const Q: us
 ) {
     let (vectors, _) = work.as_chunks_mut::<Q>();
     let (rows, _) = vectors.as_chunks_mut::<SERIES>();
-    if T::SEVERAL {
-        type Lanes<'a, T, C, B, const N: usize, const Q: usize> =
-            Orders<'a, T, C, B, TaylorElimination<T, Q>, N, Q, N>;
-        Lanes::<T, C, B, N, Q>::new(start, constants, coefficients, rows, bias)
-            .form::<OneLink<T>>();
-    } else if N <= MATRICES {
-        type Small<'a, T, C, B, const N: usize, const Q: usize> =
-            Orders<'a, T, C, B, Matrices<T, N, Q>, N, Q, Q>;
-        T::run_packs(Small::<T, C, B, N, Q>::new(
-            start,
-            constants,
-            coefficients,
-            rows,
-            bias,
-        ));
-    } else {
-        type Large<'a, T, C, B, const N: usize, const Q: usize> =
-            Orders<'a, T, C, B, TaylorElimination<T, Q>, N, Q, Q>;
-        T::run_packs(Large::<T, C, B, N, Q>::new(
-            start,
-            constants,
-            coefficients,
-            rows,
-            bias,
-        ));
+    T::by_kind(OrdersOf::<'_, '_, T, C, B, N, Q> {
+        start,
+        constants,
+        coefficients,
+        rows,
+        bias,
+        connectivity: PhantomData,
+    });
+}
+
+/// Asks for the orders.
+struct OrdersOf<'a, 's, T, C, B, const N: usize, const Q: usize> {
+    start: &'a Start<'s, T, N>,
+    constants: &'a LinkConstants<T, N>,
+    coefficients: &'a mut [[[T; N]; 2]],
+    rows: &'a mut [Row<T, Q>],
+    bias: B,
+    connectivity: PhantomData<C>,
+}
+
+impl<'a, T, C, B, const N: usize, const Q: usize> OrdersOf<'a, '_, T, C, B, N, Q>
+where
+    T: Scalar,
+    C: Connectivity<N>,
+    B: Bias<T, N>,
+{
+    /// Solved by `L`, in `M` packs.
+    #[inline(always)]
+    fn by<L: LinearSystem<T, N>, const M: usize>(self) -> Orders<'a, T, C, B, L, N, Q, M> {
+        Orders::new(
+            self.start,
+            self.constants,
+            self.coefficients,
+            self.rows,
+            self.bias,
+        )
+    }
+}
+
+impl<T, C, B, const N: usize, const Q: usize> ByKind<T> for OrdersOf<'_, '_, T, C, B, N, Q>
+where
+    T: Scalar,
+    C: Connectivity<N>,
+    B: Bias<T, N>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn of_any(self) {
+        if N <= MATRICES {
+            run_packs::<T, _>(self.by::<Matrices<T, N, Q>, Q>());
+        } else {
+            run_packs::<T, _>(self.by::<TaylorElimination<T, Q>, Q>());
+        }
+    }
+
+    #[inline(always)]
+    fn of_wide<L: Lane>(self)
+    where
+        T: Simd<L>,
+    {
+        self.by::<TaylorElimination<T, Q>, N>()
+            .form::<OneLink<T>, true>();
     }
 }

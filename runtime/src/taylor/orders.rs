@@ -47,7 +47,7 @@ where
 {
     #[inline(always)]
     fn run<P: Pack<T>>(self) {
-        self.form::<P>();
+        self.form::<P, false>();
     }
 }
 
@@ -76,13 +76,13 @@ where
         }
     }
 
-    /// Forms them, in M packs. No closure takes part but the caller's: what is not
+    /// Forms them, in M packs, of numbers that are `SEVERAL` states or one. No closure takes part but the caller's: what is not
     /// inlined is compiled without the registers. For the same reason the bias is
     /// asked for in one place.
     // One index into all vectors at once.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    pub(super) fn form<P: Pack<T>>(self) {
+    pub(super) fn form<P: Pack<T>, const SEVERAL: bool>(self) {
         let Self {
             start,
             constants,
@@ -133,7 +133,7 @@ where
 
             // X and C as far as they do not depend on S[k−1] and α[k−1]: there
             // was time for them while these were formed.
-            if !T::SEVERAL {
+            if !SEVERAL {
                 for m in 0..M {
                     sums[m] = SeriesSums::of(&lower[1..], m);
                 }

@@ -14,6 +14,7 @@ use super::shared::Shared;
 use super::skeleton::Skeleton;
 use super::sweep::{Sweep, View, Way};
 use crate::scalar::Scalar;
+use crate::simd::dispatch::in_widest;
 use crate::system::Workspace;
 
 /// The equations of one tree, taken through a block: compiled with every model.
@@ -57,7 +58,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             below.load_responses(sweep);
         }
         let ends = sweep.block.ends;
-        T::dispatch(Motions {
+        in_widest::<T, _>(Motions {
             sweep: &mut *sweep,
             theta: self.theta,
             omega: self.omega,

@@ -20,7 +20,7 @@ use crate::integrate::options::Options;
 use crate::scalar::at;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
-use crate::simd::Part;
+use crate::simd::{Part, outlined};
 use crate::system::cast::put;
 use crate::system::{Cast, State};
 
@@ -115,7 +115,7 @@ impl<P: Cast<R::Lane>, R: Register> RightHandSide<R> for Pendulums<P, R> {
         state: &[R],
         rates: &mut [R],
     ) -> Result<(), Infallible> {
-        R::outlined::<0, _, _>(&self.models, (time, state, &mut *rates));
+        outlined::<0, R, _, _>(&self.models, (time, state, &mut *rates));
         let before = if stage > 2 {
             self.checks[stage - 2]
         } else {

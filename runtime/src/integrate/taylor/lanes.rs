@@ -18,8 +18,7 @@ use crate::integrate::options::Options;
 use crate::integrate::sum::two_sum;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
-use crate::simd::Part;
-use crate::simd::Quad;
+use crate::simd::{Part, Quad, outlined};
 use crate::system::{Cast, State, TaylorPendulum};
 
 impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
@@ -193,7 +192,7 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> LaneSteps<R> for TaylorInLanes<'_,
 
     #[inline(always)]
     fn prepare(&mut self, runs: &mut Runs<R::Lane>, _fresh: &Flags) {
-        R::outlined::<0, _, _>(
+        outlined::<0, R, _, _>(
             &self.models,
             (
                 register(&runs.time),

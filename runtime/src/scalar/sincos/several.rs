@@ -6,7 +6,7 @@
 //! same place: angles are therefore read where they lie, never gathered first.
 
 use super::{sin_cos_f32, sin_cos_f64};
-use crate::simd::dispatch::{Kernel, run_widest};
+use crate::simd::dispatch::{Routine, run_widest};
 
 /// Sines and cosines of `N` angles.
 #[inline(always)]
@@ -34,7 +34,7 @@ struct Many<'a, T, const N: usize>(&'a [T; N]);
 
 macro_rules! eight_at_a_time {
     ($float:ident, $sin_cos:ident) => {
-        impl<const N: usize> Kernel for Many<'_, $float, N> {
+        impl<const N: usize> Routine for Many<'_, $float, N> {
             type Output = ([$float; N], [$float; N]);
 
             /// Where blocks of eight do not divide, the last one overlaps the

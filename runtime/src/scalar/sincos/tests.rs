@@ -2,7 +2,7 @@ use core::array::from_fn;
 use std::vec::Vec;
 
 use super::{sin_cos_f32, sin_cos_f64};
-use crate::scalar::dispatch::{Kernel, RegisterKernel, run, run_fused, run_in_registers};
+use crate::scalar::dispatch::{RegisterKernel, Routine, run, run_fused, run_in_registers};
 use crate::scalar::reference::{Reference, Signed, angles, parts};
 use crate::scalar::register::{Fused, Register};
 use crate::scalar::{InstructionSet, Lane, Lanes, Scalar};
@@ -55,7 +55,7 @@ fn f32_is_nearly_always_rounded_correctly() {
 /// Angles of one state and of lanes in fused arithmetic.
 struct InFused<T, const N: usize>([T; N]);
 
-impl<T: Lane, const N: usize> Kernel for InFused<T, N>
+impl<T: Lane, const N: usize> Routine for InFused<T, N>
 where
     Fused<T>: Scalar,
 {
@@ -307,7 +307,7 @@ fn the_functions_are_odd_and_even() {
 
 struct InLanes<const N: usize>([f64; N]);
 
-impl<const N: usize> Kernel for InLanes<N> {
+impl<const N: usize> Routine for InLanes<N> {
     type Output = (Lanes<f64, N>, Lanes<f64, N>);
 
     #[inline(always)]

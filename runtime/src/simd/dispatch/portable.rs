@@ -2,8 +2,8 @@
 
 use core::marker::PhantomData;
 
-use super::super::{Fused, Kernel as WideKernel, Simd};
-use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel, Wide};
+use super::super::{Fused, Kernel, Simd};
+use super::{Chosen, InstructionSet, RegisterKernel, Routine, Sealed, StateKernel, Wide};
 use crate::scalar::Lane;
 
 #[inline(always)]
@@ -12,7 +12,7 @@ pub(super) fn widest() -> InstructionSet {
 }
 
 #[inline(always)]
-pub(super) fn run<K: Kernel>(_set: InstructionSet, kernel: K) -> K::Output {
+pub(super) fn run<K: Routine>(_set: InstructionSet, kernel: K) -> K::Output {
     kernel.run()
 }
 
@@ -39,17 +39,17 @@ pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
 }
 
 #[inline(always)]
-pub(super) fn run_wide<T: Lane, K: WideKernel<T>>(_set: InstructionSet, kernel: K) -> K::Output {
+pub(super) fn run_wide<T: Lane, K: Kernel<T>>(_set: InstructionSet, kernel: K) -> K::Output {
     Chosen::<Wide<K>, T::Build>(Wide(kernel), PhantomData).run()
 }
 
 #[inline(always)]
-pub(super) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
+pub(super) fn outlined_avx2<K: Routine>(kernel: K) -> K::Output {
     kernel.run()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub(super) fn outlined_avx512<K: Kernel>(kernel: K) -> K::Output {
+pub(super) fn outlined_avx512<K: Routine>(kernel: K) -> K::Output {
     kernel.run()
 }

@@ -6,8 +6,8 @@ use core::marker::PhantomData;
 use core::slice;
 use core::sync::atomic::{AtomicU8, Ordering};
 
-use super::super::{Fused, Kernel as WideKernel, Simd};
-use super::{Chosen, InstructionSet, Kernel, RegisterKernel, Sealed, StateKernel, Wide};
+use super::super::{Fused, Kernel, Simd};
+use super::{Chosen, InstructionSet, RegisterKernel, Routine, Sealed, StateKernel, Wide};
 use crate::scalar::Lane;
 
 /// 0 before the first question, then 1 + the answer.
@@ -53,7 +53,7 @@ fn has_avx512() -> bool {
 /// `set` must have come from `widest`, or be narrower: this module is
 /// private, and the two functions above see to it.
 #[inline(always)]
-pub(super) fn run<K: Kernel>(set: InstructionSet, kernel: K) -> K::Output {
+pub(super) fn run<K: Routine>(set: InstructionSet, kernel: K) -> K::Output {
     match set {
         InstructionSet::Build => build(kernel),
         // SAFETY: the call is sound on machines that have the features
@@ -158,7 +158,7 @@ unsafe fn state<T, K: StateKernel<T>>(
 }
 
 #[inline(always)]
-pub(super) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
+pub(super) fn outlined_avx2<K: Routine>(kernel: K) -> K::Output {
     // SAFETY: asked for by types that exist in computations alone which
     // `run_state` or `run_in_registers` has started, where the machine has
     // these instructions.
@@ -166,7 +166,7 @@ pub(super) fn outlined_avx2<K: Kernel>(kernel: K) -> K::Output {
 }
 
 #[inline(always)]
-pub(super) fn outlined_avx512<K: Kernel>(kernel: K) -> K::Output {
+pub(super) fn outlined_avx512<K: Routine>(kernel: K) -> K::Output {
     // SAFETY: likewise.
     unsafe { avx512(kernel) }
 }
@@ -187,7 +187,7 @@ pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
 }
 
 #[inline(always)]
-pub(super) fn run_wide<T: Lane, K: WideKernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
+pub(super) fn run_wide<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
     match set {
         InstructionSet::Build => one_by_one(kernel),
         // SAFETY: `set` is no wider than what `widest` has found.
@@ -201,21 +201,21 @@ pub(super) fn run_wide<T: Lane, K: WideKernel<T>>(set: InstructionSet, kernel: K
 
 /// In single numbers.
 #[inline(never)]
-fn one_by_one<T: Lane, K: WideKernel<T>>(kernel: K) -> K::Output {
+fn one_by_one<T: Lane, K: Kernel<T>>(kernel: K) -> K::Output {
     kernel.run::<T>()
 }
 
 #[inline(never)]
-fn build<K: Kernel>(kernel: K) -> K::Output {
+fn build<K: Routine>(kernel: K) -> K::Output {
     kernel.run()
 }
 
 #[target_feature(enable = "avx2,fma")]
-fn avx2<K: Kernel>(kernel: K) -> K::Output {
+fn avx2<K: Routine>(kernel: K) -> K::Output {
     kernel.run()
 }
 
 #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
-fn avx512<K: Kernel>(kernel: K) -> K::Output {
+fn avx512<K: Routine>(kernel: K) -> K::Output {
     kernel.run()
 }

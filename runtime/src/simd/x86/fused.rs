@@ -3,19 +3,17 @@
 
 use core::arch::x86_64::*;
 
-use super::super::part::{Part, PartOf};
-use super::super::{Simd, dispatch};
+use super::super::Simd;
 use super::{F32x8, F32x16, F64x4, F64x8};
+use crate::scalar::Scalar;
+use crate::scalar::kind::ByKind;
 use crate::scalar::sincos::{double, fused};
-use crate::scalar::{Scalar, Turned};
 
 // SAFETY, for all calls of instructions: see the file above.
 
 macro_rules! fused {
-    ($name:ident: $lane:ident, $fused:ident, $outlined:ident) => {
+    ($name:ident: $lane:ident, $fused:ident) => {
         impl Scalar for $name {
-            const SEVERAL: bool = true;
-
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
                 <Self as Simd<$lane>>::splat(<$lane as Scalar>::from_f64(value))
@@ -39,35 +37,22 @@ macro_rules! fused {
             }
 
             #[inline(always)]
-            fn sin_cos_ahead<const N: usize>(angles: &[Self; N]) -> Option<Turned<Self, N>> {
-                fused::ahead(angles)
-            }
-
-            #[inline(always)]
-            fn sin_cos_near<const N: usize>(angles: &[Self; N]) -> Turned<Self, N> {
-                fused::near(angles)
-            }
-
-            #[inline(always)]
             fn sqrt(self) -> Self {
                 self.root()
             }
 
             #[inline(always)]
-            fn outlined<const NUMBER: usize, A, M: Part<NUMBER, A>>(
-                model: &M,
-                arguments: A,
-            ) -> M::Output {
-                dispatch::$outlined(PartOf { model, arguments })
+            fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
+                question.of_wide::<$lane>()
             }
         }
     };
 }
 
-fused!(F64x4: f64, _mm256_fmadd_pd, outlined_avx2);
-fused!(F32x8: f32, _mm256_fmadd_ps, outlined_avx2);
-fused!(F64x8: f64, _mm512_fmadd_pd, outlined_avx512);
-fused!(F32x16: f32, _mm512_fmadd_ps, outlined_avx512);
+fused!(F64x4: f64, _mm256_fmadd_pd);
+fused!(F32x8: f32, _mm256_fmadd_ps);
+fused!(F64x8: f64, _mm512_fmadd_pd);
+fused!(F32x16: f32, _mm512_fmadd_ps);
 
 /// For plain numbers, which do not fuse.
 impl double::Pack for F64x4 {

@@ -14,7 +14,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use core::slice::from_raw_parts_mut;
 
 use super::permutation::{first_lanes, rotated, tiled};
-use super::{Fused, Register, Simd};
+use super::{Fused, Register, Simd, dispatch};
+use crate::scalar::sincos::fused as fused_sines;
 use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, words_of_sse2};
 
 // SAFETY, for all calls of instructions here and in the two files: those of SSE2 belong to every
@@ -24,11 +25,27 @@ use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, 
 // types hold so many numbers of that size, in order and without padding, which
 // makes the transmutations right.
 
-/// Whether sines are computed ahead; without a word, as by default.
+/// Sines that are computed ahead or late, and functions of one's own, for registers that
+/// fuse; as by default for others.
 macro_rules! ahead {
     () => {};
-    (fused) => {
+    ($own:ident) => {
         const AHEAD: bool = true;
+
+        #[inline(always)]
+        fn sin_cos_ahead<const N: usize>(angles: &[Self; N]) -> Option<([Self; N], [Self; N])> {
+            fused_sines::ahead(angles)
+        }
+
+        #[inline(always)]
+        fn sin_cos_near<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
+            fused_sines::near(angles)
+        }
+
+        #[inline(always)]
+        fn in_own_function<K: dispatch::Routine>(kernel: K) -> K::Output {
+            dispatch::$own(kernel)
+        }
     };
 }
 
@@ -59,7 +76,7 @@ macro_rules! register {
         $name:ident: $vector:ident = $lanes:literal of $lane:ident, one: $one:ty,
         $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident,
         $and:ident, $andnot:ident, $or:ident, larger: $larger:ident,
-        words: $words:ident = $count:literal, some: $some:ident $(, sines: $sines:ident)?
+        words: $words:ident = $count:literal, some: $some:ident $(, fused: $own:ident)?
     ) => {
         $(#[$docs])*
         #[derive(Clone, Copy, Debug)]
@@ -126,7 +143,7 @@ macro_rules! register {
 
             const LANES: usize = $lanes;
 
-            ahead!($($sines)?);
+            ahead!($($own)?);
 
             #[inline(always)]
             fn mask(meant: impl Fn(usize) -> bool) -> Self {
@@ -272,7 +289,7 @@ register! {
     F64x4: __m256d = 4 of f64, one: Fused<f64>,
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
     _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd, larger: _mm256_max_pd,
-    words: words_of_avx2 = 8, some: one_by_one, sines: fused
+    words: words_of_avx2 = 8, some: one_by_one, fused: outlined_avx2
 }
 
 register! {
@@ -280,7 +297,7 @@ register! {
     F32x8: __m256 = 8 of f32, one: Fused<f32>,
     _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps,
     _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps, larger: _mm256_max_ps,
-    words: words_of_avx2 = 8, some: one_by_one, sines: fused
+    words: words_of_avx2 = 8, some: one_by_one, fused: outlined_avx2
 }
 
 register! {
@@ -288,7 +305,7 @@ register! {
     F64x8: __m512d = 8 of f64, one: Fused<f64>,
     _mm512_set1_pd, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd, _mm512_div_pd, _mm512_sqrt_pd,
     _mm512_and_pd, _mm512_andnot_pd, _mm512_or_pd, larger: _mm512_range_pd,
-    words: words_of_avx512 = 16, some: masked_f64, sines: fused
+    words: words_of_avx512 = 16, some: masked_f64, fused: outlined_avx512
 }
 
 register! {
@@ -296,5 +313,5 @@ register! {
     F32x16: __m512 = 16 of f32, one: Fused<f32>,
     _mm512_set1_ps, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps, _mm512_div_ps, _mm512_sqrt_ps,
     _mm512_and_ps, _mm512_andnot_ps, _mm512_or_ps, larger: _mm512_range_ps,
-    words: words_of_avx512 = 16, some: masked_f32, sines: fused
+    words: words_of_avx512 = 16, some: masked_f32, fused: outlined_avx512
 }

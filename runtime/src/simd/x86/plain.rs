@@ -5,12 +5,16 @@ use core::arch::x86_64::*;
 use super::super::Simd;
 use super::{F32x4, F64x2};
 use crate::scalar::Scalar;
+use crate::scalar::kind::ByKind;
 use crate::scalar::sincos::{double, sin_cos_f32};
 
 // SAFETY, for all calls of instructions: see the file above.
 
 impl Scalar for F64x2 {
-    const SEVERAL: bool = true;
+    #[inline(always)]
+    fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
+        question.of_wide::<f64>()
+    }
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
@@ -38,7 +42,10 @@ impl Scalar for F64x2 {
 }
 
 impl Scalar for F32x4 {
-    const SEVERAL: bool = true;
+    #[inline(always)]
+    fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
+        question.of_wide::<f32>()
+    }
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {

@@ -7,6 +7,7 @@ use core::marker::PhantomData;
 use super::strip::{Output, StripView};
 use super::view::{LinkCells, View};
 use crate::scalar::Scalar;
+use crate::simd::dispatch::in_widest;
 use crate::simd::{Kernel, Simd};
 use crate::tree::equations::{LinkEquations, LinkMotion, Row};
 use crate::tree::memory::Sizes;
@@ -26,7 +27,7 @@ pub(in crate::tree) struct Way<'a, T> {
 
 /// Takes the equations through a block, in the widest registers of the machine.
 pub(in crate::tree) fn sweep<E: LinkEquations, T: Scalar>(view: &View<'_, T, T>, way: Way<'_, T>) {
-    T::dispatch(SweepKernel::<E, T>(view, way, PhantomData));
+    in_widest(SweepKernel::<E, T>(view, way, PhantomData));
 }
 
 /// [`sweep`] in one kind of registers.

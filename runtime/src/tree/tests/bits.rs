@@ -9,7 +9,7 @@ use super::super::{LinkEquations, Tree, states};
 use super::equations::{SHAPES, any, by_generation, by_link, links};
 use super::{accelerations, drive, motion};
 use crate::scalar::{InstructionSet, Lane, Real, Scalar};
-use crate::simd::dispatch::run_wide;
+use crate::simd::dispatch::{in_widest, run_wide};
 use crate::simd::{Fused, Kernel, Simd};
 use crate::system::Workspace;
 
@@ -73,7 +73,7 @@ where
     let avx2 = in_set::<E, T, 1>(tree, count);
     let build = in_set::<E, T, 0>(tree, count);
     let single: Vec<Fused<T>> = accelerations(&tree.cast(Fused), count);
-    let states = T::dispatch(States(tree, count));
+    let states = in_widest::<T, _>(States(tree, count));
     if InstructionSet::widest() >= InstructionSet::Avx2 {
         for link in 0..count {
             let own = widest[link];
