@@ -160,7 +160,7 @@ pub(super) fn check_size(templates: &[Template], report: &mut Report) -> bool {
     true
 }
 
-/// Whether a tree is small enough for code that is written out: pairs of a link and
+/// Checks that a tree is small enough for code that is written out: pairs of a link and
 /// one above it are the entries of its mass matrix.
 pub(super) fn check_pairs(links: &[Link], span: Span, report: &mut Report) -> bool {
     let mut depths: Vec<usize> = Vec::with_capacity(links.len());
