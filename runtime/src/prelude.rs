@@ -1,6 +1,9 @@
 //! Names of a first program, in one `use`: describe a tree, integrate it, look
 //! at its energy, compute many states and many trajectories. Everything else is
 //! named by its path.
+//!
+//! Where another prelude has a `State` or an `Options` as well,
+//! `use branched_pendulum::prelude::State;` beside the two says which is meant.
 
 pub use core::ops::ControlFlow;
 
@@ -10,8 +13,8 @@ pub use crate::branched_pendulum;
 #[cfg(feature = "std")]
 pub use crate::ensemble::Ensemble;
 pub use crate::integrate::{
-    Crossing, DenseStep, Dop853, Dopri5, Event, Gauss, GaussOrder, IntegrationError, Integrator,
-    Method, Options, Report, Rk4, Solution, StoermerVerlet, StopReason, Taylor, Verner98,
+    DenseStep, Dop853, Dopri5, Gauss, GaussOrder, IntegrationError, Integrator, Method, Options,
+    Report, Rk4, Solution, StoermerVerlet, StopReason, Taylor, Verner98,
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};

@@ -202,6 +202,16 @@ impl<T: Scalar, P: Energy<T>> Energy<T> for &P {
     fn potential_energy_of(&self, theta: &[T]) -> T {
         (**self).potential_energy_of(theta)
     }
+
+    #[inline]
+    fn kinetic_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> T {
+        (**self).kinetic_energy_with(workspace, theta, omega)
+    }
+
+    #[inline]
+    fn potential_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
+        (**self).potential_energy_with(workspace, theta)
+    }
 }
 
 #[cfg(test)]

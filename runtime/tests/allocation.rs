@@ -6,7 +6,7 @@ mod counting;
 
 use std::num::NonZeroUsize;
 
-use branched_pendulum::integrate::Solver;
+use branched_pendulum::integrate::{Crossing, Event, Solver};
 use branched_pendulum::integrate::{LaneMethod, Projected, StoermerVerlet};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{OdeFn, TaylorOde};

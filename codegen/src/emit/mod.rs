@@ -15,6 +15,7 @@ mod observables;
 mod parts;
 mod positions;
 mod quantities;
+mod shown;
 mod sink;
 mod strip_docs;
 mod strip_powers;

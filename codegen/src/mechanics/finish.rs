@@ -41,7 +41,6 @@ impl Derivation<'_> {
             observables: Observables::default(),
         };
         let requests = &self.scene.requests;
-        let requests_positions = requests.positions;
         let requests_transverse = requests.transverse;
         let nested = requests.symmetric && self.is_nested();
         if requests.budget.is_some() || nested {
@@ -77,7 +76,7 @@ impl Derivation<'_> {
         if requests_transverse {
             mechanics.transverse = Some(self.transverse(&absolute));
         }
-        if requests_positions {
+        if self.scene.requests.positions {
             mechanics.positions = Some(self.positions(&absolute));
         }
         mechanics.constants = self

@@ -15,7 +15,7 @@ pub fn write(job: &Job, run: &Run) -> Result<(), Failure> {
     let name = format!("samples-{:?}deg.csv", run.angle_deg);
     job.csv(&name, &columns(), |file| {
         let mut samples = run.samples.iter();
-        samples.try_for_each(|sample| file.row(&row(sample)))
+        samples.try_for_each(|sample| file.row(row(sample)))
     })
 }
 

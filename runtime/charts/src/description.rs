@@ -46,6 +46,8 @@ pub struct Series {
     /// Lower edge of a band, whose upper edge is `y`.
     pub(crate) low: Option<Vec<f64>>,
     pub(crate) cells: bool,
+    /// Place among the classes of a heatmap.
+    pub(crate) class: usize,
     pub(crate) joined: bool,
     pub(crate) symbols: bool,
     pub(crate) color: Option<Color>,
@@ -89,6 +91,7 @@ impl Series {
             y: y.to_vec(),
             low: None,
             cells: false,
+            class: 0,
             joined: true,
             symbols: false,
             color: None,
@@ -212,7 +215,10 @@ impl Panel {
                 _ if index == classes - 1 => format!("from {}", level(index - 1)),
                 _ => format!("{} to {}", level(index - 1), level(index)),
             };
-            panel.series(Series::cells(label, &x, &y).color(color))
+            panel.series(Series {
+                class: index,
+                ..Series::cells(label, &x, &y).color(color)
+            })
         })
     }
 

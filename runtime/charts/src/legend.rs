@@ -28,6 +28,7 @@ pub(crate) struct Legend {
 
 pub(crate) struct Entry {
     pub(crate) style: Style,
+    class: usize,
     pub(crate) lines: Vec<Label>,
 }
 
@@ -58,8 +59,11 @@ impl Legend {
         }
         let text_width = width - SAMPLE - GAP;
         let below = Self::with_text_width(chart, styles, font, text_width);
+        let mut list: Vec<Entry> = below.lists.into_iter().flatten().collect();
+        // A panel may lack classes that a later one has.
+        list.sort_by_key(|entry| entry.class);
         Self {
-            lists: vec![below.lists.into_iter().flatten().collect()],
+            lists: vec![list],
             below: true,
             cell: below.cell,
         }
@@ -81,6 +85,7 @@ impl Legend {
                 cell = cell.max(SAMPLE + GAP + widest(&lines, font, SIZE));
                 list.push(Entry {
                     style: *style,
+                    class: series.class,
                     lines,
                 });
             }

@@ -291,6 +291,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
     /// changes from positive to negative.
     ///
     /// ```
+    /// use branched_pendulum::integrate::{Crossing, Event};
     /// use branched_pendulum::prelude::*;
     /// use branched_pendulum::system::OdeFn;
     ///

@@ -99,11 +99,6 @@ impl<T: Real> Options<T> {
         }
     }
 
-    /// The step, or the longest one allowed.
-    pub(crate) fn limit(&self, step: T) -> T {
-        self.max_step.map_or(step, |longest| step.min(longest))
-    }
-
     /// Checks the options for a state of `dimension` components.
     ///
     /// # Errors

@@ -272,3 +272,24 @@ impl<T: Lane, K: super::Kernel<T>> RegisterKernel<T> for Wide<K> {
         self.0.run::<R>()
     }
 }
+
+/// Says that a check is skipped which needs these instructions.
+///
+/// # Panics
+/// Where the environment variable `CI` is set, which promises AVX2.
+#[cfg(test)]
+pub(crate) fn or_skip(set: InstructionSet) {
+    let promised = set <= InstructionSet::Avx2 && std::env::var_os("CI").is_some();
+    assert!(!promised, "CI promises {set}");
+    std::println!("skipped: no {set}");
+}
+
+/// Says of each set of instructions that this machine lacks that it is not checked.
+#[cfg(test)]
+pub(crate) fn skip_missing() {
+    for set in InstructionSet::ALL {
+        if set > InstructionSet::widest() {
+            or_skip(set);
+        }
+    }
+}

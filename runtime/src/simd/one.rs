@@ -148,14 +148,14 @@ macro_rules! fused {
 
             #[inline(always)]
             unsafe fn write(self, start: *mut $float) {
-                // SAFETY: as for `read`.
+                // SAFETY: the caller's. The type is transparent, and may lie anywhere.
                 unsafe { start.cast::<Self>().write_unaligned(self) }
             }
 
             #[inline(always)]
             unsafe fn write_some(self, start: *mut $float, count: usize) {
                 if count > 0 {
-                    // SAFETY: as for `read`.
+                    // SAFETY: the caller's. The type is transparent, and may lie anywhere.
                     unsafe { self.write(start) }
                 }
             }

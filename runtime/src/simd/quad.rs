@@ -1,5 +1,12 @@
 //! Four numbers side by side: what the recurrences work on.
 
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+mod x86;
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+use x86 as machine;
+
+use super::Simd;
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lane, Scalar};
 
@@ -127,27 +134,27 @@ impl<T: Scalar> Pack<T> for Quad<T> {
     }
 }
 
-/// The number of one link, perhaps of several states at once.
+/// The number of one link, perhaps of several states at once, in the arithmetic of `V`.
 #[derive(Clone, Copy)]
 #[allow(unreachable_pub)]
-pub struct OneLink<T>(T);
+pub struct OneLink<V>(V);
 
-impl<T: Scalar> Pack<T> for OneLink<T> {
+impl<T: Scalar, V: Simd<T>> Pack<T> for OneLink<V> {
     type Single = Self;
 
     #[inline(always)]
     fn splat(value: T) -> Self {
-        Self(value)
+        Self(V::splat(value))
     }
 
     #[inline(always)]
     fn load(numbers: &[Quad<T>], index: usize) -> Self {
-        Self(numbers[index / 4].0[index % 4])
+        Self(V::splat(numbers[index / 4].0[index % 4]))
     }
 
     #[inline(always)]
     fn store(self, numbers: &mut [Quad<T>], index: usize) {
-        numbers[index / 4].0[index % 4] = self.0;
+        numbers[index / 4].0[index % 4] = self.0.first();
     }
 
     #[inline(always)]
@@ -177,7 +184,7 @@ impl<T: Scalar> Pack<T> for OneLink<T> {
 
     #[inline(always)]
     fn reciprocal(self) -> Self {
-        Self(T::from_f64(1.0) / self.0)
+        Self(V::from_f64(1.0) / self.0)
     }
 
     #[inline(always)]
@@ -236,182 +243,6 @@ impl<S: Scalar, K: PackKernel<S>> ByKind<S> for InPacks<K> {
 pub trait PackKernel<T> {
     /// Computes.
     fn run<P: Pack<T>>(self);
-}
-
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[allow(unsafe_code)]
-mod machine {
-    use core::arch::x86_64::{
-        __m256d, _mm256_add_pd, _mm256_div_pd, _mm256_fmadd_pd, _mm256_fnmadd_pd, _mm256_load_pd,
-        _mm256_mul_pd, _mm256_permute4x64_pd, _mm256_set1_pd, _mm256_store_pd, _mm256_sub_pd,
-    };
-
-    use super::{Pack, PackKernel, Quad};
-    use crate::simd::InstructionSet;
-
-    #[inline(always)]
-    pub(super) fn run<K: PackKernel<f64>>(kernel: K) {
-        match InstructionSet::widest() {
-            InstructionSet::Build => kernel.run::<Quad<f64>>(),
-            // SAFETY: the machine has what the functions are compiled for, since
-            // `widest` has asked for it.
-            InstructionSet::Avx2 => unsafe { fused(kernel) },
-            // SAFETY: likewise.
-            InstructionSet::Avx512 => unsafe { in_more_registers(kernel) },
-        }
-    }
-
-    /// As [`fused`], bit for bit, with thirty-two registers instead of sixteen:
-    /// what does not fit waits for the memory.
-    #[target_feature(enable = "avx512f,avx512vl")]
-    fn in_more_registers<K: PackKernel<f64>>(kernel: K) {
-        kernel.run::<Register>();
-    }
-
-    #[target_feature(enable = "avx2,fma")]
-    fn fused<K: PackKernel<f64>>(kernel: K) {
-        kernel.run::<Register>();
-    }
-
-    /// A register of AVX2. Products are fused with the sums they go into.
-    ///
-    /// Its functions ask for AVX2 and FMA: this type does not leave the module
-    /// but as the parameter of a kernel that [`run`] has seen the features for.
-    #[derive(Clone, Copy)]
-    struct Register(__m256d);
-
-    // SAFETY, of all calls below: `Register` is named in `fused`, which runs on
-    // machines with AVX2 and FMA, and in `in_more_registers`, whose features
-    // include these, alone. Loads and stores go through
-    // references to 32 bytes that are aligned to 32 bytes, `Quad<f64>`.
-    impl Pack<f64> for Register {
-        type Single = FusedNumber;
-
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            // SAFETY: see above.
-            Self(unsafe { _mm256_set1_pd(value) })
-        }
-
-        #[inline(always)]
-        fn load(numbers: &[Quad<f64>], index: usize) -> Self {
-            // SAFETY: see above.
-            Self(unsafe { _mm256_load_pd(numbers[index].0.as_ptr()) })
-        }
-
-        #[inline(always)]
-        fn store(self, numbers: &mut [Quad<f64>], index: usize) {
-            // SAFETY: see above.
-            unsafe { _mm256_store_pd(numbers[index].0.as_mut_ptr(), self.0) }
-        }
-
-        #[inline(always)]
-        fn plus(self, other: Self) -> Self {
-            // SAFETY: see above.
-            Self(unsafe { _mm256_add_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn minus(self, other: Self) -> Self {
-            // SAFETY: see above.
-            Self(unsafe { _mm256_sub_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn times(self, other: Self) -> Self {
-            // SAFETY: see above.
-            Self(unsafe { _mm256_mul_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn plus_product(self, a: Self, b: Self) -> Self {
-            // SAFETY: see above.
-            Self(unsafe { _mm256_fmadd_pd(a.0, b.0, self.0) })
-        }
-
-        #[inline(always)]
-        fn minus_product(self, a: Self, b: Self) -> Self {
-            // SAFETY: see above.
-            Self(unsafe { _mm256_fnmadd_pd(a.0, b.0, self.0) })
-        }
-
-        #[inline(always)]
-        fn reciprocal(self) -> Self {
-            // SAFETY: see above.
-            Self(unsafe { _mm256_div_pd(_mm256_set1_pd(1.0), self.0) })
-        }
-
-        #[inline(always)]
-        fn broadcast<const INDEX: usize>(self) -> Self {
-            // SAFETY: see above.
-            Self(unsafe {
-                match INDEX {
-                    0 => _mm256_permute4x64_pd::<0b00_00_00_00>(self.0),
-                    1 => _mm256_permute4x64_pd::<0b01_01_01_01>(self.0),
-                    2 => _mm256_permute4x64_pd::<0b10_10_10_10>(self.0),
-                    _ => _mm256_permute4x64_pd::<0b11_11_11_11>(self.0),
-                }
-            })
-        }
-    }
-
-    /// One number whose products are fused with the sums they go into.
-    #[derive(Clone, Copy)]
-    struct FusedNumber(f64);
-
-    impl Pack<f64> for FusedNumber {
-        type Single = Self;
-
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            Self(value)
-        }
-
-        #[inline(always)]
-        fn load(numbers: &[Quad<f64>], index: usize) -> Self {
-            Self(numbers[index / 4].0[index % 4])
-        }
-
-        #[inline(always)]
-        fn store(self, numbers: &mut [Quad<f64>], index: usize) {
-            numbers[index / 4].0[index % 4] = self.0;
-        }
-
-        #[inline(always)]
-        fn plus(self, other: Self) -> Self {
-            Self(self.0 + other.0)
-        }
-
-        #[inline(always)]
-        fn minus(self, other: Self) -> Self {
-            Self(self.0 - other.0)
-        }
-
-        #[inline(always)]
-        fn times(self, other: Self) -> Self {
-            Self(self.0 * other.0)
-        }
-
-        #[inline(always)]
-        fn plus_product(self, a: Self, b: Self) -> Self {
-            Self(a.0.mul_add(b.0, self.0))
-        }
-
-        #[inline(always)]
-        fn minus_product(self, a: Self, b: Self) -> Self {
-            Self((-a.0).mul_add(b.0, self.0))
-        }
-
-        #[inline(always)]
-        fn reciprocal(self) -> Self {
-            Self(1.0 / self.0)
-        }
-
-        #[inline(always)]
-        fn broadcast<const INDEX: usize>(self) -> Self {
-            self
-        }
-    }
 }
 
 #[cfg(not(all(feature = "std", target_arch = "x86_64")))]

@@ -76,9 +76,9 @@ where
         }
     }
 
-    /// Forms them, in M packs, of numbers that are `SEVERAL` states or one. No closure takes part but the caller's: what is not
-    /// inlined is compiled without the registers. For the same reason the bias is
-    /// asked for in one place.
+    /// Forms them, in M packs, of numbers that are `SEVERAL` states or one. No closure
+    /// takes part but the caller's: what is not inlined is compiled without the
+    /// registers. For the same reason the bias is asked for in one place.
     // One index into all vectors at once.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]

@@ -143,7 +143,8 @@ impl<'a> Block<'a> {
     /// How many places links with children take, with those of children that are
     /// not computed here.
     pub(super) fn slots(&self) -> usize {
-        let count = self.generations.len() - usize::from(self.has_leaves);
+        let count = self.generations.len();
+        let count = count.saturating_sub(usize::from(self.has_leaves));
         let last = self.generations.get(..count).and_then(<[Generation]>::last);
         last.map_or(0, |last| {
             last.slot + last.count.next_multiple_of(self.widest)

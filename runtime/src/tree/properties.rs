@@ -25,8 +25,8 @@ pub struct PropertyTable<T> {
 type Visited<T> = (usize, Option<usize>, LinkProperties<T>);
 
 impl<T: Scalar> PropertyTable<T> {
-    /// Links with the constants of each or of each generation, in SI units, in the order
-    /// of the fields of [`LinkProperties`].
+    /// Links with the constants of each or of each generation, one after the other, in
+    /// SI units, in the order of the fields of [`LinkProperties`].
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<T>) -> Self {
         Self { shape, rows }

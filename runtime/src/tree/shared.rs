@@ -95,7 +95,7 @@ impl<T: Scalar> Output<T> for Shared<'_, T> {
         match count < V::LANES {
             // SAFETY: the caller's: this is as long as the strips of the block reach.
             true => unsafe { alpha.write_some(place, count) },
-            // SAFETY: likewise.
+            // SAFETY: the caller's: `alpha` is as long as the strips of the block reach.
             false => unsafe { alpha.write(place) },
         }
     }

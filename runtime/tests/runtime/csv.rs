@@ -23,7 +23,7 @@ fn numbers_read_back_bit_for_bit() {
     ];
     let columns: Vec<Column> = (0..7).map(|i| Column::new(format!("x{i}"), "")).collect();
     let mut csv = CsvWriter::create(&path, &columns).unwrap();
-    csv.row(&values).unwrap();
+    csv.row(values).unwrap();
     assert_eq!(csv.rows(), 1);
     csv.finish().unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
@@ -45,7 +45,7 @@ fn header_and_values_that_need_care() {
     let path = scratch("header.csv");
     let columns = [Column::new("W, \"exact\"", "W"), Column::new("θ_m", "rad")];
     let mut csv = CsvWriter::create(&path, &columns).unwrap();
-    csv.row(&[f64::NAN, f64::NEG_INFINITY]).unwrap();
+    csv.row([f64::NAN, f64::NEG_INFINITY]).unwrap();
     csv.finish().unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::remove_file(&path).unwrap();
@@ -63,8 +63,8 @@ fn refusals_name_the_file() {
     assert!(!path.exists());
 
     let mut csv = CsvWriter::create(&path, &[Column::new("a", "m")]).unwrap();
-    csv.row(&[1.0]).unwrap();
-    let error = csv.row(&[1.0, 2.0]).unwrap_err();
+    csv.row([1.0]).unwrap();
+    let error = csv.row([1.0, 2.0]).unwrap_err();
     assert_eq!(
         error.to_string(),
         format!("row 1 of {} has 2 values for 1 columns", path.display())

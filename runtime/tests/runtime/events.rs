@@ -2,6 +2,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
+use branched_pendulum::integrate::{Crossing, Event};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::OdeFn;
 

@@ -11,6 +11,7 @@ mod ensemble;
 mod events;
 mod failures;
 mod gauss;
+mod hostile;
 mod modes;
 mod order;
 mod problems;

@@ -1,6 +1,6 @@
 //! Motion frame by frame and step by step.
 
-use branched_pendulum::integrate::{InputError, RunError};
+use branched_pendulum::integrate::{Crossing, Event, InputError, RunError};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::OdeFn;
 

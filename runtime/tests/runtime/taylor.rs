@@ -1,6 +1,6 @@
 //! The Taylor series method, on equations whose coefficients are known.
 
-use branched_pendulum::integrate::InputError;
+use branched_pendulum::integrate::{Crossing, Event, InputError};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorOde;
 use branched_pendulum::taylor::{self, Connectivity, KnownOrder, LinkConstants, Quad, Start};

@@ -256,7 +256,7 @@ fn wind_on_all_links_balances_the_energy() {
     let model = model.unwrap();
     let torques = |time: f64, theta: &[f64; 5], omega: &[f64; 5]| {
         let speed = 4.0 + 2.0 * (3.0 * time).sin();
-        let drag = |[x, y]: [f64; 2]| [0.02 * (speed - x), -0.02 * y];
+        let drag = |[x, y]: [f64; 2]| [0.3 * (speed - x), -0.3 * y];
         let wind = model.end_velocities(theta, omega).map(drag);
         model.end_torques(theta, &wind)
     };

@@ -17,7 +17,7 @@ fn short_accelerations_ask_at_once() {
     for name in ["paper", "nested"] {
         let code = pretty(scene(name).tokens);
         assert!(code.contains("T::sin_cos_each(theta)"), "{name}");
-        assert!(!code.contains("T::turns"), "{name}");
+        assert!(!code.contains("Turns::among"), "{name}");
     }
 }
 

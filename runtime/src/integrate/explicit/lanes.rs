@@ -17,6 +17,7 @@ use crate::integrate::lanes::registers::{
 };
 use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
 use crate::integrate::options::Options;
+use crate::integrate::steps::StepLimits;
 use crate::scalar::at;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
@@ -348,10 +349,11 @@ impl<M: EmbeddedPair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
         let finite = numbers(system.checks[0]);
         let state = numbers(stages.norm(system, &stages.start));
         let rates = numbers(stages.norm(system, stages.start_rates()));
+        let limits = StepLimits::new(self.options);
         let first = |lane: usize, runs: &Runs<R::Lane>| FirstStep {
             state: state[lane],
             rates: rates[lane],
-            longest: self.options.limit((runs.end[lane] - runs.time[lane]).abs()),
+            longest: limits.limit((runs.end[lane] - runs.time[lane]).abs()),
         };
         let fresh = || (0..R::LANES).filter(|&lane| fresh[lane]);
         let mut euler = [R::Lane::ZERO; WIDEST];
@@ -361,7 +363,7 @@ impl<M: EmbeddedPair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
                 let values = numbers_in(&self.stages.start, lane);
                 self.fail(runs, lane, (runs.time[lane], values));
             } else if let Some(step) = self.options.initial_step {
-                runs.step[lane] = self.options.limit(step);
+                runs.step[lane] = limits.limit(step);
             } else {
                 runs.evaluations[lane] += 1;
                 runs.step[lane] = first(lane, runs).euler();

@@ -87,9 +87,9 @@ mod few {
     fn in_blocks<const N: usize, const M: usize>(angles: &[f64; N]) -> ([f64; M], [f64; M]) {
         match InstructionSet::widest() {
             InstructionSet::Build => build(angles),
-            // SAFETY: the machine has what the functions are compiled for.
+            // SAFETY: `widest` has asked for AVX2 and FMA.
             InstructionSet::Avx2 => unsafe { avx2(angles) },
-            // SAFETY: likewise.
+            // SAFETY: `widest` has asked for AVX-512.
             InstructionSet::Avx512 => unsafe { avx512(angles) },
         }
     }

@@ -6,6 +6,7 @@ use crate::scalar::dispatch::{RegisterKernel, Routine, run, run_fused, run_in_re
 use crate::scalar::reference::{Reference, Signed, angles, parts};
 use crate::scalar::register::{Fused, Register};
 use crate::scalar::{InstructionSet, Lane, Lanes, Scalar};
+use crate::simd::dispatch::{or_skip, skip_missing};
 
 /// Error of `value` in units in the last place of a type of `digits` bits,
 /// counted at the reference.
@@ -88,23 +89,13 @@ impl<T: Lane> RegisterKernel<T> for InRegister<'_, T> {
     }
 }
 
-/// Whether the machine fuses; says so where it does not.
-fn fuses() -> bool {
-    let fuses = InstructionSet::widest() > InstructionSet::Build;
-    if !fuses {
-        std::println!("skipped: no fused multiply-add in registers here");
-    }
-    fuses
-}
-
 #[test]
 fn fused_f64_is_right_to_an_ulp_everywhere() {
     let reference = Reference::new();
     let mut worst = (0.0, 0.0);
     for angle in angles(4000) {
         let Ok(([sine], [cosine])) = run_fused(InFused([angle])) else {
-            fuses();
-            return;
+            return or_skip(InstructionSet::Avx2);
         };
         let (exact_sine, exact_cosine) = reference.sin_cos(&[angle]);
         for (value, exact) in [(sine, exact_sine), (cosine, exact_cosine)] {
@@ -129,8 +120,7 @@ fn fused_f32_is_right_to_an_ulp_everywhere() {
     let angles = angles(4000).into_iter().map(|angle| angle as f32);
     for angle in angles.filter(|angle| angle.is_finite()).chain([f32::MAX]) {
         let Ok(([sine], [cosine])) = run_fused(InFused([angle])) else {
-            fuses();
-            return;
+            return or_skip(InstructionSet::Avx2);
         };
         let (exact_sine, exact_cosine) = reference.sin_cos(&[f64::from(angle)]);
         for (value, exact) in [(sine, exact_sine), (cosine, exact_cosine)] {
@@ -153,11 +143,10 @@ fn fused_f32_is_right_to_an_ulp_everywhere() {
 fn fused_sines_are_odd() {
     for angle in signed() {
         let Ok(([sine], [cosine])) = run_fused(InFused([angle])) else {
-            fuses();
-            return;
+            return or_skip(InstructionSet::Avx2);
         };
         let Ok(([minus_sine], [same_cosine])) = run_fused(InFused([-angle])) else {
-            return;
+            return or_skip(InstructionSet::Avx2);
         };
         assert_eq!(bits((-sine, cosine)), bits((minus_sine, same_cosine)));
     }
@@ -187,16 +176,15 @@ fn fused_agrees<const N: usize>() {
         let (Ok((sines, cosines)), Ok(single)) =
             (run_fused(InFused(angles)), run_fused(InFused(small)))
         else {
-            fuses();
-            return;
+            return or_skip(InstructionSet::Avx2);
         };
         for i in 0..N {
             let Ok(([sine], [cosine])) = run_fused(InFused([angles[i]])) else {
-                return;
+                return or_skip(InstructionSet::Avx2);
             };
             assert_eq!(bits((sines[i], cosines[i])), bits((sine, cosine)));
             let Ok(([sine], [cosine])) = run_fused(InFused([small[i]])) else {
-                return;
+                return or_skip(InstructionSet::Avx2);
             };
             assert_eq!(
                 (single.0[i].to_bits(), single.1[i].to_bits()),
@@ -219,6 +207,7 @@ fn one_angle_has_the_same_fused_bits_in_any_company() {
 
 #[test]
 fn registers_have_the_bits_of_one_angle() {
+    skip_missing();
     for block in signed().as_chunks::<16>().0 {
         for set in InstructionSet::ALL {
             let found = run_in_registers(set, InRegister(block));
@@ -351,6 +340,7 @@ fn agrees<const N: usize>() {
 
 #[test]
 fn one_angle_has_the_same_bits_in_any_company() {
+    skip_missing();
     agrees::<1>();
     agrees::<2>();
     agrees::<3>();

@@ -60,7 +60,7 @@ pub(super) fn run<K: Routine>(set: InstructionSet, kernel: K) -> K::Output {
         // which the function enables. `widest` has asked for each of them,
         // and `set` is not wider.
         InstructionSet::Avx2 => unsafe { avx2(kernel) },
-        // SAFETY: likewise.
+        // SAFETY: `set` is no wider than what `widest` has found.
         InstructionSet::Avx512 => unsafe { avx512(kernel) },
     }
 }
@@ -92,7 +92,8 @@ where
         InstructionSet::Avx2 => unsafe {
             state_avx2::<T, K>(model, time, theta, omega, out);
         },
-        // SAFETY: likewise, and AVX-512.
+        // SAFETY: `widest` has asked for AVX-512 too; the pointers are those of slices
+        // of `K::LINKS` numbers, the last one borrowed mutably.
         InstructionSet::Avx512 => unsafe {
             state_avx512::<T, K>(model, time, theta, omega, out);
         },
@@ -167,7 +168,7 @@ pub(super) fn outlined_avx2<K: Routine>(kernel: K) -> K::Output {
 
 #[inline(always)]
 pub(super) fn outlined_avx512<K: Routine>(kernel: K) -> K::Output {
-    // SAFETY: likewise.
+    // SAFETY: asked for by types that exist where `run_in_registers` has found AVX-512.
     unsafe { avx512(kernel) }
 }
 
@@ -179,9 +180,9 @@ pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
 ) -> K::Output {
     match set {
         InstructionSet::Build => build(Chosen::<K, T::Build>(kernel, PhantomData)),
-        // SAFETY: as in `run`.
+        // SAFETY: `set` is no wider than what `widest` has found.
         InstructionSet::Avx2 => unsafe { avx2(Chosen::<K, T::Avx2>(kernel, PhantomData)) },
-        // SAFETY: likewise.
+        // SAFETY: `set` is no wider than what `widest` has found.
         InstructionSet::Avx512 => unsafe { avx512(Chosen::<K, T::Avx512>(kernel, PhantomData)) },
     }
 }

@@ -9,8 +9,6 @@ use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
 use crate::scalar::sincos::{double, fused};
 
-// SAFETY, for all calls of instructions: see the file above.
-
 macro_rules! fused {
     ($name:ident: $lane:ident, $fused:ident) => {
         impl Scalar for $name {
@@ -21,7 +19,7 @@ macro_rules! fused {
 
             #[inline(always)]
             fn mul_add(self, factor: Self, addend: Self) -> Self {
-                // SAFETY: see the file above.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 Self(unsafe { $fused(self.0, factor.0, addend.0) })
             }
 
@@ -63,7 +61,7 @@ impl double::Pack for F64x4 {
 
     #[inline(always)]
     fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
-        // SAFETY: see the file above.
+        // SAFETY: a register exists where the machine has its instructions alone.
         unsafe {
             let sign = _mm256_set1_pd(-0.0);
             let quarter = _mm256_castpd_si256(quarter.0);
@@ -97,7 +95,7 @@ macro_rules! avx2 {
 
             #[inline(always)]
             fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
-                // SAFETY: see the file above.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 unsafe {
                     let quarter = $integers(quarter.0);
                     // Blends look at the highest bits.
@@ -111,13 +109,13 @@ macro_rules! avx2 {
 
             #[inline(always)]
             fn or_differing(self, one: Self, other: Self) -> Self {
-                // SAFETY: see the file above.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 Self(unsafe { $or(self.0, $xor(one.0, other.0)) })
             }
 
             #[inline(always)]
             fn only_low_bits(self) -> bool {
-                // SAFETY: see the file above.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 unsafe {
                     _mm256_testz_si256(
                         $integers(self.0),
@@ -128,7 +126,7 @@ macro_rules! avx2 {
 
             #[inline(always)]
             fn all_below(self, limit: $lane) -> bool {
-                // SAFETY: see the file above.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 unsafe {
                     let below = $compare::<_CMP_LT_OQ>(self.0, $splat(limit));
                     $mask(below) == (1 << $lanes) - 1
@@ -175,7 +173,7 @@ macro_rules! avx512 {
 
             #[inline(always)]
             fn exchange(quarter: Self, high: Self, lost: Self, cosine: Self) -> (Self, Self) {
-                // SAFETY: see the file above.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 unsafe {
                     let sign = $integers($splat(-0.0));
                     let quarter = $integers(quarter.0);
@@ -194,13 +192,13 @@ macro_rules! avx512 {
 
             #[inline(always)]
             fn or_differing(self, one: Self, other: Self) -> Self {
-                // SAFETY: see the file above.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 Self(unsafe { $or(self.0, $xor(one.0, other.0)) })
             }
 
             #[inline(always)]
             fn only_low_bits(self) -> bool {
-                // SAFETY: see the file above.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 unsafe {
                     let above = $splat(<$lane as fused::Float>::ABOVE);
                     $test($integers(self.0), $integers(above)) == 0
@@ -209,7 +207,7 @@ macro_rules! avx512 {
 
             #[inline(always)]
             fn all_below(self, limit: $lane) -> bool {
-                // SAFETY: see the file above.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 unsafe { $compare::<_CMP_LT_OQ>(self.0, $splat(limit)) == !0 }
             }
 

@@ -18,7 +18,7 @@ use super::{Fused, Register, Simd, dispatch};
 use crate::scalar::sincos::fused as fused_sines;
 use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, words_of_sse2};
 
-// SAFETY, for all calls of instructions here and in the two files: those of SSE2 belong to every
+// Of all calls of instructions here and in the two files: those of SSE2 belong to every
 // x86-64 machine. Values of the wider types arise in computations started by
 // `dispatch` alone, which has asked the machine for the instructions; nothing
 // public takes or gives them. None of these instructions touches memory. The
@@ -53,16 +53,16 @@ macro_rules! ahead {
 /// instruction that AVX-512 has for it.
 macro_rules! larger {
     (_mm512_range_pd, $andnot:ident, $one:ident, $other:ident) => {
-        // SAFETY: see the top.
+        // SAFETY: a register exists where the machine has its instructions alone.
         Self(unsafe { _mm512_range_pd::<LARGER_SIZE>($one.0, $other.0) })
     };
     (_mm512_range_ps, $andnot:ident, $one:ident, $other:ident) => {
-        // SAFETY: see the top.
+        // SAFETY: a register exists where the machine has its instructions alone.
         Self(unsafe { _mm512_range_ps::<LARGER_SIZE>($one.0, $other.0) })
     };
     ($max:ident, $andnot:ident, $one:ident, $other:ident) => {{
         let sign = Self::splat(-0.0).0;
-        // SAFETY: see the top.
+        // SAFETY: a register exists where the machine has its instructions alone.
         Self(unsafe { $max($andnot(sign, $one.0), $andnot(sign, $other.0)) })
     }};
 }
@@ -101,20 +101,20 @@ macro_rules! register {
         impl $name {
             #[inline(always)]
             pub(crate) fn from_array(numbers: [$lane; $lanes]) -> Self {
-                // SAFETY: see the top.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 Self(unsafe { core::mem::transmute::<[$lane; $lanes], $vector>(numbers) })
             }
 
             #[inline(always)]
             pub(crate) fn to_array(self) -> [$lane; $lanes] {
-                // SAFETY: see the top.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 unsafe { core::mem::transmute::<$vector, [$lane; $lanes]>(self.0) }
             }
 
             /// The register whose word `i`, of 32 bits, is `words[i]` of this one.
             #[inline(always)]
             pub(crate) fn permuted(self, words: &[u32; $count]) -> Self {
-                // SAFETY: see the top; and plain bits are as many.
+                // SAFETY: the register exists where the machine has its instructions alone, and has as many words.
                 Self(unsafe { $words(self.0, words) })
             }
 
@@ -126,7 +126,7 @@ macro_rules! register {
 
             #[inline(always)]
             fn root(self) -> Self {
-                // SAFETY: see the top.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 Self(unsafe { $sqrt(self.0) })
             }
         }
@@ -154,7 +154,7 @@ macro_rules! register {
 
             #[inline(always)]
             fn choose(self, other: Self, mask: Self) -> Self {
-                // SAFETY: see the top.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 Self(unsafe { $or($and(mask.0, self.0), $andnot(mask.0, other.0)) })
             }
 
@@ -180,7 +180,7 @@ macro_rules! register {
 
             #[inline(always)]
             fn splat(value: $lane) -> Self {
-                // SAFETY: see the top.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 Self(unsafe { $splat(value) })
             }
 
@@ -227,7 +227,7 @@ macro_rules! register {
 
             #[inline(always)]
             unsafe fn write(self, start: *mut $lane) {
-                // SAFETY: as for `read`.
+                // SAFETY: the caller's. The type is transparent, and may lie anywhere.
                 unsafe { start.cast::<Self>().write_unaligned(self) }
             }
 
@@ -261,7 +261,7 @@ macro_rules! register {
 
             #[inline(always)]
             fn $function(self, other: Self) -> Self {
-                // SAFETY: see the top.
+                // SAFETY: a register exists where the machine has its instructions alone.
                 Self(unsafe { $instruction(self.0, other.0) })
             }
         }

@@ -8,8 +8,6 @@ use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
 use crate::scalar::sincos::{double, sin_cos_f32};
 
-// SAFETY, for all calls of instructions: see the file above.
-
 impl Scalar for F64x2 {
     #[inline(always)]
     fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
@@ -23,7 +21,7 @@ impl Scalar for F64x2 {
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        // SAFETY: see the file above.
+        // SAFETY: every x86-64 machine has SSE2.
         let common = unsafe {
             let size = _mm_andnot_pd(_mm_set1_pd(-0.0), self.0);
             _mm_movemask_pd(_mm_cmplt_pd(size, _mm_set1_pd(double::LIMIT))) == 0b11
@@ -72,7 +70,7 @@ impl double::Pack for F64x2 {
 
     #[inline(always)]
     fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
-        // SAFETY: see the file above.
+        // SAFETY: every x86-64 machine has SSE2.
         unsafe {
             let sign = _mm_set1_pd(-0.0);
             let quarter = _mm_castpd_si128(quarter.0);

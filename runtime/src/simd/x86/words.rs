@@ -9,7 +9,7 @@ pub(super) unsafe fn words_of_sse2<V>(vector: V, words: &[u32; 4]) -> V {
     // SAFETY: the caller's vector has 128 bits, any of which are four words.
     let own: [u32; 4] = unsafe { core::mem::transmute_copy(&vector) };
     let result = words.map(|word| own[word as usize % 4]);
-    // SAFETY: likewise.
+    // SAFETY: four words are 128 bits, any of which are numbers.
     unsafe { core::mem::transmute_copy(&result) }
 }
 
@@ -54,6 +54,6 @@ pub(super) fn masked_f64(vector: __m512d, _numbers: [f64; 8], places: &mut [f64]
 #[inline(always)]
 pub(super) fn masked_f32(vector: __m512, _numbers: [f32; 16], places: &mut [f32]) {
     let mask = !((0xffff_u32 << places.len().min(16)) as u16);
-    // SAFETY: likewise.
+    // SAFETY: writes the numbers of the mask alone, and there are as many places.
     unsafe { _mm512_mask_storeu_ps(places.as_mut_ptr(), mask, vector) }
 }

@@ -10,7 +10,7 @@ use crate::simd::Simd;
 use crate::tree::equations::{LinkEquations, Row};
 use crate::tree::strips::{Attachment, Strip};
 
-// SAFETY, for all of this: as for all passes; the places of links are those of the
+// Of all this: as for all passes; the places of links are those of the
 // strips and attachments, behind the last of which a register of any width is there.
 impl<E, N, T, V> Passes<'_, E, N, T, V>
 where
@@ -61,16 +61,16 @@ where
     #[inline(always)]
     fn one_by_one_up(&self, strip: &Strip) {
         if strip.first.own == 0 {
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             let _ = unsafe { self.response(strip, 0) };
         }
         let (from, to) = strip.attachments;
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
             while at < attachment.length {
-                // SAFETY: see the top.
+                // SAFETY: places of strips and attachments are there, as the view has seen.
                 let response = unsafe { self.response(strip, attachment.child + at) };
-                // SAFETY: see the top.
+                // SAFETY: places of strips and attachments are there, as the view has seen.
                 unsafe { self.attach_at(attachment, at, response) };
                 at += 1;
             }
@@ -82,16 +82,16 @@ where
     fn one_by_one_down(&self, strip: &Strip, out: &mut impl Output<T>) {
         if let (0, Some([x, y])) = (strip.first.own, &self.view.root) {
             let pivot = [V::splat(*x), V::splat(*y)];
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             unsafe { self.accelerate(strip, 0, pivot, out) };
         }
         let (from, to) = strip.attachments;
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
             while at < attachment.length {
-                // SAFETY: see the top.
+                // SAFETY: places of strips and attachments are there, as the view has seen.
                 let pivot = unsafe { self.pivot_at(attachment, at) };
-                // SAFETY: see the top.
+                // SAFETY: places of strips and attachments are there, as the view has seen.
                 unsafe { self.accelerate(strip, attachment.child + at, pivot, out) };
                 at += 1;
             }
@@ -101,15 +101,15 @@ where
     /// The responses of the links of a strip from the place `at` on.
     #[inline(always)]
     unsafe fn response(&self, strip: &Strip, at: usize) -> E::Response<V> {
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         let (constants, link) = unsafe { (self.constants(at), self.links().motion(at, E::JOINTS)) };
         if strip.copies == 0 {
             return E::leaf(&constants, link);
         }
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         let sums = unsafe { self.links().sums.read(at) };
         let (response, elimination) = E::inner(&constants, link, sums);
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         unsafe { self.links().eliminations.write(at, &elimination) };
         response
     }
@@ -118,20 +118,20 @@ where
     /// what they hand to their children.
     #[inline(always)]
     unsafe fn accelerate(&self, strip: &Strip, at: usize, pivot: [V; 2], out: &mut impl Output<T>) {
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         let (constants, link) = unsafe { (self.constants(at), self.links().motion(at, E::JOINTS)) };
         if strip.copies == 0 {
             let acceleration = E::accelerate_leaf(&constants, link, pivot);
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             unsafe { out.write(at, acceleration, V::LANES) };
             return;
         }
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         let elimination = unsafe { self.links().eliminations.read(at) };
         let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         unsafe { out.write(at, acceleration, V::LANES) };
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         unsafe { self.links().sums.write(at, &carried) };
     }
 
@@ -141,9 +141,9 @@ where
         let mut places = Places::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             let response = unsafe { self.response(strip, at) };
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             unsafe { self.links().responses.write(at, &response) };
         }
     }
@@ -154,9 +154,9 @@ where
         let mut places = Places::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             let pivot = unsafe { self.links().responses.read(at) };
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             unsafe { self.accelerate(strip, at, pivot, out) };
         }
     }
@@ -187,15 +187,15 @@ where
         let mut at = 0;
         while at < first.length {
             let (mut attachment, mut siblings) = (first, siblings);
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             let link = unsafe { self.links().motion(first.parent + at, false) };
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             let before: E::Sums<V> = unsafe { self.links().sums.read(first.parent + at) };
             let mut sums = before;
             let mut fresh = first.first;
             loop {
                 let child = attachment.child + at;
-                // SAFETY: see the top.
+                // SAFETY: places of strips and attachments are there, as the view has seen.
                 let (constants, response) =
                     unsafe { (self.constants(child), self.links().responses.read(child)) };
                 let own = E::attach(&constants, link, response);
@@ -215,7 +215,7 @@ where
                     _ => break,
                 }
             }
-            // SAFETY: see the top. Lanes beyond the parents are as they were.
+            // SAFETY: places of an attachment are there, as the view has seen. Lanes beyond the parents are as they were.
             unsafe { self.links().sums.write(first.parent + at, &sums) };
             at += V::LANES;
         }
@@ -225,17 +225,17 @@ where
     #[inline(always)]
     unsafe fn attach_at(&self, attachment: &Attachment, at: usize, response: E::Response<V>) {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         let (constants, link) =
             unsafe { (self.constants(child), self.links().motion(parent, false)) };
         let own = E::attach(&constants, link, response);
         let mut sums = own;
         if !attachment.first {
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             sums = unsafe { self.links().sums.read(parent) };
             add(&mut sums, &own);
         }
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         unsafe { self.links().sums.write(parent, &sums) };
     }
 
@@ -246,10 +246,10 @@ where
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
             while at < attachment.length {
-                // SAFETY: see the top.
+                // SAFETY: places of strips and attachments are there, as the view has seen.
                 let pivot = unsafe { self.pivot_at(attachment, at) };
                 // Lanes beyond are those of children behind, which come later.
-                // SAFETY: see the top.
+                // SAFETY: places of strips and attachments are there, as the view has seen.
                 unsafe { self.links().responses.write(attachment.child + at, &pivot) };
                 at += V::LANES;
             }
@@ -260,10 +260,10 @@ where
     #[inline(always)]
     unsafe fn pivot_at(&self, attachment: &Attachment, at: usize) -> [V; 2] {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         let (constants, link) =
             unsafe { (self.constants(child), self.links().motion(parent, false)) };
-        // SAFETY: see the top.
+        // SAFETY: places of strips and attachments are there, as the view has seen.
         let carried = unsafe { self.links().sums.read(parent) };
         E::pivot(&constants, link, carried)
     }
@@ -274,7 +274,7 @@ where
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
         let mut column = 0;
         while column < <E::Constants<V> as Row<V>>::LENGTH {
-            // SAFETY: see the top.
+            // SAFETY: places of strips and attachments are there, as the view has seen.
             row.as_mut()[column] = unsafe { self.view.constant(column, at) };
             column += 1;
         }

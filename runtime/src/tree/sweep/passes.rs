@@ -61,7 +61,7 @@ pub(in crate::tree) struct Passes<'a, E, N, T, V> {
     types: PhantomData<(E, V)>,
 }
 
-// SAFETY, for all of this: there are strips only if the view has the columns of these
+// Of all this: there are strips only if the view has the columns of these
 // equations; all places come from `StripView::places`, copies are counted up to
 // `StripView::copies`, and attachments are those of the strips.
 impl<'a, E, N, T, V> Passes<'a, E, N, T, V>
@@ -98,7 +98,10 @@ where
     /// read what is behind a reference again after everything that is written.
     #[inline(always)]
     pub(super) fn links(&self) -> LinkCells<T> {
-        self.view.cells(Self::SIZES, Self::IN_ROWS)
+        match Self::IN_ROWS {
+            true => self.view.rows(Self::SIZES),
+            false => self.view.columns(),
+        }
     }
 
     /// The constants of a generation; zeros if it has none.
@@ -168,8 +171,8 @@ where
             let near = StripView::of(self.links(), strip, Self::BRANCHING);
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
-                // SAFETY: see the top.
-                let link = unsafe { near.motion(at, E::JOINTS) };
+                // SAFETY: places of a strip and its copies are there, as the view has seen.
+                let link = unsafe { near.links.motion(at, E::JOINTS) };
                 let below = match strip.leaves {
                     true => Self::leaves(&near, at, &leaf, link),
                     false if strip.lanes <= V::LANES => {
@@ -179,10 +182,10 @@ where
                 };
                 let elimination;
                 (responses, elimination) = E::inner(&row, link, below);
-                // SAFETY: see the top.
-                unsafe { near.respond(at, &responses) };
-                // SAFETY: see the top.
-                unsafe { near.keep(at, &elimination) };
+                // SAFETY: places of a strip and its copies are there, as the view has seen.
+                unsafe { near.links.responses.write(at, &responses) };
+                // SAFETY: places of a strip and its copies are there, as the view has seen.
+                unsafe { near.links.eliminations.write(at, &elimination) };
             }
             strips = before;
         }
@@ -196,13 +199,13 @@ where
         constants: &E::Constants<V>,
         link: LinkMotion<V>,
     ) -> E::Sums<V> {
-        // SAFETY: see the top.
-        let leaf = unsafe { near.leaf(at, 0, E::JOINTS) };
+        // SAFETY: places of a strip and its copies are there, as the view has seen.
+        let leaf = unsafe { near.children.motion(at, E::JOINTS) };
         let mut sums = E::leaf(constants, leaf);
         let mut copy = 1;
         while copy < near.copies {
-            // SAFETY: see the top.
-            let leaf = unsafe { near.leaf(at, copy, E::JOINTS) };
+            // SAFETY: places of a strip and its copies are there, as the view has seen.
+            let leaf = unsafe { near.children.motion(at + copy * near.apart, E::JOINTS) };
             add(&mut sums, &E::leaf(constants, leaf));
             copy += 1;
         }
@@ -217,12 +220,14 @@ where
         constants: &E::Constants<V>,
         link: LinkMotion<V>,
     ) -> E::Sums<V> {
-        // SAFETY: see the top.
-        let mut sums: E::Response<V> = unsafe { near.below(at, 0) };
+        // SAFETY: places of a strip and its copies are there, as the view has seen.
+        let mut sums: E::Response<V> = unsafe { near.children.responses.read(at) };
         let mut copy = 1;
         while copy < near.copies {
-            // SAFETY: see the top.
-            add(&mut sums, &unsafe { near.below(at, copy) });
+            // SAFETY: places of a strip and its copies are there, as the view has seen.
+            add(&mut sums, &unsafe {
+                near.children.responses.read(at + copy * near.apart)
+            });
             copy += 1;
         }
         E::attach(constants, link, sums)
@@ -269,24 +274,25 @@ where
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
                 if !known {
-                    // SAFETY: see the top.
-                    pivot = unsafe { near.responses(at) };
+                    // SAFETY: places of a strip and its copies are there, as the view has seen.
+                    pivot = unsafe { near.links.responses.read(at) };
                 }
-                // SAFETY: see the top.
-                let link = unsafe { near.motion(at, E::JOINTS) };
-                // SAFETY: see the top.
-                let elimination = unsafe { near.elimination(at) };
+                // SAFETY: places of a strip and its copies are there, as the view has seen.
+                let link = unsafe { near.links.motion(at, E::JOINTS) };
+                // SAFETY: places of a strip and its copies are there, as the view has seen.
+                let elimination = unsafe { near.links.eliminations.read(at) };
                 let (acceleration, carried) = E::accelerate(&row, link, elimination, pivot);
-                // SAFETY: see the top.
+                // SAFETY: places of a strip and its copies are there, as the view has seen.
                 unsafe { near.accelerate(out, at, acceleration) };
                 let mut copy = 0;
                 if strip.leaves {
                     let below = E::pivot(&leaf, link, carried);
                     while copy < near.copies {
-                        // SAFETY: see the top.
-                        let link = unsafe { near.leaf(at, copy, E::JOINTS) };
+                        // SAFETY: places of a strip and its copies are there, as the view has seen.
+                        let link =
+                            unsafe { near.children.motion(at + copy * near.apart, E::JOINTS) };
                         let acceleration = E::accelerate_leaf(&leaf, link, below);
-                        // SAFETY: see the top.
+                        // SAFETY: places of a strip and its copies are there, as the view has seen.
                         unsafe { near.accelerate_leaf(out, at, copy, acceleration) };
                         copy += 1;
                     }
@@ -298,8 +304,12 @@ where
                     pivot = [x.tile_lanes(strip.length), y.tile_lanes(strip.length)];
                 } else {
                     while copy < near.copies {
-                        // SAFETY: see the top.
-                        unsafe { near.give(at, copy, &below) };
+                        // SAFETY: places of a strip and its copies are there, as the view has seen.
+                        unsafe {
+                            near.children
+                                .responses
+                                .write(at + copy * near.apart, &below)
+                        };
                         copy += 1;
                     }
                 }

@@ -5,7 +5,6 @@
 use super::view::LinkCells;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
-use crate::tree::equations::{LinkMotion, Row};
 use crate::tree::strips::Strip;
 
 /// The numbers of neighbours and of their children, from the first one's on. The
@@ -18,13 +17,14 @@ use crate::tree::strips::Strip;
 // reference again after everything that is written.
 pub(super) struct StripView<T> {
     length: usize,
-    links: LinkCells<T>,
-    children: LinkCells<T>,
+    pub(super) links: LinkCells<T>,
+    pub(super) children: LinkCells<T>,
     whole: usize,
     child_whole: usize,
     step: usize,
     pub(super) copies: usize,
-    apart: usize,
+    /// From one copy to the next.
+    pub(super) apart: usize,
     whole_apart: usize,
 }
 
@@ -38,7 +38,7 @@ pub(in crate::tree) trait Output<T> {
     unsafe fn write<V: Simd<T>>(&mut self, at: usize, alpha: V, count: usize);
 }
 
-// SAFETY, for all of these: the numbers are the view's own for as long as it lives,
+// Of all these: the numbers are the view's own for as long as it lives,
 // and no reference to them is there. By `view` there are as many as the strips reach,
 // with those of a vector of any width from the last place on, in as many columns as
 // the sizes say.
@@ -80,62 +80,6 @@ impl<T: Scalar> StripView<T> {
         Places::of::<T, V>(self.length)
     }
 
-    #[inline(always)]
-    pub(super) unsafe fn motion<V: Simd<T>>(&self, at: usize, joints: bool) -> LinkMotion<V> {
-        // SAFETY: see the top.
-        unsafe { self.links.motion(at, joints) }
-    }
-
-    /// Of children that are leaves.
-    #[inline(always)]
-    pub(super) unsafe fn leaf<V: Simd<T>>(
-        &self,
-        at: usize,
-        copy: usize,
-        joints: bool,
-    ) -> LinkMotion<V> {
-        // SAFETY: see the top.
-        unsafe { self.children.motion(at + copy * self.apart, joints) }
-    }
-
-    /// The first responses: on the way down, accelerations of pivots.
-    #[inline(always)]
-    pub(super) unsafe fn responses<V: Simd<T>, A: Row<V>>(&self, at: usize) -> A {
-        // SAFETY: see the top.
-        unsafe { self.links.responses.read(at) }
-    }
-
-    #[inline(always)]
-    pub(super) unsafe fn respond<V: Simd<T>, A: Row<V>>(&self, at: usize, row: &A) {
-        // SAFETY: see the top.
-        unsafe { self.links.responses.write(at, row) }
-    }
-
-    /// The same of children that are no leaves.
-    #[inline(always)]
-    pub(super) unsafe fn below<V: Simd<T>, A: Row<V>>(&self, at: usize, copy: usize) -> A {
-        // SAFETY: see the top.
-        unsafe { self.children.responses.read(at + copy * self.apart) }
-    }
-
-    #[inline(always)]
-    pub(super) unsafe fn give<V: Simd<T>, A: Row<V>>(&self, at: usize, copy: usize, row: &A) {
-        // SAFETY: see the top.
-        unsafe { self.children.responses.write(at + copy * self.apart, row) }
-    }
-
-    #[inline(always)]
-    pub(super) unsafe fn elimination<V: Simd<T>, A: Row<V>>(&self, at: usize) -> A {
-        // SAFETY: see the top.
-        unsafe { self.links.eliminations.read(at) }
-    }
-
-    #[inline(always)]
-    pub(super) unsafe fn keep<V: Simd<T>, A: Row<V>>(&self, at: usize, row: &A) {
-        // SAFETY: see the top.
-        unsafe { self.links.eliminations.write(at, row) }
-    }
-
     /// From one link to the next in the tree: neighbours in lanes stand side by side.
     #[inline(always)]
     fn step<V: Simd<T>>(&self) -> usize {
@@ -154,7 +98,7 @@ impl<T: Scalar> StripView<T> {
         alpha: V,
     ) {
         let count = self.length.min(V::LANES);
-        // SAFETY: see the top.
+        // SAFETY: the caller gives places of the strip.
         unsafe { out.write(self.whole + at * self.step::<V>(), alpha, count) }
     }
 
@@ -169,7 +113,7 @@ impl<T: Scalar> StripView<T> {
     ) {
         let count = self.length.min(V::LANES);
         let at = self.child_whole + at * self.step::<V>() + copy * self.whole_apart;
-        // SAFETY: see the top.
+        // SAFETY: the caller gives places of the strip.
         unsafe { out.write(at, alpha, count) }
     }
 }

@@ -175,24 +175,29 @@ impl<'a, N, T: Scalar> View<'a, N, T> {
         }
     }
 
-    /// Returns where the numbers of links stand, of equations of these sizes.
+    /// Returns where the numbers of links stand, in columns.
     #[inline(always)]
-    pub(super) fn cells(&self, sizes: Sizes, in_rows: bool) -> LinkCells<T> {
-        let motion = |start| match in_rows {
-            true => Cells::rows(start, sizes.motion()),
-            false => Cells::columns(start, self.links),
-        };
-        let own = |start, count| match in_rows {
-            true => Cells::rows(start, count),
-            false => Cells::columns(start, self.slots),
-        };
+    pub(super) fn columns(&self) -> LinkCells<T> {
         LinkCells {
-            sincos: motion(self.sincos),
-            omega: motion(self.omega),
-            joint_motions: motion(self.joint_motions),
-            responses: own(self.responses, sizes.responses),
-            sums: own(self.sums, sizes.sums),
-            eliminations: own(self.eliminations, sizes.eliminations),
+            sincos: Cells::columns(self.sincos, self.links),
+            omega: Cells::columns(self.omega, self.links),
+            joint_motions: Cells::columns(self.joint_motions, self.links),
+            responses: Cells::columns(self.responses, self.slots),
+            sums: Cells::columns(self.sums, self.slots),
+            eliminations: Cells::columns(self.eliminations, self.slots),
+        }
+    }
+
+    /// Returns where the numbers of links stand, in rows for equations of these sizes.
+    #[inline(always)]
+    pub(super) fn rows(&self, sizes: Sizes) -> LinkCells<T> {
+        LinkCells {
+            sincos: Cells::rows(self.sincos, sizes.motion()),
+            omega: Cells::rows(self.omega, sizes.motion()),
+            joint_motions: Cells::rows(self.joint_motions, sizes.motion()),
+            responses: Cells::rows(self.responses, sizes.responses),
+            sums: Cells::rows(self.sums, sizes.sums),
+            eliminations: Cells::rows(self.eliminations, sizes.eliminations),
         }
     }
 

@@ -91,7 +91,7 @@ fn agree(own: &[f64], dense: &[f64]) {
         .fold(1.0, |size: f64, alpha| size.max(alpha.abs()));
     for (link, (own, dense)) in own.iter().zip(dense).enumerate() {
         let apart = (own - dense).abs();
-        assert!(apart <= 1e-10 * size, "link {link}: {own} {dense}");
+        assert!(apart <= 2e-14 * size, "link {link}: {own} {dense}");
     }
 }
 

@@ -92,16 +92,13 @@ fn random_trees_agree_with_the_closed_form() {
         });
         let parents: Vec<u32> = parents.collect();
         let constants = program.setup.evaluate(&[]);
-        let rows = strips.strips.iter().map(|strip| -> [f64; COLUMNS] {
+        let rows = strips.strips.iter().flat_map(|strip| -> [f64; COLUMNS] {
             std::array::from_fn(|column| constants[strip.constants[column].0 as usize])
         });
+        let rows: Vec<f64> = rows.collect();
         let root = program.evaluate(f64::sin_cos, "root_gravity", &[], |_, _| 0.0);
         let root = root.expect("every tree has gravity");
-        let model = Tree::<LenderEquations, f64>::with_parents(
-            &parents,
-            &rows.flatten().collect::<Vec<_>>(),
-            [root[0], root[1]],
-        );
+        let model = Tree::<LenderEquations, f64>::with_parents(&parents, &rows, [root[0], root[1]]);
         let tree = oracle_of(scene);
         for [theta, omega] in states(LINKS, 20) {
             let mut alpha = vec![f64::NAN; LINKS];

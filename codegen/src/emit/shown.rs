@@ -1,0 +1,82 @@
+//! Formulas in docs, as text and as LaTeX.
+
+use super::Emission;
+use super::doc_text::broken;
+use super::formulas::DocFormula;
+use crate::mechanics;
+use crate::mechanics::expression::Expr;
+
+/// Formulas of more rows than this are shown up to here.
+const ROWS: usize = 8;
+/// A formula longer than this is left to `branched-pendulum --stage mechanics`.
+const LONGEST_FORMULA: usize = 600;
+
+impl Emission<'_> {
+    pub(super) fn text(&self, expr: &Expr) -> String {
+        mechanics::text(expr, &self.mechanics.symbols)
+    }
+
+    /// The rates of the momenta, with the torques that the scene has.
+    pub(super) fn momentum_rates_in_words(&self) -> String {
+        let links = &self.scene.links;
+        let present = [
+            (links.iter().any(|link| link.friction.is_some()), "friction"),
+            (links.iter().any(|link| link.drag.is_some()), "drag"),
+            (self.mechanics.drive.is_some(), "drive"),
+        ];
+        let present = present.into_iter().filter(|(present, _)| *present);
+        let torques: Vec<&str> = present.map(|(_, name)| name).collect();
+        match torques.split_last() {
+            None => "∂L/∂θ".to_owned(),
+            Some((last, [])) => format!("∂L/∂θ + Q with the torques Q of {last}"),
+            Some((last, others)) => format!(
+                "∂L/∂θ + Q with the torques Q of {} and {last}",
+                others.join(", ")
+            ),
+        }
+    }
+
+    /// Formulas as a text block; returns the number of those shown, none if one of all
+    /// is too long.
+    pub(super) fn show_text(
+        &self,
+        formulas: &[DocFormula],
+        most: usize,
+        lines: &mut Vec<String>,
+    ) -> usize {
+        let texts: Vec<String> = formulas
+            .iter()
+            .map(|f| format!("{} = {}", f.left, self.text(&f.right)))
+            .collect();
+        if texts.is_empty() || texts.iter().any(|text| text.len() > LONGEST_FORMULA) {
+            return 0;
+        }
+        let shown = texts.len().min(most);
+        lines.push(String::new());
+        lines.push("```text".into());
+        lines.extend(texts[..shown].iter().flat_map(|text| broken(text)));
+        if shown < texts.len() {
+            lines.push(format!("… and {} more", texts.len() - shown));
+        }
+        lines.push("```".into());
+        shown
+    }
+
+    /// Formulas as a text block and, folded away, as LaTeX.
+    pub(super) fn show(&self, formulas: &[DocFormula], lines: &mut Vec<String>) {
+        let shown = self.show_text(formulas, ROWS, lines);
+        if shown == 0 {
+            return;
+        }
+        lines.push(String::new());
+        lines.push("<details><summary>LaTeX</summary>".into());
+        lines.push(String::new());
+        lines.push("```latex".into());
+        lines.extend(formulas[..shown].iter().map(|f| {
+            let right = mechanics::latex(&f.right, &self.mechanics.symbols);
+            format!("{} = {right}", f.left_latex)
+        }));
+        lines.push("```".into());
+        lines.push("</details>".into());
+    }
+}
