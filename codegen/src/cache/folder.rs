@@ -10,7 +10,7 @@ use std::time::SystemTime;
 
 /// Most bytes that a folder holds. The paper's pendulum takes 0.1 MB, a budget of
 /// 31 links in all forms 10 MB.
-const MOST_BYTES: u64 = 64 << 20;
+const MOST_BYTES: u64 = 256 << 20;
 
 /// Most files that a folder holds.
 const MOST_FILES: usize = 512;
@@ -18,8 +18,9 @@ const MOST_FILES: usize = 512;
 /// Name of the folder inside others.
 const NAME: &str = "branched-pendulum";
 
-/// File by which cargo marks its target folder.
-const MARK: &str = "CACHEDIR.TAG";
+/// Files by which cargo's target folder is known: its mark, which copies of the folder
+/// may lack, and what it notes about the compiler.
+const MARKS: [&str; 2] = ["CACHEDIR.TAG", ".rustc_info.json"];
 
 /// The folder for the build of this process: in cargo's target folder, else in
 /// the user's cache folder. `None` if neither is known.
@@ -49,7 +50,7 @@ fn output_folder(mut arguments: impl Iterator<Item = OsString>) -> Option<PathBu
 /// The target folder that a folder is in.
 fn target_folder(inside: &Path) -> Option<&Path> {
     let mut above = inside.ancestors();
-    above.find(|folder| folder.join(MARK).is_file())
+    above.find(|folder| MARKS.iter().any(|mark| folder.join(mark).is_file()))
 }
 
 /// A folder of files that may vanish at any time.
@@ -145,8 +146,11 @@ mod tests {
             assert_eq!(output.as_deref(), Some(deps.as_path()));
         }
         assert_eq!(target_folder(&deps), None);
-        fs::write(root.join(MARK), "").unwrap();
-        assert_eq!(target_folder(&deps), Some(root.as_path()));
+        for mark in MARKS {
+            fs::write(root.join(mark), "").unwrap();
+            assert_eq!(target_folder(&deps), Some(root.as_path()));
+            fs::remove_file(root.join(mark)).unwrap();
+        }
         fs::remove_dir_all(root).unwrap();
     }
 

@@ -146,7 +146,7 @@ fn deepest(tokens: &TokenStream) -> Option<Span> {
 const RESERVED_TYPES: [&str; 5] = ["T", "f64", "usize", "bool", "str"];
 
 impl StructItem {
-    /// Whether the struct is called as a type that the code of a model names.
+    /// Returns true if the struct is called as a type that the code of a model names.
     pub fn is_reserved(&self) -> bool {
         RESERVED_TYPES.iter().any(|name| self.ident == name)
     }

@@ -11,7 +11,7 @@ use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Columns of bodies, d along and e across the link.
-const BODIES: [&str; 13] = [
+const BODIES: [&str; 12] = [
     "half of the mass m (kg)",
     "first moment m d about the pivot (kg m)",
     "first moment m e across the link (kg m)",
@@ -22,7 +22,6 @@ const BODIES: [&str; 13] = [
     "g m d (J)",
     "g m e (J)",
     "half of the torsion spring's stiffness (N m)",
-    "angle at which the torsion spring is at rest (rad)",
     "friction c in the pivot (N m s)",
     "drag k against the ground (N m s)",
 ];
@@ -66,10 +65,11 @@ impl Emission<'_> {
                 let name = format_ident!("body_rows");
                 let [table, rows] =
                     self.table(&name, "the energies and powers", &columns, bodies, &known);
+                let (rest_table, rests) = self.rest_table(strips, &known);
                 let value = quote! {
-                    bodies: #runtime::tree::Bodies::new(#runtime::tree::Shape::#shape, #rows)
+                    bodies: #runtime::tree::Bodies::new(#runtime::tree::Shape::#shape, #rows)#rests
                 };
-                (table, Some(value))
+                (quote!(#table #rest_table), Some(value))
             }
         };
         let properties = strips.strips.iter();
@@ -106,6 +106,23 @@ impl Emission<'_> {
                 #(#fields),*
             }
         }
+    }
+
+    /// The table of rest angles, and the call that hands them over, if there are any.
+    fn rest_table(
+        &self,
+        strips: &Strips,
+        known: &BTreeMap<ConstantId, Ident>,
+    ) -> (TokenStream, Option<TokenStream>) {
+        let rests = strips.strips.iter().filter_map(|strip| strip.rest.as_ref());
+        let rests: Vec<&[ConstantId]> = rests.map(std::slice::from_ref).collect();
+        if rests.is_empty() {
+            return (TokenStream::new(), None);
+        }
+        let columns = ["angle at which the torsion spring is at rest (rad)".to_owned()];
+        let name = format_ident!("rests");
+        let [table, rows] = self.table(&name, "the springs", &columns, rests, known);
+        (table, Some(quote!(.with_rests(#rows))))
     }
 
     /// `let` lines for all constants that parameters are involved in, of the strips and

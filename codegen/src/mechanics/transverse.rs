@@ -23,7 +23,7 @@ pub struct TransverseFormulas {
     pub rates: Vec<SymbolId>,
     /// The sector's block of the mass matrix, lower triangle; of one holder's copies.
     pub mass: Vec<MatrixEntry>,
-    /// What is linear in the differences and their rates, friction and drag included.
+    /// Terms linear in the differences and their rates, friction and drag included.
     pub residual: Vec<Expr>,
     /// Energy of the differences in one holder's copies.
     pub energy: Expr,

@@ -12,12 +12,12 @@ pub enum Message {
     },
     /// `:` where a value follows.
     Colon {
-        /// What has the value.
+        /// Name of the value.
         name: String,
     },
     /// Brackets of the wrong kind.
     Brackets {
-        /// What stands in them.
+        /// Contents of the brackets.
         what: &'static str,
         /// The right ones.
         wanted: &'static str,
@@ -36,7 +36,7 @@ pub enum Message {
     Lookalike {
         /// The name.
         name: String,
-        /// What it names.
+        /// Kind of thing that it names.
         kind: Lookalike,
     },
     /// A value that is infinite or no number.
@@ -430,7 +430,7 @@ pub enum Message {
     Algebra(String),
 }
 
-/// What a name is taken for where it stands as a parameter.
+/// Kind of thing for which a name is taken where it stands as a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lookalike {
     /// A type of joint.

@@ -40,7 +40,7 @@ pub enum Layout {
     Links,
 }
 
-/// What is asked for about a tree.
+/// Outputs that are asked for about a tree.
 pub(super) struct Asked<'a> {
     pub(super) resolved: &'a Resolved,
     pub(super) observables: bool,
@@ -145,7 +145,7 @@ pub(super) fn of_links(
     }
 }
 
-/// What loops over generations do not do, in words.
+/// Reasons in words against loops over generations.
 fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
     if let Some(what) = unlooped(templates, asked) {
         return Some(what.to_owned());
@@ -170,7 +170,7 @@ fn obstacle(templates: &[Template], asked: &Asked<'_>) -> Option<String> {
     parameters.then(|| format!("parameters in more than {MOST_WITH_PARAMETERS} generations"))
 }
 
-/// What no loops do, in words.
+/// Reasons in words against loops of either kind.
 fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
     let Requests {
         energies: _,

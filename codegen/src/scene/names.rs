@@ -45,7 +45,7 @@ const FUNCTIONS: &[&str] = &[
     "sinh", "sqrt", "tan", "tanh",
 ];
 
-/// What moves, by the names of observables and in words.
+/// Names of quantities that move, those of observables and words.
 const MOTION: &[&str] = &[
     "acceleration",
     "angle",

@@ -168,7 +168,7 @@ const METHOD_FAMILIES: &[&str] = &[
     "transfer_quadratic_form",
 ];
 
-/// Whether emitted models may have a method of that name, asked for or not.
+/// Returns true if emitted models may have a method of that name, asked for or not.
 pub fn is_method(name: &str) -> bool {
     METHODS.contains(&name) || METHOD_FAMILIES.iter().any(|f| name.starts_with(f))
 }

@@ -56,7 +56,7 @@ impl Shape {
 }
 
 /// Numbers of a body.
-const ROW: usize = 13;
+const ROW: usize = 12;
 
 /// The links of a tree in loops as bodies. Emitted models hold them where there is
 /// a drive or a lateral offset, and energies are asked for.
@@ -68,6 +68,8 @@ pub struct Bodies<T> {
     shape: Shape,
     /// Rows of all links or generations, one after the other.
     rows: Vec<T>,
+    /// Angles at which springs are at rest, likewise; empty where all are zero.
+    rests: Vec<T>,
 }
 
 impl<T: Scalar> Bodies<T> {
@@ -77,10 +79,18 @@ impl<T: Scalar> Bodies<T> {
     /// half of the mass; first moments m d and m e about the pivot along and across
     /// the link, half of the moment of inertia I + m (d² + e²); the pivot's place ℓ,
     /// w on the parent along and across it; weight m g; g m d and g m e; half of the
-    /// stiffness of the torsion spring, its rest angle; friction in the pivot, drag.
+    /// stiffness of the torsion spring; friction in the pivot, drag.
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<T>) -> Self {
-        Self { shape, rows }
+        let rests = Vec::new();
+        Self { shape, rows, rests }
+    }
+
+    /// The same with the angles at which the springs of each link or of each generation
+    /// are at rest, rad.
+    #[must_use]
+    pub fn with_rests(self, rests: Vec<T>) -> Self {
+        Self { rests, ..self }
     }
 
     /// The same bodies on other scalars.
@@ -89,6 +99,7 @@ impl<T: Scalar> Bodies<T> {
         Bodies {
             shape: self.shape,
             rows: self.rows.iter().map(|&value| convert(value)).collect(),
+            rests: self.rests.iter().map(|&value| convert(value)).collect(),
         }
     }
 
@@ -196,8 +207,8 @@ impl<T: Scalar> Bodies<T> {
         let mut sum = Sum::new();
         let (heights, others) = workspace.numbers(3 * links).split_at_mut(links);
         let (rises, shifts) = others.split_at_mut(links);
-        self.shape.each(|link, parent, row| {
-            let Some(row) = self.row(row) else {
+        self.shape.each(|link, parent, number| {
+            let Some(row) = self.row(number) else {
                 return;
             };
             let &[
@@ -211,7 +222,6 @@ impl<T: Scalar> Bodies<T> {
                 gravity,
                 lateral,
                 spring,
-                rest,
                 ..,
             ] = row;
             let angle = at(theta, link);
@@ -228,7 +238,10 @@ impl<T: Scalar> Bodies<T> {
             let (shift, cosine) = angle.sin_cos();
             let rise = one - cosine;
             let own = gravity * rise + lateral * shift;
-            let strain = joint_angle - rest;
+            let strain = match self.rests.get(number) {
+                Some(&rest) => joint_angle - rest,
+                None => joint_angle,
+            };
             sum.add(weight * height + own + spring * strain * strain);
             put(heights, link, height);
             put(rises, link, rise);

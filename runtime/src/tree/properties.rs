@@ -41,12 +41,6 @@ impl<T: Scalar> PropertyTable<T> {
         }
     }
 
-    /// Returns a row, if there is one.
-    fn row(&self, number: usize) -> Option<&[T; COLUMNS]> {
-        let (rows, _) = self.rows.as_chunks();
-        rows.get(number)
-    }
-
     /// Returns the properties of a link.
     #[must_use]
     pub fn of(&self, link: usize) -> Option<LinkProperties<T>> {

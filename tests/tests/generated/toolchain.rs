@@ -168,14 +168,14 @@ fn an_unchanged_attribute_derives_nothing() {
     let homeless = folder.join("home");
     std::fs::write(&homeless, "").expect("the folder is ours");
     let compile = |source: &str, derives: bool| {
-        let mut command = rustc(&folder, "kept", source, &external, "metadata");
+        let mut command = rustc(&folder, "kept", source, &external, "mir");
         command.env("BRANCHED_PENDULUM_CACHE", &kept);
         if !derives {
             command.env("HOME", &homeless).env_remove("XDG_CACHE_HOME");
         }
         let output = command.output().expect("the compiler runs");
         let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-        let file = folder.join("libkept.rmeta");
+        let file = folder.join("kept.mir");
         (errors, std::fs::read(&file).unwrap_or_default())
     };
     let (errors, _) = compile(FIRST, false);
@@ -184,6 +184,7 @@ fn an_unchanged_attribute_derives_nothing() {
     assert_eq!(errors, "");
     let (errors, again) = compile(FIRST, false);
     assert_eq!(errors, "");
+    assert!(!first.is_empty());
     assert!(
         first == again,
         "a kept expansion compiles to something else"

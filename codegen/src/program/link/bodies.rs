@@ -56,15 +56,20 @@ impl Lowering<'_> {
         link.properties().map(|quantity| self.quantity(quantity))
     }
 
+    /// Angle at which the spring of a link is at rest.
+    pub(super) fn rest(&mut self, link: &Link) -> ConstantId {
+        self.quantity(link.rest.as_ref().unwrap_or(&Quantity::zero()))
+    }
+
     /// A link as a body, see [`Strip::body`](super::Strip).
-    pub(super) fn body(&mut self, scene: &Scene, link: &Link) -> [ConstantId; 13] {
+    pub(super) fn body(&mut self, scene: &Scene, link: &Link) -> [ConstantId; 12] {
         let gravity = self.quantity(&scene.gravity);
         let mut at = |quantity: &Quantity| self.quantity(quantity);
         let (mass, inertia) = (at(&link.mass), at(&link.inertia));
         let [d, e] = [&link.com.along, &link.com.lateral].map(&mut at);
         let [along, across] = [&link.pivot.along, &link.pivot.lateral].map(&mut at);
-        let forces = [&link.spring, &link.rest, &link.friction, &link.drag];
-        let [spring, rest, friction, drag] = forces.map(|force| match force {
+        let forces = [&link.spring, &link.friction, &link.drag];
+        let [spring, friction, drag] = forces.map(|force| match force {
             Some(force) => at(force),
             None => at(&Quantity::zero()),
         });
@@ -86,7 +91,6 @@ impl Lowering<'_> {
             setup.mul(gravity, h),
             setup.mul(gravity, k),
             setup.div(spring, two),
-            rest,
             friction,
             drag,
         ]

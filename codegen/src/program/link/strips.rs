@@ -25,7 +25,10 @@ pub struct Strip {
     /// pivot; place on the parent, along and across; weight, and weight times the two
     /// components of the centre of mass; half of the spring's stiffness, its rest angle,
     /// friction, drag.
-    pub body: Option<[ConstantId; 13]>,
+    pub body: Option<[ConstantId; 12]>,
+    /// Angle at which its springs are at rest, where energies are asked for and any
+    /// spring of the tree has one.
+    pub rest: Option<ConstantId>,
     /// Its [properties](crate::scene::LINK_PROPERTIES), if positions are asked for.
     pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
 }
@@ -33,7 +36,7 @@ pub struct Strip {
 impl Strip {
     /// All constants that it holds.
     pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
-        let others = self.body.iter().flatten();
+        let others = self.body.iter().flatten().chain(&self.rest);
         let others = others.chain(self.properties.iter().flatten());
         self.constants.iter().chain(others).copied()
     }
@@ -276,7 +279,8 @@ impl Lowering<'_> {
     pub(super) fn strips(&mut self, scene: &Scene, table: &Table, columns: Vec<Column>) -> Strips {
         let any = |force: fn(&crate::scene::Link) -> bool| scene.links.iter().any(force);
         let mut strips = Vec::with_capacity(scene.links.len());
-        let mut bodies: Vec<Option<[ConstantId; 13]>> = vec![None; scene.orbits.len()];
+        let mut bodies: Vec<Option<[ConstantId; 12]>> = vec![None; scene.orbits.len()];
+        let has_rests = scene.requests.energies && any(|link| link.rest.is_some());
         for link in &scene.links {
             let orbit = link.orbit.0;
             let constants = columns.iter().map(|&column| {
@@ -295,6 +299,7 @@ impl Lowering<'_> {
                 is_leaf: table.is_leaf[orbit],
                 constants,
                 body: bodies[orbit],
+                rest: has_rests.then(|| self.rest(link)),
                 properties: scene.requests.positions.then(|| self.link_properties(link)),
             });
         }
