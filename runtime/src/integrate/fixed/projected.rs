@@ -38,7 +38,7 @@ use crate::system::{FirstIntegral, Ode, State};
 /// A state that cannot be projected (the gradient vanishes, as at an equilibrium,
 /// or the level is not reached) is treated as a step that is not solved: it is
 /// halved as often as the method allows, then the run ends with
-/// [`IntegrationError::NotProjected`].
+/// [`IntegrationError::NotProjected`](crate::integrate::IntegrationError::NotProjected).
 ///
 /// Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd
 /// edition, Springer 2006, section IV.4, algorithm 4.2; section V.4.1 on what

@@ -94,6 +94,7 @@ pub enum Solver {
 /// BIT 48 (2008) 231–243.
 ///
 /// [`Canonical`]: crate::system::Canonical
+/// [`IntegrationError::NotSolved`]: crate::integrate::IntegrationError::NotSolved
 /// [`Projected`]: crate::integrate::Projected
 /// [`StoermerVerlet`]: crate::integrate::StoermerVerlet
 /// [`Report::rejected`]: crate::integrate::Report::rejected
