@@ -17,7 +17,7 @@ use crate::system::{LinkPoint, LinkProperties};
 #[derive(Clone, Debug, PartialEq)]
 pub struct PropertyTable<T> {
     shape: Shape,
-    /// One row after the other.
+    /// Rows of all links or generations, one after the other.
     rows: Vec<T>,
 }
 
@@ -46,6 +46,11 @@ impl<T: Scalar> PropertyTable<T> {
     pub fn of(&self, link: usize) -> Option<LinkProperties<T>> {
         let (parent, row) = self.shape.link(link)?;
         Some(LinkProperties::from_row(parent, self.row(row)?))
+    }
+
+    fn row(&self, number: usize) -> Option<&[T; COLUMNS]> {
+        let (rows, _) = self.rows.as_chunks();
+        rows.get(number)
     }
 
     /// Writes positions as
