@@ -17,7 +17,7 @@ use crate::system::{LinkPoint, LinkProperties};
 #[derive(Clone, Debug, PartialEq)]
 pub struct PropertyTable<T> {
     shape: Shape,
-    /// One row after the other.
+    /// Rows of all links or generations, one after the other.
     rows: Vec<T>,
 }
 
