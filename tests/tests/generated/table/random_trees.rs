@@ -98,11 +98,7 @@ fn random_trees_agree_with_the_closed_form() {
         let rows: Vec<f64> = rows.collect();
         let root = program.evaluate(f64::sin_cos, "root_gravity", &[], |_, _| 0.0);
         let root = root.expect("every tree has gravity");
-        let model = Tree::<LenderEquations, f64>::with_parents(
-            &parents,
-            &rows,
-            [root[0], root[1]],
-        );
+        let model = Tree::<LenderEquations, f64>::with_parents(&parents, &rows, [root[0], root[1]]);
         let tree = oracle_of(scene);
         for [theta, omega] in states(LINKS, 20) {
             let mut alpha = vec![f64::NAN; LINKS];
