@@ -8,47 +8,36 @@ pub(super) fn watch(job: &super::Job) {
     use signal_hook::consts::{SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
 
+    use super::Ended;
+    use super::files::locked;
+
     // Without a watcher, Ctrl-C ends the process as it does any other.
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else {
         return;
     };
-    let (record, progress) = (Arc::clone(&job.record), Arc::clone(&job.progress));
+    let (record, ledger) = (Arc::clone(&job.record), Arc::clone(&job.ledger));
+    let progress = Arc::clone(&job.progress);
     std::thread::spawn(move || {
         let Some(signal) = signals.forever().next() else {
             return;
         };
-        end(&record, &progress);
+        // A terminal that takes no text holds this lock; the line below waits for
+        // the terminal as well, but no file does.
+        if let Ok(progress) = progress.try_lock() {
+            progress.clear();
+        }
+        let mut record = locked(&record);
+        // Kept until the process has ended: no file begins or takes its name now.
+        let mut ledger = locked(&ledger);
+        let left = match record.close(&Ended::Interrupted, &mut ledger) {
+            Ok(left) => left,
+            Err(failure) => Some(super::messages(&failure).join(": ")),
+        };
+        let left = left.map_or(String::new(), |left| format!("; {left}"));
+        super::say(&record.program, &format!("interrupted{left}"));
         std::process::exit(128 + signal)
     });
 }
 
 #[cfg(not(unix))]
 pub(super) fn watch(_: &super::Job) {}
-
-#[cfg(unix)]
-fn end(
-    record: &std::sync::Mutex<super::job::Record>,
-    progress: &std::sync::Mutex<super::Progress>,
-) {
-    use super::Ended;
-    use super::files::locked;
-
-    // A terminal that takes no text holds this lock; the line below waits for
-    // the terminal as well, but no file does.
-    if let Ok(progress) = progress.try_lock() {
-        progress.clear();
-    }
-    let record = locked(record);
-    let left = match record.close(&Ended::Interrupted) {
-        Ok(left) => left,
-        Err(failure) => Some(super::messages(&failure).join(": ")),
-    };
-    let left = left.map_or(String::new(), |left| format!("; {left}"));
-    // Kept until the process has ended: no file begins or takes its name now.
-    let ledger = locked(&record.ledger);
-    for part in &ledger.parts {
-        let _ = std::fs::remove_file(part);
-    }
-    super::say(&record.program, &format!("interrupted{left}"));
-    std::mem::forget(ledger);
-}

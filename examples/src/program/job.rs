@@ -11,7 +11,7 @@ use branched_pendulum::data::{Column, CsvError, CsvWriter};
 use branched_pendulum_charts::Chart;
 use serde_json::{Map, Value, json};
 
-use super::files::{Part, SharedLedger, locked};
+use super::files::{Ledger, Part, SharedLedger, locked};
 use super::progress::Progress;
 use crate::failure::Failure;
 
@@ -34,29 +34,45 @@ pub enum Ended {
 #[derive(Debug)]
 pub(super) struct Record {
     pub(super) program: String,
-    pub(super) folder: Option<PathBuf>,
+    folder: Option<PathBuf>,
     /// True if the folder was not there before.
     made: bool,
     arguments: Map<String, Value>,
     report: Map<String, Value>,
-    pub(super) ledger: SharedLedger,
+    closed: bool,
 }
 
 impl Record {
-    /// Writes the record beside the files that are complete; without any, takes
-    /// an empty folder away that was made for them. Returns a sentence about
-    /// what is there, none for a run without a folder.
-    pub(super) fn close(&self, ended: &Ended) -> Result<Option<String>, Failure> {
+    /// Takes away what is half written, and writes the record beside the files
+    /// that are complete; without any, takes an empty folder away that was made
+    /// for them. Returns a sentence about what is there, none for a run without a
+    /// folder. A record that is closed stays as it is.
+    ///
+    /// No file begins or takes its name meanwhile: the ledger is the caller's.
+    pub(super) fn close(
+        &mut self,
+        ended: &Ended,
+        ledger: &mut Ledger,
+    ) -> Result<Option<String>, Failure> {
+        for part in ledger.parts.drain(..) {
+            let _ = fs::remove_file(part);
+        }
         let Some(folder) = &self.folder else {
             return Ok(None);
         };
-        let mut files = locked(&self.ledger).files.clone();
+        let mut files = ledger.files.clone();
         files.retain(|file| file != RECORD);
         if files.is_empty() {
             if self.made {
                 let _ = fs::remove_dir(folder);
             }
             return Ok(Some("no file was finished".to_owned()));
+        }
+        let count = files.len();
+        let plural = if count == 1 { "file is" } else { "files are" };
+        let left = format!("{count} {plural} in {}", folder.display());
+        if std::mem::replace(&mut self.closed, true) {
+            return Ok(Some(left));
         }
         let ended = match ended {
             Ended::Finished => "finished".to_owned(),
@@ -72,15 +88,15 @@ impl Record {
             "ended": ended,
             "files": files,
         });
-        write(
-            folder,
-            RECORD,
-            format!("{record:#}\n").as_bytes(),
-            &self.ledger,
-        )?;
-        let count = files.len();
-        let plural = if count == 1 { "file is" } else { "files are" };
-        Ok(Some(format!("{count} {plural} in {}", folder.display())))
+        let (part, path) = (folder.join(".run.json.part"), folder.join(RECORD));
+        let written = fs::write(&part, format!("{record:#}\n"));
+        let written = written.and_then(|()| fs::rename(&part, &path));
+        written.map_err(|source| {
+            let _ = fs::remove_file(&part);
+            Failure::File { path, source }
+        })?;
+        ledger.files.push(RECORD.to_owned());
+        Ok(Some(left))
     }
 }
 
@@ -99,7 +115,7 @@ fn write(folder: &Path, name: &str, bytes: &[u8], ledger: &SharedLedger) -> Resu
 #[derive(Debug)]
 pub struct Job {
     pub(super) record: Arc<Mutex<Record>>,
-    ledger: SharedLedger,
+    pub(super) ledger: SharedLedger,
     pub(super) progress: Arc<Mutex<Progress>>,
     folder: Option<PathBuf>,
     /// Nobody reads the standard output any more.
@@ -135,7 +151,7 @@ impl Job {
             made,
             arguments,
             report: Map::new(),
-            ledger: Arc::clone(&ledger),
+            closed: false,
         };
         Ok(Self {
             record: Arc::new(Mutex::new(record)),
@@ -263,7 +279,7 @@ impl Job {
     /// [`Failure::File`] or [`Failure::Print`].
     pub fn end(&self, ended: &Ended) -> Result<Option<String>, Failure> {
         locked(&self.progress).clear();
-        let left = locked(&self.record).close(ended)?;
+        let left = locked(&self.record).close(ended, &mut locked(&self.ledger))?;
         if let (Ended::Finished, Some(folder)) = (ended, &self.folder) {
             let mut text = String::from("Files written:\n");
             for file in self.files() {
