@@ -55,12 +55,6 @@ impl<T: Scalar> PropertyTable<T> {
         Some(LinkProperties::from_row(parent, self.row(row)?))
     }
 
-    /// Returns a row, if there is one.
-    fn row(&self, number: usize) -> Option<&[T; COLUMNS]> {
-        let (rows, _) = self.rows.as_chunks();
-        rows.get(number)
-    }
-
     /// Writes positions as
     /// [`Positions::points_into`](crate::Positions::points_into).
     pub fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]) {
