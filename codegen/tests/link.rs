@@ -22,7 +22,7 @@ const BUSH: &str = "gravity = 9.80665, trunk(mass = 0.3, com = (0.1, 0.02), iner
         rest = -0.4) [ \
             tip: rod(mass = 0.05, length = 0.1, friction = 1e-3), \
             weight(mass = 0.04, com = (0, 0.03), inertia = 1e-4, drag = 1e-3) ], \
-        right: rod(mass = 0.1, length = 0.25, spring = 0.05) ], \
+        right: rod(mass = 0.1, length = 0.25, spring = 0.05, rest = 0.3) ], \
     drive(torque = 0.4 * cos(3 * t), x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t))";
 
 /// Several attachments on one link, one of them in its own pivot; a parameter.

@@ -114,28 +114,33 @@ fn fastest(tree: &Tree, theta: &[f64], omega: &[f64]) -> f64 {
 }
 
 /// The rates of all observables along the motion of `tree`, by differences of
-/// eighth order on finer and finer steps, each with the change that the last
-/// refinement made: the accuracy of the differences.
+/// eighth order on finer and finer steps, each with their accuracy: the change that the
+/// last refinement made, which may be small by chance, and what rounding does to values
+/// over the step.
 fn differences(case: &Case, tree: &Tree, theta: &[f64], omega: &[f64]) -> Vec<(f64, f64)> {
     const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
     let mut best = vec![(f64::NAN, f64::INFINITY); OBSERVABLES];
     let mut last = vec![f64::NAN; OBSERVABLES];
     let coarsest = (0.3 / fastest(tree, theta, omega)).min(1e-2);
-    for level in 0..9 {
+    for level in 0..12 {
         let step = coarsest * 0.5_f64.powi(level);
         let mut rates = vec![0.0; OBSERVABLES];
+        let mut largest = vec![0.0_f64; OBSERVABLES];
         for (place, weight) in WEIGHTS.iter().enumerate() {
             for side in [-1.0, 1.0] {
                 let time = side * step * (place + 1) as f64;
                 let (theta, omega) = moved(tree, theta, omega, time);
                 let point = Point::new(case, &theta, &omega);
                 for (number, rate) in rates.iter_mut().enumerate() {
-                    *rate += side * weight * point.observable(number).0 / step;
+                    let value = point.observable(number).0;
+                    *rate += side * weight * value / step;
+                    largest[number] = largest[number].max(value.abs());
                 }
             }
         }
         for number in 0..OBSERVABLES {
-            let change = (rates[number] - last[number]).abs();
+            let rounding = f64::EPSILON * largest[number] / step;
+            let change = (rates[number] - last[number]).abs() + rounding;
             if change < best[number].1 {
                 best[number] = (rates[number], change);
             }

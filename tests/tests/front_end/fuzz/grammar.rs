@@ -97,6 +97,12 @@ impl Grammar<'_> {
             entries.push(self.emit());
         }
         if self.one_in(4) {
+            entries.push(self.in_phase());
+        }
+        if self.one_in(8) {
+            entries.push(self.locked());
+        }
+        if self.one_in(4) {
             entries.push(self.observe());
         }
         if self.is_odd() {
@@ -313,9 +319,42 @@ impl Grammar<'_> {
         format!("drive({})", parts.join(", "))
     }
 
+    fn in_phase(&mut self) -> String {
+        let mut nodes = vec![self.link()];
+        if self.one_in(2) {
+            nodes = vec!["all".to_owned()];
+        }
+        while self.one_in(3) {
+            nodes.push(self.link());
+        }
+        format!("in_phase({})", nodes.join(", "))
+    }
+
+    fn locked(&mut self) -> String {
+        let (link, angle) = (self.link(), self.value());
+        format!("locked({link}, {angle})")
+    }
+
+    /// The name of a link, or of none.
+    fn link(&mut self) -> String {
+        if self.links.is_empty() || self.is_odd() {
+            return self.pick(ODD_NAMES);
+        }
+        self.links[self.random.below(self.links.len())].clone()
+    }
+
     fn emit(&mut self) -> String {
         let mut requests = Vec::new();
-        for request in ["energies", "momenta", "modes", "symmetric", "taylor"] {
+        for request in [
+            "energies",
+            "momenta",
+            "modes",
+            "symmetric",
+            "taylor",
+            "positions",
+            "forces",
+            "transverse",
+        ] {
             if self.one_in(4) {
                 requests.push(request.to_owned());
             }
