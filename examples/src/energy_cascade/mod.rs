@@ -3,7 +3,7 @@
 //!
 //! - [`arguments`]: the command line,
 //! - [`scene`]: the tree, and its sectors by where they branch,
-//! - [`run`]: one trajectory with the budgets of all sectors,
+//! - [`run()`]: one trajectory with the budgets of all sectors,
 //! - [`report`]: tables, [`charts`]: charts.
 
 pub mod arguments;

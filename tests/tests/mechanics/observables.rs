@@ -125,7 +125,7 @@ fn differences(case: &Case, tree: &Tree, theta: &[f64], omega: &[f64]) -> Vec<(f
     for level in 0..12 {
         let step = coarsest * 0.5_f64.powi(level);
         let mut rates = vec![0.0; OBSERVABLES];
-        let mut largest = vec![0.0_f64; OBSERVABLES];
+        let mut largest = [0.0_f64; OBSERVABLES];
         for (place, weight) in WEIGHTS.iter().enumerate() {
             for side in [-1.0, 1.0] {
                 let time = side * step * (place + 1) as f64;

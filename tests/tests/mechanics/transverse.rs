@@ -56,7 +56,7 @@ fn weights(sector: &TransverseSector) -> Vec<f64> {
             _ => 0.0,
         }
     };
-    names.map(|name| weight(name)).collect()
+    names.map(weight).collect()
 }
 
 const WHOLE: usize = 17;
@@ -344,7 +344,7 @@ fn every_sector_of_fifteen_links_grows_as_in_the_whole_tree() {
                 _ => 0.0,
             }
         };
-        let pattern: Vec<f64> = names.map(|name| weight(name)).collect();
+        let pattern: Vec<f64> = names.map(weight).collect();
         for angle in [0.2, 0.6] {
             grows_alike(models, FifteenInPhase::WHOLE, sector, &[angle; 4], &pattern);
         }
