@@ -96,10 +96,10 @@ impl Grammar<'_> {
         if self.one_in(2) {
             entries.push(self.emit());
         }
-        if self.one_in(4) {
+        if self.one_in(12) {
             entries.push(self.in_phase());
         }
-        if self.one_in(8) {
+        if self.one_in(25) {
             entries.push(self.locked());
         }
         if self.one_in(4) {
@@ -319,15 +319,17 @@ impl Grammar<'_> {
         format!("drive({})", parts.join(", "))
     }
 
+    /// Copies in phase, and sometimes the equations beside them.
     fn in_phase(&mut self) -> String {
-        let mut nodes = vec![self.link()];
-        if self.one_in(2) {
-            nodes = vec!["all".to_owned()];
+        let mut nodes = vec!["all".to_owned()];
+        if self.one_in(3) {
+            nodes = vec![self.link()];
         }
-        while self.one_in(3) {
+        while self.one_in(8) {
             nodes.push(self.link());
         }
-        format!("in_phase({})", nodes.join(", "))
+        let transverse = self.pick(&["", ", emit(transverse)"]);
+        format!("in_phase({}){transverse}", nodes.join(", "))
     }
 
     fn locked(&mut self) -> String {
@@ -353,7 +355,6 @@ impl Grammar<'_> {
             "taylor",
             "positions",
             "forces",
-            "transverse",
         ] {
             if self.one_in(4) {
                 requests.push(request.to_owned());
