@@ -54,6 +54,7 @@ impl<'a> Rebuilt<'a> {
     fn input(&self, argument: Argument, index: usize) -> Option<SymbolId> {
         let absolute = &self.mechanics.absolute;
         let symmetric = self.mechanics.symmetric.as_ref();
+        let transverse = self.mechanics.transverse.as_ref();
         let symbols = match argument {
             Argument::Time => return self.mechanics.drive.as_ref()?.time(),
             Argument::Theta | Argument::Absolute => &absolute.coordinates,
@@ -62,25 +63,9 @@ impl<'a> Rebuilt<'a> {
             Argument::Coordinates | Argument::Symmetric => &symmetric?.coordinates,
             Argument::Rates => &symmetric?.velocities,
             Argument::Momenta => &symmetric?.momenta,
-            Argument::Alpha => &self.mechanics.transverse.as_ref()?.accelerations,
-            Argument::Difference(sector) => {
-                &self
-                    .mechanics
-                    .transverse
-                    .as_ref()?
-                    .sectors
-                    .get(sector)?
-                    .differences
-            }
-            Argument::DifferenceRate(sector) => {
-                &self
-                    .mechanics
-                    .transverse
-                    .as_ref()?
-                    .sectors
-                    .get(sector)?
-                    .rates
-            }
+            Argument::Alpha => &transverse?.accelerations,
+            Argument::Difference(sector) => &transverse?.sectors.get(sector)?.differences,
+            Argument::DifferenceRate(sector) => &transverse?.sectors.get(sector)?.rates,
             // The reader knows the meaning of elements of rows.
             Argument::Forces
             | Argument::Torques

@@ -145,19 +145,29 @@ fn group_name(template: &Template, suffix: &str) -> String {
 
 /// Returns true if all copies together are at most [`MAX_LINKS`].
 pub(super) fn check_size(templates: &[Template], report: &mut Report) -> bool {
+    let totals = running_totals(templates);
+    let beyond = templates
+        .iter()
+        .zip(totals)
+        .find(|(_, links)| *links > MAX_LINKS);
+    if let Some((template, _)) = beyond {
+        report.error(template.span, Message::TooManyLinks { limit: MAX_LINKS });
+    }
+    beyond.is_none()
+}
+
+/// Number of links of the templates up to each, copies included.
+pub(super) fn running_totals(templates: &[Template]) -> Vec<usize> {
     let mut copies: Vec<usize> = Vec::with_capacity(templates.len());
     let mut links: usize = 0;
-    for template in templates {
+    let mut total = |template: &Template| {
         let above = template.parent.and_then(|parent| copies.get(parent));
         let own = above.copied().unwrap_or(1).saturating_mul(template.copies);
         copies.push(own);
         links = links.saturating_add(own);
-        if links > MAX_LINKS {
-            report.error(template.span, Message::TooManyLinks { limit: MAX_LINKS });
-            return false;
-        }
-    }
-    true
+        links
+    };
+    templates.iter().map(&mut total).collect()
 }
 
 /// Checks that a tree is small enough for code that is written out: pairs of a link and

@@ -8,6 +8,7 @@
 
 use proc_macro2::Ident;
 
+use super::expand::running_totals;
 use super::layout::{self, Asked, Layout};
 use super::reduced_body::{turned, weld};
 use super::template::{Template, TreeBuilder};
@@ -178,14 +179,7 @@ fn order(builder: &TreeBuilder, asked: &Asked<'_>) -> WholeOrder {
 
 /// Number of links of the whole tree.
 fn whole_links(templates: &[Template], report: &mut Report) -> Option<usize> {
-    let mut copies: Vec<usize> = Vec::with_capacity(templates.len());
-    let mut links: usize = 0;
-    for template in templates {
-        let above = template.parent.and_then(|parent| copies.get(parent));
-        let own = above.copied().unwrap_or(1).saturating_mul(template.copies);
-        copies.push(own);
-        links = links.saturating_add(own);
-    }
+    let links = *running_totals(templates).last()?;
     if links > MOST_WHOLE {
         let limit = MOST_WHOLE;
         let span = templates.first()?.span;
