@@ -20,6 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 MECHANICS = ["-p", "branched-pendulum-tests", "--test", "mechanics"]
 FRONT_END = ["-p", "branched-pendulum-tests", "--test", "front_end"]
+GENERATED = ["-p", "branched-pendulum-tests", "--test", "generated"]
 LINK = ["-p", "branched-pendulum-codegen", "--test", "link"]
 LIBRARY = ["-p", "branched-pendulum", "--lib"]
 RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
@@ -97,7 +98,8 @@ EXPRESSIONS = [
     ("falling events are missed", f"{R}/integrate/events.rs",
      "left.value > T::ZERO && right.value <= T::ZERO", "false", RUNTIME, "events::directions"),
     ("last states of a batch", f"{R}/batch/blocks.rs",
-     "let end = next.min(last) + R::LANES;", "let end = next + R::LANES;", LIBRARY, "batch"),
+     "let end = next.min(last) + R::LANES;", "let end = next + R::LANES;", GENERATED,
+     "scalars::batches_have_the_bits_of_single_states"),
     ("product rule", f"{R}/scalar/dual.rs", "a * y + x * b", "a * y - x * b", RUNTIME,
      "variational::the_derivative_of_the_flow_is_that_of_differences"),
     ("derivative of the cosine", f"{R}/scalar/dual.rs",
