@@ -5,12 +5,13 @@
 //! cancel. So the equations of motion of the copies' links, linearised at fixed motion
 //! of all others, are those of δ.
 
+use super::MatrixEntry;
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
 use super::frame::DerivedFrame;
-use super::{MatrixEntry, print::latex_name};
 use crate::scene::TransverseSector;
+use std::ops::Range;
 
 /// The equations of one sector: M δ̈ + residual = 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,110 +43,167 @@ pub struct TransverseMechanics {
     pub sectors: Vec<TransverseFormulas>,
 }
 
+/// Symbols of the small motion of all links beside the in-phase one.
+struct SmallMotion {
+    accelerations: Vec<SymbolId>,
+    differences: Vec<SymbolId>,
+    rates: Vec<SymbolId>,
+}
+
+impl SmallMotion {
+    fn difference(&self, link: usize) -> Formula {
+        Formula::symbol(self.differences[link])
+    }
+
+    fn rate(&self, link: usize) -> Formula {
+        Formula::symbol(self.rates[link])
+    }
+}
+
 impl Derivation<'_> {
     pub(super) fn transverse(&mut self, frame: &DerivedFrame) -> TransverseMechanics {
-        let names: Vec<String> = self.scene.links.iter().map(|l| l.name.clone()).collect();
-        let mut all = |role, code: &str, text: &str, latex: &str| -> Vec<SymbolId> {
-            let symbol = |name: &String| {
-                self.symbols.intern(
-                    role,
-                    &format!("{code}_{name}"),
-                    &format!("{text}_{name}"),
-                    &format!("{latex}_{{\\mathrm{{{}}}}}", latex_name(name)),
-                )
-            };
-            names.iter().map(symbol).collect()
+        let mut symbols = |role, code: &str, text: &str, latex: &str| {
+            self.indexed_symbols(
+                frame,
+                role,
+                code,
+                |name| format!("{text}_{name}"),
+                |name| format!("{latex}_{{\\mathrm{{{name}}}}}"),
+            )
         };
-        let accelerations = all(Role::Acceleration, "alpha", "α", "\\alpha");
-        let differences = all(Role::Derived, "delta", "δ", "\\delta");
-        let rates = all(Role::Derived, "delta_rate", "δ̇", "\\dot\\delta");
-        let bias = frame.bias(self);
-        let gradient = frame.potential_gradient(self);
-        let forces = frame.dissipative_forces();
-        let sectors = self.scene.transverse_sectors();
-        let sectors = sectors.into_iter().map(|sector| {
-            let block = sector.first.0..sector.first.0 + sector.links;
-            let holders = Formula::integer(i64::try_from(sector.holders).unwrap_or(i64::MAX));
-            let share = holders.pow(-1);
-            let shared = |formula: &Formula| (&share * formula).expand();
-            let symbol = Formula::symbol;
-            let mut residual = Vec::with_capacity(sector.links);
-            let mut mass = Vec::new();
-            let (mut energy, mut transfer, mut friction) = (Vec::new(), Vec::new(), Vec::new());
-            for i in block.clone() {
-                // M α + bias vanishes along the motion, so that its slope is all.
-                let row =
-                    (0..names.len()).map(|k| &frame.mass.get(i, k) * &symbol(accelerations[k]));
-                let balance: Formula = row.sum::<Formula>() + bias[i].clone();
-                let mut terms = Vec::new();
-                for j in block.clone() {
-                    let (delta, rate) = (symbol(differences[j]), symbol(rates[j]));
-                    let stiffness = self.partial(&balance, frame.coordinates[j]).expand();
-                    let damping = bias[i].derivative(frame.velocities[j]).expand();
-                    terms.push(&stiffness * &delta);
-                    terms.push(&damping * &rate);
-                    let entry = frame.mass.get(i, j);
-                    let force = forces[i].derivative(frame.velocities[j]);
-                    friction.push(&(&force * &rate) * &symbol(rates[i]));
-                    let spring =
-                        self.at_rest(&self.partial(&gradient[i], frame.coordinates[j]), frame);
-                    transfer.push(&(&spring * &delta) * &symbol(rates[i]));
-                    let pair = &symbol(rates[i]) * &rate;
-                    let half = Formula::integer(2).pow(-1);
-                    energy.push(
-                        &half
-                            * &(&(&entry * &pair)
-                                + &(&(&spring * &delta) * &symbol(differences[i]))),
-                    );
-                    // ½ δ̇ᵀ Ṁ δ̇
-                    for coordinate in self.coordinates_of(&entry) {
-                        let slope = self.partial(&entry, coordinate);
-                        let turning = symbol(frame.velocities[frame.index(coordinate)]);
-                        transfer.push(&half * &(&(&slope * &turning) * &pair));
-                    }
-                    if j <= i && !entry.is_zero() {
-                        mass.push(MatrixEntry {
-                            row: i - sector.first.0,
-                            column: j - sector.first.0,
-                            value: self.expr(&shared(&entry)),
-                        });
-                    }
-                }
-                let linear: Formula = terms.into_iter().sum();
-                transfer.push(-(&linear * &symbol(rates[i])));
-                residual.push(self.expr(&shared(&linear)));
-            }
-            let [energy, transfer, friction] =
-                [energy, transfer, friction].map(|terms| shared(&terms.into_iter().sum()));
-            // The residual has friction in it, which is no transfer.
-            let transfer = (&transfer - &friction).expand();
-            TransverseFormulas {
-                differences: differences[block.clone()].to_vec(),
-                rates: rates[block].to_vec(),
-                sector,
-                mass,
-                residual,
-                energy: self.expr(&energy),
-                transfer: self.expr(&transfer),
-                friction: self.expr(&friction),
-            }
-        });
-        let sectors = sectors.collect();
+        let small = SmallMotion {
+            accelerations: symbols(Role::Acceleration, "alpha", "α", "\\alpha"),
+            differences: symbols(Role::Derived, "delta", "δ", "\\delta"),
+            rates: symbols(Role::Derived, "delta_rate", "δ̇", "\\dot\\delta"),
+        };
+        let balances = self.balances(frame, &small);
+        let sectors = self.scene.transverse_sectors().into_iter();
+        let sectors =
+            sectors.map(|sector| self.transverse_sector(frame, &small, &balances, sector));
         TransverseMechanics {
-            accelerations,
-            sectors,
+            sectors: sectors.collect(),
+            accelerations: small.accelerations,
         }
     }
 
-    /// A formula where all angles are zero.
-    fn at_rest(&self, formula: &Formula, frame: &DerivedFrame) -> Formula {
-        let angles = frame.coordinates.iter();
-        let values = angles.flat_map(|&angle| {
-            [
-                (self.cos(angle), Formula::integer(1)),
-                (self.sin(angle), Formula::zero()),
-            ]
+    /// M α + b of each link, zero along the motion.
+    fn balances(&self, frame: &DerivedFrame, small: &SmallMotion) -> Vec<Formula> {
+        let rows = frame.bias(self).into_iter().enumerate();
+        let rows = rows.map(|(i, bias)| {
+            let accelerations = small.accelerations.iter().enumerate();
+            let inertia =
+                accelerations.map(|(k, &id)| &frame.mass.get(i, k) * &Formula::symbol(id));
+            inertia.sum::<Formula>() + bias
         });
-        formula.substitute(&values.collect::<Vec<_>>()).expand()
+        rows.collect()
+    }
+
+    fn transverse_sector(
+        &self,
+        frame: &DerivedFrame,
+        small: &SmallMotion,
+        balances: &[Formula],
+        sector: TransverseSector,
+    ) -> TransverseFormulas {
+        let block = sector.first.0..sector.first.0 + sector.links;
+        let holders = Formula::integer(i64::try_from(sector.holders).unwrap_or(i64::MAX));
+        let shared = |formula: &Formula| self.expr(&(&holders.pow(-1) * formula).expand());
+        let residual: Vec<Formula> = block
+            .clone()
+            .map(|i| self.linearised(frame, small, &balances[i], block.clone()))
+            .collect();
+        let forces = frame.dissipative_forces();
+        let friction: Formula = block
+            .clone()
+            .map(|i| &self.linearised(frame, small, &forces[i], block.clone()) * &small.rate(i))
+            .sum();
+        let energy = self.small_energy(frame, small, block.clone());
+        // M δ̈ is −r, which has friction in it.
+        let mut change = self.rate_at_steady_rates(frame, small, &energy, block.clone());
+        for (i, residual) in block.clone().zip(&residual) {
+            change = &change - &(residual * &small.rate(i));
+        }
+        let transfer = &change - &friction;
+        let entries = block
+            .clone()
+            .flat_map(|row| (block.start..=row).map(move |column| (row, column)));
+        let entries = entries.map(|(row, column)| MatrixEntry {
+            row: row - block.start,
+            column: column - block.start,
+            value: shared(&frame.mass.get(row, column)),
+        });
+        TransverseFormulas {
+            mass: entries.filter(|entry| !entry.value.is_zero()).collect(),
+            differences: small.differences[block.clone()].to_vec(),
+            rates: small.rates[block.clone()].to_vec(),
+            residual: residual.iter().map(shared).collect(),
+            energy: shared(&energy),
+            transfer: shared(&transfer),
+            friction: shared(&friction),
+            sector,
+        }
+    }
+
+    /// The part of a function of angles and velocities that is linear in the small motion
+    /// of these links.
+    fn linearised(
+        &self,
+        frame: &DerivedFrame,
+        small: &SmallMotion,
+        function: &Formula,
+        block: Range<usize>,
+    ) -> Formula {
+        let terms = block.map(|j| {
+            let stiffness = self.partial(function, frame.coordinates[j]);
+            let damping = function.derivative(frame.velocities[j]);
+            &(&stiffness * &small.difference(j)) + &(&damping * &small.rate(j))
+        });
+        terms.sum::<Formula>().expand()
+    }
+
+    /// ½ Σ M_ij δ̇_i δ̇_j + ½ Σ K_ij δ_i δ_j with K = ∂²U/∂θ∂θ where all angles are zero.
+    fn small_energy(
+        &self,
+        frame: &DerivedFrame,
+        small: &SmallMotion,
+        block: Range<usize>,
+    ) -> Formula {
+        let gradient = frame.potential_gradient(self);
+        let angles = frame.coordinates.iter();
+        let zero_angles: Vec<(SymbolId, Formula)> = angles
+            .flat_map(|&angle| {
+                [
+                    (self.cos(angle), Formula::integer(1)),
+                    (self.sin(angle), Formula::zero()),
+                ]
+            })
+            .collect();
+        let pairs = block
+            .clone()
+            .flat_map(|i| block.clone().map(move |j| (i, j)));
+        let terms = pairs.map(|(i, j)| {
+            let stiffness = self.partial(&gradient[i], frame.coordinates[j]);
+            let stiffness = stiffness.substitute(&zero_angles);
+            let kinetic = &(&frame.mass.get(i, j) * &small.rate(i)) * &small.rate(j);
+            &kinetic + &(&(&stiffness * &small.difference(i)) * &small.difference(j))
+        });
+        let twice = terms.sum::<Formula>();
+        (&Formula::integer(2).pow(-1) * &twice).expand()
+    }
+
+    /// Σ ∂E/∂θ_k ω_k + Σ ∂E/∂δ_i δ̇_i: dE/dt without the accelerations of the differences.
+    fn rate_at_steady_rates(
+        &self,
+        frame: &DerivedFrame,
+        small: &SmallMotion,
+        energy: &Formula,
+        block: Range<usize>,
+    ) -> Formula {
+        let turning = self.coordinates_of(energy).into_iter().map(|coordinate| {
+            let omega = Formula::symbol(frame.velocities[frame.index(coordinate)]);
+            &self.partial(energy, coordinate) * &omega
+        });
+        let changing = block.map(|i| &energy.derivative(small.differences[i]) * &small.rate(i));
+        turning.chain(changing).sum()
     }
 }
