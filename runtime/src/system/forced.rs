@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use super::by_reference::by_reference;
 use super::{Ode, Pendulum};
 use crate::scalar::Scalar;
 
@@ -29,17 +30,11 @@ pub trait Forced<T: Scalar>: Pendulum<T> {
     );
 }
 
-impl<T: Scalar, P: Forced<T>> Forced<T> for &P {
-    #[inline]
-    fn accelerations_under_into(
-        &self,
-        time: T,
-        theta: &[T],
-        omega: &[T],
-        torques: &[T],
-        alpha: &mut [T],
-    ) {
-        (**self).accelerations_under_into(time, theta, omega, torques, alpha);
+by_reference! {
+    impl<T: Scalar> Forced<T> for &P {
+        fn accelerations_under_into(
+            &self, time: T, theta: &[T], omega: &[T], torques: &[T], alpha: &mut [T]
+        );
     }
 }
 

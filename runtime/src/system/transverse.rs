@@ -1,5 +1,6 @@
 //! Small differences between copies that move in phase.
 
+use super::by_reference::by_reference;
 use super::{Ode, Pendulum};
 use crate::scalar::Scalar;
 
@@ -182,54 +183,20 @@ impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
     }
 }
 
-impl<T: Scalar, P: Transverse<T>> Transverse<T> for &P {
-    const TRANSVERSE: &'static [TransverseSector] = P::TRANSVERSE;
-
-    #[inline]
-    fn transverse_accelerations_into(
-        &self,
-        sector: usize,
-        time: T,
-        motion: InPhaseMotion<'_, T>,
-        difference: &[T],
-        difference_rate: &[T],
-        accelerations: &mut [T],
-    ) {
-        (**self).transverse_accelerations_into(
-            sector,
-            time,
-            motion,
-            difference,
-            difference_rate,
-            accelerations,
+by_reference! {
+    impl<T: Scalar> Transverse<T> for &P {
+        const TRANSVERSE: &'static [TransverseSector];
+        fn transverse_accelerations_into(
+            &self, sector: usize, time: T, motion: InPhaseMotion<'_, T>,
+            difference: &[T], difference_rate: &[T], accelerations: &mut [T]
         );
-    }
-
-    #[inline]
-    fn transverse_energy_of(
-        &self,
-        sector: usize,
-        theta: &[T],
-        difference: &[T],
-        difference_rate: &[T],
-    ) -> T {
-        (**self).transverse_energy_of(sector, theta, difference, difference_rate)
-    }
-
-    #[inline]
-    fn transverse_transfer_of(
-        &self,
-        sector: usize,
-        time: T,
-        motion: InPhaseMotion<'_, T>,
-        difference: &[T],
-        difference_rate: &[T],
-    ) -> T {
-        (**self).transverse_transfer_of(sector, time, motion, difference, difference_rate)
-    }
-
-    #[inline]
-    fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T {
-        (**self).transverse_friction_power_of(sector, difference_rate)
+        fn transverse_energy_of(
+            &self, sector: usize, theta: &[T], difference: &[T], difference_rate: &[T]
+        ) -> T;
+        fn transverse_transfer_of(
+            &self, sector: usize, time: T, motion: InPhaseMotion<'_, T>,
+            difference: &[T], difference_rate: &[T]
+        ) -> T;
+        fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T;
     }
 }
