@@ -53,12 +53,9 @@ pub use turns::Turns;
 #[doc(hidden)]
 pub(crate) use turns::at;
 pub use wide::Double;
+pub(crate) use wide::two_sum;
 
 pub use crate::simd::InstructionSet;
-#[doc(hidden)]
-pub use crate::simd::Register;
-pub(crate) use crate::simd::{self as register, dispatch};
-pub(crate) use lanes::Sealed;
 
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};

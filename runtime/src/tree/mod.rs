@@ -61,9 +61,9 @@ pub use equations::{LinkEquations, LinkMotion, Row};
 pub use properties::PropertyTable;
 pub use root::RootDrive;
 
+use crate::scalar::Scalar;
 use crate::scalar::kind::{compiled, compiled_once};
-use crate::scalar::{Register, Scalar};
-use crate::simd::wide_slice;
+use crate::simd::{Simd, wide_slice};
 use crate::system::{InRegisters, Workspace};
 use memory::Sizes;
 use partition::Policy;
@@ -187,7 +187,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     /// Returns many states in registers, with so much room for each.
     #[doc(hidden)]
     #[inline(always)]
-    pub fn in_registers<V: Register<Lane = T>>(
+    pub fn in_registers<V: Simd<T>>(
         &self,
         drive: Option<RootDrive<T>>,
         room: &mut [T],
@@ -195,7 +195,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         WithRoom {
             tree: self,
             drive: drive.map(|drive| drive.map(V::splat)),
-            room: match wide_slice(room) {
+            room: match wide_slice::<T, V>(room) {
                 Some(values) => Room::Lent(values),
                 None => Room::Own(alloc::vec![V::from_f64(0.0); self.room()]),
             },
@@ -216,7 +216,7 @@ enum Room<'r, V> {
     Own(Vec<V>),
 }
 
-impl<E: LinkEquations, V: Register> InRegisters<V> for WithRoom<'_, '_, E, V::Lane, V> {
+impl<E: LinkEquations, T: Scalar, V: Simd<T>> InRegisters<V> for WithRoom<'_, '_, E, T, V> {
     #[inline(always)]
     fn evaluate(
         &mut self,
@@ -229,7 +229,7 @@ impl<E: LinkEquations, V: Register> InRegisters<V> for WithRoom<'_, '_, E, V::La
             Room::Own(values) => values,
         };
         let tree = &self.tree.skeleton;
-        states::accelerations::<E, V::Lane, V>(tree, self.drive, room, theta, omega, alpha);
+        states::accelerations::<E, T, V>(tree, self.drive, room, theta, omega, alpha);
     }
 }
 

@@ -9,8 +9,8 @@ use core::cell::Cell;
 
 use super::registers::set_lane;
 use crate::integrate::error::InputError;
-use crate::scalar::Scalar;
-use crate::scalar::register::Register;
+use crate::scalar::{Lane, Scalar};
+use crate::simd::Simd;
 use crate::system::Cast;
 
 /// The pendulums of all lanes, as one pendulum whose constants are registers.
@@ -18,14 +18,14 @@ use crate::system::Cast;
 /// Constants are known by their place in the order in which
 /// [`Cast::cast`] converts them: that of one model goes into its lane of
 /// the register at the same place.
-pub struct Models<P: Cast<R::Lane>, R: Register> {
+pub struct Models<P: Cast<T>, T: Lane, R: Simd<T>> {
     /// All of them at once.
     pub(crate) registers: P::Of<R>,
     /// Its constants in their order.
     constants: Vec<R>,
 }
 
-impl<P: Cast<R::Lane>, R: Register> Models<P, R> {
+impl<P: Cast<T>, T: Lane, R: Simd<T>> Models<P, T, R> {
     /// Puts one pendulum into every lane.
     pub(crate) fn splat(pendulum: &P) -> Self {
         let mut constants = vec![R::from_f64(0.0); count(pendulum)];
@@ -40,7 +40,7 @@ impl<P: Cast<R::Lane>, R: Register> Models<P, R> {
     ///
     /// # Errors
     /// It has not as many constants as the first one.
-    pub(crate) fn set(&mut self, lane: usize, pendulum: &P) -> Result<(), InputError<R::Lane>> {
+    pub(crate) fn set(&mut self, lane: usize, pendulum: &P) -> Result<(), InputError<T>> {
         let (expected, found) = (self.constants.len(), count(pendulum));
         if expected != found {
             return Err(InputError::Constants { expected, found });
@@ -65,10 +65,10 @@ fn count<T: Scalar, P: Cast<T>>(pendulum: &P) -> usize {
 
 /// Changes every register by the constant that belongs there, and makes a
 /// pendulum of them.
-fn convert<P: Cast<R::Lane>, R: Register>(
+fn convert<P: Cast<T>, T: Lane, R: Simd<T>>(
     pendulum: &P,
     constants: &mut [R],
-    change: impl Fn(R, R::Lane) -> R,
+    change: impl Fn(R, T) -> R,
 ) -> P::Of<R> {
     let constants = Cell::from_mut(constants).as_slice_of_cells();
     let next = Cell::new(0);

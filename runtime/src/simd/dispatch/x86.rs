@@ -2,12 +2,11 @@
 
 #![allow(unsafe_code)]
 
-use core::marker::PhantomData;
 use core::slice;
 use core::sync::atomic::{AtomicU8, Ordering};
 
 use super::super::{Fused, Kernel, Simd};
-use super::{Chosen, InstructionSet, RegisterKernel, Routine, Sealed, StateKernel, Wide};
+use super::{InstructionSet, StateKernel};
 use crate::scalar::Lane;
 
 /// 0 before the first question, then 1 + the answer.
@@ -50,19 +49,32 @@ fn has_avx512() -> bool {
         && std::is_x86_feature_detected!("avx512bw")
 }
 
-/// `set` must have come from `widest`, or be narrower: this module is
-/// private, and the two functions above see to it.
+/// Runs `kernel` with the instructions of `set`, in numbers `B` for those of the build,
+/// `A` for AVX2 and `W` for AVX-512.
+///
+/// `set` must have come from `widest`, or be narrower, and the numbers need no more
+/// than their instructions: this module is private, and the one above sees to it.
 #[inline(always)]
-pub(super) fn run<K: Routine>(set: InstructionSet, kernel: K) -> K::Output {
+pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
+    set: InstructionSet,
+    kernel: K,
+) -> K::Output {
     match set {
-        InstructionSet::Build => build(kernel),
+        InstructionSet::Build => build::<T, B, K>(kernel),
         // SAFETY: the call is sound on machines that have the features
         // which the function enables. `widest` has asked for each of them,
         // and `set` is not wider.
-        InstructionSet::Avx2 => unsafe { avx2(kernel) },
+        InstructionSet::Avx2 => unsafe { avx2::<T, A, K>(kernel) },
         // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx512 => unsafe { avx512(kernel) },
+        InstructionSet::Avx512 => unsafe { avx512::<T, W, K>(kernel) },
     }
+}
+
+/// With SSE2 in single numbers: every model would be compiled once more for registers of
+/// two, and hardly a machine runs them.
+#[inline(always)]
+pub(super) fn run_wide<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
+    run::<T, T, T::Avx2, T::Avx512, K>(set, kernel)
 }
 
 #[inline(always)]
@@ -159,64 +171,29 @@ unsafe fn state<T, K: StateKernel<T>>(
 }
 
 #[inline(always)]
-pub(super) fn outlined_avx2<K: Routine>(kernel: K) -> K::Output {
+pub(super) fn outlined_avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
     // SAFETY: asked for by types that exist in computations alone which
-    // `run_state` or `run_in_registers` has started, where the machine has
-    // these instructions.
-    unsafe { avx2(kernel) }
+    // `run_state` or `run` has started, where the machine has these instructions.
+    unsafe { avx2::<T, V, K>(kernel) }
 }
 
 #[inline(always)]
-pub(super) fn outlined_avx512<K: Routine>(kernel: K) -> K::Output {
-    // SAFETY: asked for by types that exist where `run_in_registers` has found AVX-512.
-    unsafe { avx512(kernel) }
-}
-
-/// As for `run`.
-#[inline(always)]
-pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
-    set: InstructionSet,
-    kernel: K,
-) -> K::Output {
-    match set {
-        InstructionSet::Build => build(Chosen::<K, T::Build>(kernel, PhantomData)),
-        // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx2 => unsafe { avx2(Chosen::<K, T::Avx2>(kernel, PhantomData)) },
-        // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx512 => unsafe { avx512(Chosen::<K, T::Avx512>(kernel, PhantomData)) },
-    }
-}
-
-#[inline(always)]
-pub(super) fn run_wide<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
-    match set {
-        InstructionSet::Build => one_by_one(kernel),
-        // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx2 => unsafe { avx2(Chosen::<_, T::Avx2>(Wide(kernel), PhantomData)) },
-        // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx512 => unsafe {
-            avx512(Chosen::<_, T::Avx512>(Wide(kernel), PhantomData))
-        },
-    }
-}
-
-/// In single numbers.
-#[inline(never)]
-fn one_by_one<T: Lane, K: Kernel<T>>(kernel: K) -> K::Output {
-    kernel.run::<T>()
+pub(super) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    // SAFETY: asked for by types that exist where `run` has found AVX-512.
+    unsafe { avx512::<T, V, K>(kernel) }
 }
 
 #[inline(never)]
-fn build<K: Routine>(kernel: K) -> K::Output {
-    kernel.run()
+fn build<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<V>()
 }
 
 #[target_feature(enable = "avx2,fma")]
-fn avx2<K: Routine>(kernel: K) -> K::Output {
-    kernel.run()
+fn avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<V>()
 }
 
 #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
-fn avx512<K: Routine>(kernel: K) -> K::Output {
-    kernel.run()
+fn avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<V>()
 }
