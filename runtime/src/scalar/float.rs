@@ -3,9 +3,9 @@
 use super::kind::{ByKind, Compiled};
 use super::lanes::{Lane, Lanes, Sealed};
 use super::{Real, Scalar, sincos};
+use crate::simd::Fused;
 #[cfg(target_arch = "x86_64")]
 use crate::simd::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
-use crate::simd::{StateKernel, dispatch};
 
 /// A register of this name, or as many lanes where there are none.
 #[cfg(target_arch = "x86_64")]
@@ -63,22 +63,12 @@ macro_rules! implement_scalar {
             type Build = register!($build, $lanes of $float);
             type Avx2 = register!($avx2, $lanes of $float);
             type Avx512 = register!($avx512, $lanes of $float);
+            type Fused = Fused<$float>;
             type Four = register!($four, 4 of $float);
 
             #[inline(always)]
             fn compiled<C: Compiled>() -> C::Function<Self> {
                 C::$compiled()
-            }
-
-            #[inline(always)]
-            fn run_state<K: StateKernel<Self>>(
-                model: &K::Model,
-                time: Self,
-                theta: &[Self],
-                omega: &[Self],
-                out: &mut [Self],
-            ) -> bool {
-                dispatch::run_state::<Self, K>(model, time, theta, omega, out)
             }
         }
 

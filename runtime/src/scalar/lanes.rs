@@ -4,7 +4,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::kind::{ByKind, Compiled};
 use super::{Real, Scalar};
-use crate::simd::{Simd, StateKernel};
+use crate::simd::Simd;
 
 /// A number that has lanes: `f64` or `f32`.
 pub trait Lane: Real + Sealed {}
@@ -18,21 +18,13 @@ pub trait Sealed: Scalar {
     type Avx2: Simd<Self>;
     /// Those of AVX-512.
     type Avx512: Simd<Self>;
+    /// One number that fuses.
+    type Fused: Simd<Self>;
     /// Four numbers with the instructions of AVX2.
     type Four: Simd<Self>;
 
     /// Returns a function that is compiled with this crate.
     fn compiled<C: Compiled>() -> C::Function<Self>;
-
-    /// Runs a computation on one state in fused arithmetic. Returns false, and does
-    /// nothing, where the machine has none.
-    fn run_state<K: StateKernel<Self>>(
-        model: &K::Model,
-        time: Self,
-        theta: &[Self],
-        omega: &[Self],
-        out: &mut [Self],
-    ) -> bool;
 }
 
 /// `N` numbers that go through the same operations, each in its lane: one

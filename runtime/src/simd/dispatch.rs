@@ -4,7 +4,7 @@
 //! A [`Kernel`] is compiled three times, each with wider instructions allowed and with
 //! the numbers to compute with, and the copy runs that the machine can.
 //!
-//! The wide registers fuse products with sums, and so does [`run_state`] for one number
+//! The wide registers fuse products with sums, and so does [`in_fused`] for one number
 //! at a time: they have equal bits for AVX2 and AVX-512, and others without.
 
 #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
@@ -19,7 +19,7 @@ use portable as machine;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use x86 as machine;
 
-use super::{Fused, Kernel, Simd};
+use super::{Kernel, Simd};
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lane, Lanes, Scalar};
 
@@ -58,20 +58,15 @@ impl fmt::Display for InstructionSet {
     }
 }
 
-/// Runs `kernel` with [`Fused`] numbers and the widest instructions that fuse.
+/// Runs `kernel` with fused single numbers and the widest instructions that fuse.
 ///
 /// # Errors
 /// Gives the kernel back if the machine has none.
 #[cfg(test)]
-pub(crate) fn run_fused<T, K: Kernel<T>>(kernel: K) -> Result<K::Output, K>
-where
-    Fused<T>: Simd<T>,
-{
+pub(crate) fn run_fused<T: Lane, K: Kernel<T>>(kernel: K) -> Result<K::Output, K> {
     match InstructionSet::widest() {
         InstructionSet::Build => Err(kernel),
-        set => Ok(machine::run::<T, Fused<T>, Fused<T>, Fused<T>, K>(
-            set, kernel,
-        )),
+        set => Ok(machine::run::<T, T, T::Fused, T::Fused, K>(set, kernel)),
     }
 }
 
@@ -136,25 +131,8 @@ impl<S: Scalar, K: StateKernel<S>> ByKind<S> for InFused<'_, K, S> {
     where
         S: Lane,
     {
-        S::run_state::<K>(self.model, self.time, self.theta, self.omega, self.out)
+        machine::run_state::<S, K>(self.model, self.time, self.theta, self.omega, self.out)
     }
-}
-
-/// Runs `K` with the widest instructions that fuse: 512 bits have twice as many
-/// registers, which plain numbers gain by too. False, and nothing done, if the machine has
-/// none that do, or if a slice has another length.
-#[inline(always)]
-pub(crate) fn run_state<T, K: StateKernel<T>>(
-    model: &K::Model,
-    time: T,
-    theta: &[T],
-    omega: &[T],
-    out: &mut [T],
-) -> bool
-where
-    Fused<T>: Simd<T>,
-{
-    machine::run_state::<T, K>(model, time, theta, omega, out)
 }
 
 /// Runs `kernel` in a function of its own with AVX2 and FMA, in numbers `V`. For types

@@ -1,6 +1,6 @@
 //! Where there is nothing to choose from.
 
-use super::super::{Fused, Kernel, Simd};
+use super::super::{Kernel, Simd};
 use super::{InstructionSet, StateKernel};
 use crate::scalar::Lane;
 
@@ -29,10 +29,7 @@ pub(super) fn run_state<T, K: StateKernel<T>>(
     _theta: &[T],
     _omega: &[T],
     _out: &mut [T],
-) -> bool
-where
-    Fused<T>: Simd<T>,
-{
+) -> bool {
     false
 }
 

@@ -5,7 +5,7 @@
 use core::slice;
 use core::sync::atomic::{AtomicU8, Ordering};
 
-use super::super::{Fused, Kernel, Simd};
+use super::super::{Kernel, Simd};
 use super::{InstructionSet, StateKernel};
 use crate::scalar::Lane;
 
@@ -77,17 +77,17 @@ pub(super) fn run_wide<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) ->
     run::<T, T, T::Avx2, T::Avx512, K>(set, kernel)
 }
 
+/// Runs `K` with the widest instructions that fuse: 512 bits have twice as many
+/// registers, which single numbers gain by too. False, and nothing done, if the machine
+/// has none that do, or if a slice has another length.
 #[inline(always)]
-pub(super) fn run_state<T, K: StateKernel<T>>(
+pub(super) fn run_state<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
     time: T,
     theta: &[T],
     omega: &[T],
     out: &mut [T],
-) -> bool
-where
-    Fused<T>: Simd<T>,
-{
+) -> bool {
     if theta.len() != K::LINKS || omega.len() != K::LINKS || out.len() != K::LINKS {
         return false;
     }
@@ -115,30 +115,26 @@ where
 
 /// As `state`.
 #[target_feature(enable = "avx2,fma")]
-unsafe fn state_avx2<T, K: StateKernel<T>>(
+unsafe fn state_avx2<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
     time: T,
     theta: *const T,
     omega: *const T,
     out: *mut T,
-) where
-    Fused<T>: Simd<T>,
-{
+) {
     // SAFETY: the caller's.
     unsafe { state::<T, K>(model, time, theta, omega, out) }
 }
 
 /// As `state`.
 #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
-unsafe fn state_avx512<T, K: StateKernel<T>>(
+unsafe fn state_avx512<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
     time: T,
     theta: *const T,
     omega: *const T,
     out: *mut T,
-) where
-    Fused<T>: Simd<T>,
-{
+) {
     // SAFETY: the caller's.
     unsafe { state::<T, K>(model, time, theta, omega, out) }
 }
@@ -150,15 +146,13 @@ unsafe fn state_avx512<T, K: StateKernel<T>>(
 /// The pointers must be those of slices of `K::LINKS` numbers, of which the last
 /// one is borrowed mutably, and outlives the call like the others.
 #[inline(always)]
-unsafe fn state<T, K: StateKernel<T>>(
+unsafe fn state<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
     time: T,
     theta: *const T,
     omega: *const T,
     out: *mut T,
-) where
-    Fused<T>: Simd<T>,
-{
+) {
     // SAFETY: the caller's.
     let (theta, omega, out) = unsafe {
         (
@@ -167,7 +161,7 @@ unsafe fn state<T, K: StateKernel<T>>(
             slice::from_raw_parts_mut(out, K::LINKS),
         )
     };
-    K::run::<Fused<T>>(model, time, theta, omega, out);
+    K::run::<T::Fused>(model, time, theta, omega, out);
 }
 
 #[inline(always)]
