@@ -7,11 +7,11 @@ use super::{Real, Scalar};
 use crate::simd::Simd;
 
 /// A number that has lanes: `f64` or `f32`.
-pub trait Lane: Real + Sealed {}
+pub trait Lane: Real + LaneRegisters {}
 
 /// Keeps other crates from implementing [`Lane`]; the registers of each
 /// instruction set.
-pub trait Sealed: Scalar {
+pub trait LaneRegisters: Scalar {
     /// Those of the build.
     type Build: Simd<Self>;
     /// Those of AVX2.

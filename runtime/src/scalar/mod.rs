@@ -169,7 +169,7 @@ pub trait Real: Scalar + PartialOrd + AddAssign + Display {
     /// `self` to the power `exponent`, for `self >= 0`.
     fn powf(self, exponent: Self) -> Self;
 
-    /// Whether the value is neither infinite nor NaN.
+    /// Returns true if the value is neither infinite nor NaN.
     fn is_finite(self) -> bool;
 
     /// The larger of two numbers; `self` if either is NaN.

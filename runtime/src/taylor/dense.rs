@@ -10,7 +10,7 @@
 // One index into all arrays at once.
 #![allow(clippy::needless_range_loop)]
 
-use super::elimination::Column;
+use super::elimination::LinkColumn;
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::linear::LinearSystem;
 use crate::scalar::Scalar;
@@ -18,9 +18,9 @@ use crate::simd::{Quad, Simd};
 
 /// The matrices of a start, by columns.
 pub(super) struct Matrices<T, const N: usize, const Q: usize> {
-    mass: [Column<T, Q>; N],
-    inverse: [Column<T, Q>; N],
-    turning: [Column<T, Q>; N],
+    mass: [LinkColumn<T, Q>; N],
+    inverse: [LinkColumn<T, Q>; N],
+    turning: [LinkColumn<T, Q>; N],
 }
 
 impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<T, N, Q> {
@@ -108,7 +108,7 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<
 /// The matrix with these N columns times x.
 #[inline(always)]
 fn product<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
-    columns: &[Column<T, Q>],
+    columns: &[LinkColumn<T, Q>],
     x: &[P; M],
 ) -> [P; M] {
     let zero = [P::splat(T::from_f64(0.0)); M];
@@ -119,7 +119,7 @@ fn product<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize
 #[inline(always)]
 fn add_product<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
     base: &[P; M],
-    columns: &[Column<T, Q>],
+    columns: &[LinkColumn<T, Q>],
     x: &[P; M],
 ) -> [P; M] {
     let mut sum = *base;
@@ -140,12 +140,12 @@ fn add_product<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: u
 /// Gauss and Jordan's elimination from the last unknown to the first, in the form
 /// that keeps the symmetry (sweeps), without an exchange of rows.
 #[inline(always)]
-fn invert<T: Scalar, P: Simd<T>, const N: usize, const Q: usize>(columns: &mut [Column<T, Q>]) {
+fn invert<T: Scalar, P: Simd<T>, const N: usize, const Q: usize>(columns: &mut [LinkColumn<T, Q>]) {
     let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
     for k in (0..N).rev() {
         let (pack, lane) = (k / 4, k % 4);
         let inverse = one / columns[k][pack].0[lane];
-        // Column k, with −1 in row k: subtracted from the others with their
+        // LinkColumn k, with −1 in row k: subtracted from the others with their
         // factors, it eliminates them and leaves the factor in row k.
         let mut eliminating = columns[k];
         eliminating[pack].0[lane] = -one;

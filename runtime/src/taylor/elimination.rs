@@ -35,19 +35,19 @@ use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
 /// A number of each link.
-pub(super) type Column<T, const Q: usize> = [Quad<T>; Q];
+pub(super) type LinkColumn<T, const Q: usize> = [Quad<T>; Q];
 
 /// A vector of each link.
-type Vectors<T, const Q: usize> = [Column<T, Q>; 2];
+type Vectors<T, const Q: usize> = [LinkColumn<T, Q>; 2];
 
 /// The factors at a start.
 pub(super) struct TaylorElimination<T, const Q: usize> {
     /// 1/J
-    inverse_inertia: Column<T, Q>,
+    inverse_inertia: LinkColumn<T, Q>,
     /// K
-    inertia_along: Column<T, Q>,
+    inertia_along: LinkColumn<T, Q>,
     /// q
-    product: Column<T, Q>,
+    product: LinkColumn<T, Q>,
     /// n
     response: Vectors<T, Q>,
     /// g
@@ -215,9 +215,9 @@ impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
     #[inline(always)]
     fn to_leaves<C: Connectivity<N>, P: Simd<T>, const N: usize>(
         &self,
-        share: &Column<T, Q>,
-        torque: &Column<T, Q>,
-        cosines: &Column<T, Q>,
+        share: &LinkColumn<T, Q>,
+        torque: &LinkColumn<T, Q>,
+        cosines: &LinkColumn<T, Q>,
     ) -> Vectors<T, Q> {
         let zero = P::splat(T::from_f64(0.0));
         let mut fall = [[Quad::splat(T::from_f64(0.0)); Q]; 2];
@@ -248,9 +248,9 @@ impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
 /// Numbers that links hand to their parents, or the sums of those that they get.
 struct Handed<T, const Q: usize> {
     /// t
-    torque: Column<T, Q>,
+    torque: LinkColumn<T, Q>,
     /// e
-    along: Column<T, Q>,
+    along: LinkColumn<T, Q>,
     /// f
     pull: Vectors<T, Q>,
 }
@@ -279,7 +279,7 @@ fn products<P: Scalar>([u_x, u_y]: [P; 2], [w_x, w_y]: [P; 2]) -> [P; 2] {
 
 /// Adds to the number of a link.
 #[inline(always)]
-fn add<T: Scalar, P: Simd<T>, const Q: usize>(column: &mut Column<T, Q>, i: usize, value: P) {
+fn add<T: Scalar, P: Simd<T>, const Q: usize>(column: &mut LinkColumn<T, Q>, i: usize, value: P) {
     (P::load_quad(column, i) + value).store_quad(column, i);
 }
 

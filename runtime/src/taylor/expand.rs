@@ -21,7 +21,7 @@ use super::dense::Matrices;
 use super::elimination::TaylorElimination;
 use super::linear::LinearSystem;
 use super::orders::Orders;
-use super::series::{Row, SERIES};
+use super::series::{SERIES, SeriesRow};
 use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
 use crate::simd::dispatch::in_fours;
@@ -193,7 +193,7 @@ struct OrdersOf<'a, 's, T, C, B, const N: usize, const Q: usize> {
     start: &'a Start<'s, T, N>,
     constants: &'a LinkConstants<T, N>,
     coefficients: &'a mut [[[T; N]; 2]],
-    rows: &'a mut [Row<T, Q>],
+    rows: &'a mut [SeriesRow<T, Q>],
     bias: B,
     connectivity: PhantomData<C>,
 }

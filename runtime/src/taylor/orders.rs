@@ -12,12 +12,12 @@
 //! apart, so that the sums are ready when that is.
 
 use super::bias::Bias;
-use super::elimination::Column;
+use super::elimination::LinkColumn;
 use super::expand::{Connectivity, KnownOrder, LinkConstants, Start};
 use super::linear::LinearSystem;
 use super::reciprocal::Reciprocal;
 use super::refine::residual;
-use super::series::{Row, SeriesSums};
+use super::series::{SeriesRow, SeriesSums};
 use crate::scalar::Scalar;
 use crate::simd::{Kernel, Quad, Simd};
 use core::marker::PhantomData;
@@ -31,7 +31,7 @@ pub(super) struct Orders<'a, T, C, B, L, const N: usize, const Q: usize, const M
     start: &'a Start<'a, T, N>,
     constants: &'a LinkConstants<T, N>,
     coefficients: &'a mut [[[T; N]; 2]],
-    rows: &'a mut [Row<T, Q>],
+    rows: &'a mut [SeriesRow<T, Q>],
     bias: B,
     /// The tree's connectivity, and how its equations are solved.
     kind: PhantomData<(C, L)>,
@@ -65,7 +65,7 @@ where
         start: &'a Start<'a, T, N>,
         constants: &'a LinkConstants<T, N>,
         coefficients: &'a mut [[[T; N]; 2]],
-        rows: &'a mut [Row<T, Q>],
+        rows: &'a mut [SeriesRow<T, Q>],
         bias: B,
     ) -> Self {
         Self {
@@ -227,7 +227,7 @@ fn known<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
     k: usize,
     start: &Start<'_, T, N>,
     [theta, omega]: &[[T; N]; 2],
-    row: &Row<T, Q>,
+    row: &SeriesRow<T, Q>,
 ) -> KnownOrder<T, N> {
     let c0: [P; M] = packs::<T, P, N, Q, M>(&start.cosines);
     let s0: [P; M] = packs::<T, P, N, Q, M>(&start.sines);
@@ -268,7 +268,7 @@ pub(super) fn packs<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const
 
 /// The numbers of all links.
 #[inline(always)]
-fn numbers<T: Scalar, const N: usize, const Q: usize>(column: &Column<T, Q>, out: &mut [T; N]) {
+fn numbers<T: Scalar, const N: usize, const Q: usize>(column: &LinkColumn<T, Q>, out: &mut [T; N]) {
     for (i, out) in out.iter_mut().enumerate() {
         *out = column[i / 4].0[i % 4];
     }

@@ -13,7 +13,7 @@
 //!
 //! −bias − M α − (F + D) cos θ − (G + E) sin θ
 
-use super::elimination::Column;
+use super::elimination::LinkColumn;
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::orders::packs;
 use crate::scalar::{Scalar, two_sum};
@@ -98,7 +98,7 @@ fn levers<T: Scalar, C: Connectivity<N>, P: Simd<T>, const N: usize, const Q: us
 }
 
 /// First and second parts of a number of each link.
-type PartsColumn<T, const Q: usize> = [Column<T, Q>; 2];
+type PartsColumn<T, const Q: usize> = [LinkColumn<T, Q>; 2];
 
 #[inline(always)]
 fn empty<T: Scalar, const Q: usize>() -> [PartsColumn<T, Q>; 2] {

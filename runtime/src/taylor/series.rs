@@ -5,12 +5,12 @@
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
-/// Series that are kept: ω, γ, σ, X, Y. Row r has order r of ω, r + 1 of γ and σ,
+/// Series that are kept: ω, γ, σ, X, Y. SeriesRow r has order r of ω, r + 1 of γ and σ,
 /// r − 1 of X and Y, so that all sums of order k run over rows j and k − j.
 pub(super) const SERIES: usize = 5;
 
 /// All series in one order.
-pub(super) type Row<T, const Q: usize> = [[Quad<T>; Q]; SERIES];
+pub(super) type SeriesRow<T, const Q: usize> = [[Quad<T>; Q]; SERIES];
 
 /// Sums of products in one order, over 0 < j < k.
 #[derive(Clone, Copy)]
@@ -48,7 +48,7 @@ impl<P: Scalar> SeriesSums<P> {
     /// sums of each, so that none waits for the other: for a single state, which waits for
     /// results more than it computes.
     #[inline(always)]
-    pub(super) fn of<T: Scalar, const Q: usize>(rows: &[Row<T, Q>], m: usize) -> Self
+    pub(super) fn of<T: Scalar, const Q: usize>(rows: &[SeriesRow<T, Q>], m: usize) -> Self
     where
         P: Simd<T>,
     {
@@ -74,7 +74,7 @@ impl<P: Scalar> SeriesSums<P> {
     /// k + 1 but for their terms with the newest row. What is loaded serves both: for
     /// several states, which compute more than they wait.
     #[inline(always)]
-    pub(super) fn pair<T: Scalar, const Q: usize>(rows: &[Row<T, Q>], m: usize) -> [Self; 2]
+    pub(super) fn pair<T: Scalar, const Q: usize>(rows: &[SeriesRow<T, Q>], m: usize) -> [Self; 2]
     where
         P: Simd<T>,
     {
@@ -82,7 +82,7 @@ impl<P: Scalar> SeriesSums<P> {
         let Some((newest, old)) = rows.split_last() else {
             return [now, next];
         };
-        // Row 0 has its terms elsewhere.
+        // SeriesRow 0 has its terms elsewhere.
         let Some((_, [first, middle @ ..])) = old.split_first() else {
             return [now, next];
         };
@@ -105,7 +105,7 @@ impl<P: Scalar> SeriesSums<P> {
 
     /// Adds the terms with the newest row.
     #[inline(always)]
-    pub(super) fn complete<T: Scalar, const Q: usize>(&mut self, rows: &[Row<T, Q>], m: usize)
+    pub(super) fn complete<T: Scalar, const Q: usize>(&mut self, rows: &[SeriesRow<T, Q>], m: usize)
     where
         P: Simd<T>,
     {
@@ -131,7 +131,7 @@ impl<P: Scalar> SeriesSums<P> {
 
 /// ω, X, Y
 #[inline(always)]
-fn moved<T: Scalar, P: Simd<T>, const Q: usize>(row: &Row<T, Q>, m: usize) -> [P; 3] {
+fn moved<T: Scalar, P: Simd<T>, const Q: usize>(row: &SeriesRow<T, Q>, m: usize) -> [P; 3] {
     let [omega, _, _, x, y] = row;
     [
         P::load_quad(omega, m),
@@ -142,7 +142,7 @@ fn moved<T: Scalar, P: Simd<T>, const Q: usize>(row: &Row<T, Q>, m: usize) -> [P
 
 /// γ, σ
 #[inline(always)]
-fn turned<T: Scalar, P: Simd<T>, const Q: usize>(row: &Row<T, Q>, m: usize) -> [P; 2] {
+fn turned<T: Scalar, P: Simd<T>, const Q: usize>(row: &SeriesRow<T, Q>, m: usize) -> [P; 2] {
     let [_, cos, sin, _, _] = row;
     [P::load_quad(cos, m), P::load_quad(sin, m)]
 }

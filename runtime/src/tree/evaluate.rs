@@ -175,7 +175,7 @@ impl<T: Scalar> Evaluation<'_, T> {
     }
 
     /// Up through blocks.
-    fn blocks_up(&self, mut blocks: Blocks<'_, T>) {
+    fn blocks_up(&self, mut blocks: SomeBlocks<'_, T>) {
         let Level {
             partition,
             start,
@@ -192,7 +192,7 @@ impl<T: Scalar> Evaluation<'_, T> {
 
     /// Down through them. Where nothing was kept of the way up, it is taken again:
     /// that takes less time than writing what is formed to memory and reading it back.
-    fn blocks_down(&self, mut blocks: Blocks<'_, T>) {
+    fn blocks_down(&self, mut blocks: SomeBlocks<'_, T>) {
         let Level {
             partition,
             start,
@@ -214,7 +214,7 @@ impl<T: Scalar> Evaluation<'_, T> {
     fn next_block<'a>(
         &'a self,
         block: Block<'a>,
-        blocks: &'a mut Blocks<'_, T>,
+        blocks: &'a mut SomeBlocks<'_, T>,
     ) -> Sweep<'a, T, T> {
         let Level {
             partition, room, ..
@@ -232,7 +232,7 @@ impl<T: Scalar> Evaluation<'_, T> {
 struct Level<'a, T> {
     partition: &'a Partition,
     room: &'a Room,
-    /// What is told of the first generation, and of the one that comes behind.
+    /// Values handed over at the first generation, and at the one that comes behind.
     start: Interface<'a, T>,
     below: Option<Interface<'a, T>>,
     alpha: Shared<'a, T>,
@@ -252,14 +252,14 @@ impl<'a, T> Level<'a, T> {
         self,
         threads: usize,
         mut workers: &'b mut [T],
-    ) -> impl Iterator<Item = Blocks<'b, T>>
+    ) -> impl Iterator<Item = SomeBlocks<'b, T>>
     where
         'a: 'b,
     {
         self.partition.jobs(threads).map(move |links| {
             let room = layout::worker::<T>(self.partition, self.room, &links);
             let mut own = take(&mut workers, room);
-            Blocks {
+            SomeBlocks {
                 level: self,
                 links,
                 passing: take(&mut own, self.room.passing()),
@@ -270,7 +270,7 @@ impl<'a, T> Level<'a, T> {
 }
 
 /// The blocks of a thread.
-struct Blocks<'a, T> {
+struct SomeBlocks<'a, T> {
     level: Level<'a, T>,
     /// Those that start with these links.
     links: Range<usize>,
@@ -305,7 +305,7 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
             theta,
             omega,
         };
-        // Blocks come with threads, which small trees do without.
+        // SomeBlocks come with threads, which small trees do without.
         match BLOCKS {
             true => evaluation.solve(0, None, buffer, Shared::new(alpha)),
             false => evaluation.top(None, buffer, Shared::new(alpha)),

@@ -1,5 +1,5 @@
-//! What sines and cosines have beside their first terms: polynomials in the square
-//! of the angle.
+//! Terms of sines and cosines behind the first ones: polynomials in the square of the
+//! angle.
 //!
 //! Horner's scheme takes five products for degree five, one after the other. With
 //! adapted coefficients (D. E. Knuth, The Art of Computer Programming 2, 3rd ed.

@@ -66,7 +66,7 @@ macro_rules! larger {
     }};
 }
 
-/// What `range` is to choose: the operand of larger size, without its sign.
+/// Choice of `range`: the operand of larger size, without its sign.
 const LARGER_SIZE: i32 = 0b1011;
 
 macro_rules! register {
