@@ -27,11 +27,13 @@ impl Emission<'_> {
         let result = self.result_type(entry);
         let needed = self.program.needed(&entry.outputs);
         let (body, parts) = self.body(entry, &needed);
-        // A batch compiles the accelerations for wider registers than the rest
+        // Batches and lanes compile the accelerations for wider registers than the rest
         // of the build uses, which only inlining allows. Those of loops call the
         // drive.
         let inline = match entry.purpose {
-            Purpose::Accelerations => quote!(#[inline(always)]),
+            Purpose::Accelerations | Purpose::AccelerationsUnder | Purpose::Transverse(_) => {
+                quote!(#[inline(always)])
+            }
             Purpose::Drive if self.scene.in_loops() => quote!(#[inline(always)]),
             _ => quote!(#[inline]),
         };

@@ -18,6 +18,7 @@ mod quantities;
 mod shown;
 mod sink;
 mod strip_docs;
+mod strip_forced;
 mod strip_powers;
 mod strip_tables;
 mod strips;

@@ -200,6 +200,10 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
 
         impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
             fn accelerations_under_into(&self, _: T, _: &[T], _: &[T], _: &[T], _: &mut [T]) {}
+            fn accelerations_under_of<#other: #runtime::Scalar>(
+                _: &#name<#other>, _: #other, _: &[#other], _: &[#other], _: &[#other],
+                _: &mut [#other],
+            ) {}
         }
 
         impl<T: #runtime::Scalar> #runtime::Positions<T> for #name<T> {

@@ -170,6 +170,7 @@ impl Emission<'_> {
 
     fn forced(&self) -> TokenStream {
         let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
+        let other = super::other_scalar(name);
         let output = Ident::new("alpha", Span::call_site());
         let call = match self.mechanics.drive.is_some() {
             true => quote!(self.accelerations_under(time, theta, omega, torques)),
@@ -178,7 +179,7 @@ impl Emission<'_> {
         let body = self.fill(&output, &["theta", "omega", "torques"], call);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
-                #[inline]
+                #[inline(always)]
                 fn accelerations_under_into(
                     &self,
                     #time: T,
@@ -188,6 +189,20 @@ impl Emission<'_> {
                     alpha: &mut [T],
                 ) {
                     #body
+                }
+
+                #[inline(always)]
+                fn accelerations_under_of<#other: #runtime::Scalar>(
+                    pendulum: &#name<#other>,
+                    time: #other,
+                    theta: &[#other],
+                    omega: &[#other],
+                    torques: &[#other],
+                    alpha: &mut [#other],
+                ) {
+                    #runtime::Forced::accelerations_under_into(
+                        pendulum, time, theta, omega, torques, alpha,
+                    );
                 }
             }
         }

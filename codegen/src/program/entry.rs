@@ -36,7 +36,8 @@ pub enum Argument {
     Symmetric,
     /// Constants of one link of a tree in loops.
     Constants,
-    /// Its motion: sine, cosine, angular velocity, joint angle, joint rate.
+    /// Its motion: sine, cosine, angular velocity, joint angle, joint rate, torque from
+    /// outside.
     Motion,
     /// Response of a subtree: deficit xx, xy, yy of the articulated inertia, bias
     /// force, torque of its joint on the parent.

@@ -182,7 +182,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         taylor,
         positions: _,
         transverse,
-        forces,
+        forces: _,
         solve,
     } = &asked.resolved.requests;
     // Loops are the recursion.
@@ -195,7 +195,6 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         (budget.is_some(), "`emit(budget)`"),
         (*taylor, "`emit(taylor)`"),
         (*transverse, "`emit(transverse)`"),
-        (*forces, "`emit(forces)`"),
         (asked.observables, "`observe(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),

@@ -18,27 +18,25 @@ use crate::integrate::lanes::registers::{
 use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
 use crate::integrate::options::Options;
 use crate::integrate::steps::StepLimits;
-use crate::scalar::at;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
 use crate::simd::{Part, outlined};
-use crate::system::cast::put;
-use crate::system::{Cast, State};
+use crate::system::{LaneOde, State};
 
-impl<M: EmbeddedPair, P: Cast<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKutta<M, T> {
-    type Steps<'a, R: Register<Lane = T>> = PairInLanes<'a, M, P, R>;
+impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRungeKutta<M, T> {
+    type Steps<'a, R: Register<Lane = T>> = PairInLanes<'a, M, O, R>;
 
     fn options(&self) -> &Options<T> {
         &self.options
     }
 
-    fn steps<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> PairInLanes<'a, M, P, R> {
+    fn steps<'a, R: Register<Lane = T>>(&'a self, system: &O) -> PairInLanes<'a, M, O, R> {
         let zero = R::from_f64(0.0);
-        let start = vec![zero; 2 * P::LINKS];
+        let start = vec![zero; system.dimension()];
         let control = StepControl::new(M::CONTROL, &self.options);
         PairInLanes {
-            system: Pendulums {
-                models: Models::splat(pendulum),
+            system: Systems {
+                models: Models::splat(system),
                 smallest: R::splat(smallest_divisor()),
                 checks: [zero; MOST_STAGES],
             },
@@ -52,40 +50,25 @@ impl<M: EmbeddedPair, P: Cast<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKut
     }
 }
 
-/// The pendulums in the lanes, and what their evaluations have left.
-struct Pendulums<P: Cast<R::Lane>, R: Register> {
-    models: Models<P, R>,
+/// The systems in the lanes, and what their evaluations have left.
+struct Systems<O: LaneOde<R::Lane>, R: Register> {
+    models: Models<O, R>,
     /// A divisor for what may be zero over zero.
     smallest: R,
     /// Zero after a stage, NaN from the first stage on whose rates are not finite.
     checks: [R; MOST_STAGES],
 }
 
-/// The right-hand sides of the pendulums: angles, then velocities.
+/// The right-hand sides of the systems.
 ///
 /// In a function of its own, which all stages call: equations of large trees
 /// are long.
-impl<'a, P: Cast<R::Lane>, R: Register> Part<0, (R, &'a [R], &'a mut [R])> for Models<P, R> {
+impl<'a, O: LaneOde<R::Lane>, R: Register> Part<0, (R, &'a [R], &'a mut [R])> for Models<O, R> {
     type Output = ();
 
     #[inline(always)]
     fn part(&self, (time, state, rates): (R, &'a [R], &'a mut [R])) {
-        // As many as the compiler knows them to be.
-        let (Some(state), Some(rates)) = (state.get(..2 * P::LINKS), rates.get_mut(..2 * P::LINKS))
-        else {
-            return;
-        };
-        let (theta, omega) = state.split_at(P::LINKS);
-        let (velocities, alpha) = rates.split_at_mut(P::LINKS);
-        for (rate, velocity) in velocities.iter_mut().zip(omega) {
-            *rate = *velocity;
-        }
-        self.registers.evaluate(
-            time,
-            |link| at(theta, link),
-            |link| at(omega, link),
-            |link, value| put(alpha, link, value),
-        );
+        O::rates_of(&self.registers, time, state, rates);
     }
 }
 
@@ -99,13 +82,13 @@ fn check_finite<R: Register>(mut check: R, values: &[R]) -> R {
     check
 }
 
-impl<P: Cast<R::Lane>, R: Register> RightHandSide<R> for Pendulums<P, R> {
+impl<O: LaneOde<R::Lane>, R: Register> RightHandSide<R> for Systems<O, R> {
     type Failure = Infallible;
     type Accepted = R::Mask;
 
     #[inline(always)]
     fn dimension(&self) -> usize {
-        2 * P::LINKS
+        self.models.dimension()
     }
 
     #[inline(always)]
@@ -147,8 +130,8 @@ impl<P: Cast<R::Lane>, R: Register> RightHandSide<R> for Pendulums<P, R> {
 }
 
 /// The method at work.
-pub struct PairInLanes<'a, M, P: Cast<R::Lane>, R: Register> {
-    system: Pendulums<P, R>,
+pub struct PairInLanes<'a, M, O: LaneOde<R::Lane>, R: Register> {
+    system: Systems<O, R>,
     options: &'a Options<R::Lane>,
     stages: StepStages<R>,
     controls: [StepControl<R::Lane>; WIDEST],
@@ -159,10 +142,10 @@ pub struct PairInLanes<'a, M, P: Cast<R::Lane>, R: Register> {
     pair: PhantomData<M>,
 }
 
-impl<M: EmbeddedPair, P: Cast<R::Lane>, R: Register> LaneSteps<R> for PairInLanes<'_, M, P, R> {
-    type Pendulum = P;
+impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> LaneSteps<R> for PairInLanes<'_, M, O, R> {
+    type System = O;
 
-    fn models(&mut self) -> &mut Models<P, R> {
+    fn models(&mut self) -> &mut Models<O, R> {
         &mut self.system.models
     }
 
@@ -196,7 +179,8 @@ impl<M: EmbeddedPair, P: Cast<R::Lane>, R: Register> LaneSteps<R> for PairInLane
     fn attempt(&mut self, span: StepSpan<R>, size: R) {
         let (system, stages) = (&mut self.system, &mut self.stages);
         let Ok(()) = stages.make::<M, _>(system, span);
-        self.finite_end = numbers(check_finite(R::from_f64(0.0), &stages.end[..2 * P::LINKS]));
+        let end = &stages.end[..system.dimension()];
+        self.finite_end = numbers(check_finite(R::from_f64(0.0), end));
         let Ok(()) = stages.evaluate_end::<M, _>(system, span.time + span.step);
         self.errors = numbers(M::error(stages, system, size));
     }
@@ -241,11 +225,11 @@ impl<M: EmbeddedPair, P: Cast<R::Lane>, R: Register> LaneSteps<R> for PairInLane
     #[inline(always)]
     fn advance(&mut self, accepted: R::Mask) {
         self.stages
-            .advance::<M, Pendulums<P, R>>(2 * P::LINKS, accepted);
+            .advance::<M, Systems<O, R>>(self.system.dimension(), accepted);
     }
 }
 
-impl<M: EmbeddedPair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
+impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> PairInLanes<'_, M, O, R> {
     /// Judges the step of a lane, as the driver of the plain method does, and
     /// chooses the next one. Returns true if it is accepted.
     #[inline(always)]
@@ -321,7 +305,7 @@ impl<M: EmbeddedPair, P: Cast<R::Lane>, R: Register> PairInLanes<'_, M, P, R> {
     /// Time and state of a stage in a lane.
     #[cold]
     fn place(&self, lane: usize, span: StepSpan<R::Lane>, stage: usize) -> (R::Lane, Vec<R::Lane>) {
-        let (stages, n) = (&self.stages, 2 * P::LINKS);
+        let (stages, n) = (&self.stages, self.system.dimension());
         // Operations as in the step, for equal bits.
         let span = StepSpan {
             time: R::splat(span.time),

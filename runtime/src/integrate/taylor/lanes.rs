@@ -19,9 +19,9 @@ use crate::integrate::sum::two_sum;
 use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
 use crate::simd::{Part, Quad, outlined};
-use crate::system::{Cast, State, TaylorPendulum};
+use crate::system::{AbsoluteAngles, Cast, State, TaylorPendulum};
 
-impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
+impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<T> {
     type Steps<'a, R: Register<Lane = T>> = TaylorInLanes<'a, P, R>;
 
     fn options(&self) -> &Options<T> {
@@ -32,12 +32,15 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
         self.check_options()
     }
 
-    fn steps<'a, R: Register<Lane = T>>(&'a self, pendulum: &P) -> TaylorInLanes<'a, P, R> {
+    fn steps<'a, R: Register<Lane = T>>(
+        &'a self,
+        system: &AbsoluteAngles<P>,
+    ) -> TaylorInLanes<'a, P, R> {
         let (n, order) = (2 * P::LINKS, self.order());
         let zero = R::from_f64(0.0);
         let (relative, absolute) = tolerances(&self.options, n);
         TaylorInLanes {
-            models: Models::splat(pendulum),
+            models: Models::splat(system),
             options: &self.options,
             order,
             safety: super::safety(order),
@@ -59,7 +62,9 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
 type Expansion<'a, R> = (R, &'a [R], &'a mut [R], &'a mut [Quad<R>]);
 
 /// In a function of its own, with registers of its own.
-impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>> for Models<P, R> {
+impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>>
+    for Models<AbsoluteAngles<P>, R>
+{
     type Output = ();
 
     #[inline(always)]
@@ -73,7 +78,7 @@ impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>> for 
 
 /// The method at work: its polynomials, and what it works on.
 pub struct TaylorInLanes<'a, P: Cast<R::Lane>, R: Register> {
-    models: Models<P, R>,
+    models: Models<AbsoluteAngles<P>, R>,
     options: &'a Options<R::Lane>,
     order: usize,
     safety: R::Lane,
@@ -168,9 +173,9 @@ impl<P: Cast<R::Lane>, R: Register> TaylorInLanes<'_, P, R> {
 }
 
 impl<P: TaylorPendulum<R::Lane>, R: Register> LaneSteps<R> for TaylorInLanes<'_, P, R> {
-    type Pendulum = P;
+    type System = AbsoluteAngles<P>;
 
-    fn models(&mut self) -> &mut Models<P, R> {
+    fn models(&mut self) -> &mut Models<AbsoluteAngles<P>, R> {
         &mut self.models
     }
 
