@@ -71,6 +71,7 @@ impl Emission<'_> {
             Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                 self.transverse_links(sector)
             }
+            Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
             _ => self.scene.links.len(),
         })
     }
@@ -85,6 +86,11 @@ impl Emission<'_> {
                 let rows = Literal::usize_unsuffixed(entry.outputs.len() / length);
                 let length = Literal::usize_unsuffixed(length);
                 quote!([[T; #length]; #rows])
+            }
+            Shape::Arrays(first) => {
+                let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
+                let first = Literal::usize_unsuffixed(first);
+                quote!(([T; #first], [T; #rest]))
             }
             Shape::Split(first) => {
                 let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
@@ -279,6 +285,7 @@ impl Emission<'_> {
                 Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                     self.transverse_links(sector)
                 }
+                Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
                 _ => self.scene.links.len(),
             },
         };
@@ -362,6 +369,10 @@ impl Emission<'_> {
             Shape::Rows(length) => {
                 let rows = values.chunks(length).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
+            }
+            Shape::Arrays(first) => {
+                let (first, second) = values.split_at(first);
+                quote!(([#(#first),*], [#(#second),*]))
             }
             Shape::Split(first) => {
                 let (first, second) = values.split_at(first);

@@ -14,6 +14,7 @@ mod names;
 mod observables;
 mod parts;
 mod positions;
+mod prescribed;
 mod quantities;
 mod shown;
 mod sink;

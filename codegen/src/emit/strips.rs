@@ -195,6 +195,7 @@ impl Emission<'_> {
             }
         };
         let (energies, drive) = (self.strip_energies(), self.strip_drive());
+        let powers = self.strip_powers();
         // Of commas: all tokens stand where the attribute does, see `emit`.
         let allow = self.mechanics.drive.is_some();
         let allow = allow.then(|| quote!(#[allow(clippy::possible_missing_comma)]));
@@ -206,6 +207,7 @@ impl Emission<'_> {
 
                 #energies
                 #drive
+                #powers
             }
         }
     }

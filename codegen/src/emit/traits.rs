@@ -23,6 +23,7 @@ impl Emission<'_> {
         let positions = self.positions_trait();
         let transverse = self.transverse_trait();
         let forced = self.scene.requests.forces.then(|| self.forced());
+        let prescribed = self.prescribed_trait();
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
             #pendulum
@@ -34,6 +35,7 @@ impl Emission<'_> {
             #positions
             #transverse
             #forced
+            #prescribed
             #taylor
         }
     }

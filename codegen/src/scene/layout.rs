@@ -44,6 +44,7 @@ pub enum Layout {
 pub(super) struct Asked<'a> {
     pub(super) resolved: &'a Resolved,
     pub(super) observables: bool,
+    pub(super) prescribed: bool,
 }
 
 /// How the code of a rule would be laid out that is not reduced.
@@ -196,6 +197,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         (*taylor, "`emit(taylor)`"),
         (*transverse, "`emit(transverse)`"),
         (asked.observables, "`observe(…)`"),
+        (asked.prescribed, "`prescribed(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),
     ];
