@@ -13,7 +13,8 @@ use super::list::{
 };
 use super::{
     Description, DriveClause, Expression, LockedClause, Multiplicity, Node, ObservableClause,
-    ParameterClause, Property, Reductions, Request, RequestForm, StructItem, Value,
+    ParameterClause, PrescribedClause, Property, Reductions, Request, RequestForm, StructItem,
+    Value,
 };
 use crate::report::{Diagnostic, Message, Report};
 
@@ -56,6 +57,7 @@ pub fn parse(
         requests: Vec::new(),
         observables: Vec::new(),
         reductions: Reductions::default(),
+        prescribed: Vec::new(),
         damaged: entries.damaged,
     };
     let (mut emits, mut observes) = (0, 0);
@@ -118,6 +120,7 @@ pub fn parse(
             }
             Member::InPhase(nodes) => description.reductions.in_phase.extend(nodes),
             Member::Locked(clause) => description.reductions.locked.push(clause),
+            Member::Prescribed(clause) => description.prescribed.push(clause),
             Member::Link(node) => description.roots.push(node),
         }
     }
@@ -199,6 +202,7 @@ enum Member {
     Observe(Ident, Vec<ObservableClause>),
     InPhase(Vec<Ident>),
     Locked(LockedClause),
+    Prescribed(PrescribedClause),
     Link(Node),
 }
 
@@ -263,6 +267,15 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFaul
             Ok(LockedClause { link, angle })
         })?;
         return Ok(Member::Locked(clause));
+    }
+    if name == "prescribed" && declares(input) {
+        let links = group(input, Delimiter::Parenthesis, "`(` and links")?;
+        let links = list(links, report, |input, _| identifier(input, "a link"));
+        return Ok(Member::Prescribed(PrescribedClause {
+            name,
+            links: links.members,
+            damaged: links.damaged,
+        }));
     }
     if name == "gravity" || name == "crate" {
         return Err(expected(input, "`=` and a value"));

@@ -28,6 +28,7 @@ impl Derivation<'_> {
             combinations: Vec::new(),
             constants: Vec::new(),
             drive: self.plain_drive(Some(&absolute)),
+            friction_power: self.total_friction_power(),
             absolute: self.frame(&absolute),
             articulation: self.articulation(&absolute),
             positions: None,
@@ -103,6 +104,7 @@ impl Derivation<'_> {
         Mechanics {
             parameters: self.parameters.clone(),
             drive: self.plain_drive(None),
+            friction_power: None,
             absolute: Frame::default(),
             articulation: Articulation {
                 gravity: self.expr(&gravity.expand()),
@@ -322,6 +324,7 @@ impl Derivation<'_> {
             exact: exact.map(|parts| self.parts(&parts)),
             friction: self.expr(&self.friction_power(frame, energy)),
             drive: self.expr(&self.drive_power(frame, energy)),
+            velocity: self.expr(&self.own_velocity(frame, energy)),
         }
     }
 

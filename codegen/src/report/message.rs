@@ -405,6 +405,8 @@ pub enum Message {
         /// The link, or `all`.
         name: String,
     },
+    /// A clause of prescribed links without any.
+    NothingPrescribed,
     /// The root as a joint that does not move.
     LockedRoot,
     /// A generation of a tree in loops as a joint that does not move.
@@ -464,6 +466,7 @@ impl Message {
                 "observe",
                 "in_phase",
                 "locked",
+                "prescribed",
             ],
         );
         Self::UnknownEntry { name, nearest }

@@ -462,6 +462,11 @@ impl Message {
                 "no copies",
                 "leave it out, or write copies as in `child(...) * 2`",
             ),
+            M::NothingPrescribed => problem(
+                "`prescribed()` names no link",
+                "no link",
+                "write the links whose motion is handed over, as in `prescribed(arm)`",
+            ),
             M::LockedRoot => problem(
                 "the root cannot be locked",
                 "hangs from the ground",
