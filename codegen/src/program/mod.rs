@@ -47,7 +47,8 @@ pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use entry::{
-    Argument, EnergyDefinition, Entry, LinkFunction, ObservableForm, PointKind, Purpose, Shape,
+    Argument, Cause, EnergyDefinition, Entry, LinkFunction, ObservableForm, PointKind, Purpose,
+    Shape,
 };
 pub use fuse::FusedSum;
 pub use link::{Column, Strip, Strips};

@@ -82,7 +82,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     }
     // Copies may have stood where the tree was unreadable.
     if readable {
-        check_symmetry(&resolved, &expansion, report);
+        check_symmetry(&mut resolved, &expansion, report);
     }
     let mut scene = Scene {
         name: description.item.ident.to_string(),
@@ -137,6 +137,13 @@ fn gravity(
             value: Value::Single(value),
             ..
         }) => values.evaluate(value, &usage, report),
+        Some(Property {
+            value: Value::Each { span, .. },
+            ..
+        }) => {
+            report.error(*span, Message::EachWithoutCopies);
+            None
+        }
         Some(Property {
             name,
             value: Value::Pair(..),
