@@ -7,7 +7,7 @@ use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 use syn::parse::ParseStream;
 use syn::{Token, token};
 
-use super::expression::literal;
+use super::expression::{EACH_WHOLE, literal};
 use super::list::{
     List, ListFault, brackets, colon, expected, group, identifier, list, parse_all, take,
 };
@@ -374,6 +374,9 @@ fn property_value(name: Ident, input: ParseStream<'_>) -> Result<Property, ListF
         },
         None => point(input)?,
     };
+    if matches!(value, Value::Each { .. }) && !input.is_empty() && !input.peek(Token![,]) {
+        return Err(expected(input, EACH_WHOLE));
+    }
     Ok(Property { name, value })
 }
 

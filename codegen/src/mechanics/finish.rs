@@ -45,8 +45,7 @@ impl Derivation<'_> {
         let requests = &self.scene.requests;
         let requests_transverse = requests.transverse;
         // The arithmetic on fields takes the constants of copies for equal.
-        let nested =
-            requests.symmetric && self.is_nested() && !self.scene.has_unequal_copies();
+        let nested = requests.symmetric && self.is_nested() && !self.scene.has_unequal_copies();
         if requests.budget.is_some() || nested {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
             mechanics.sectors = Some(self.sectors(&absolute, &coordinates));

@@ -1,4 +1,4 @@
-//! Copies that differ (physics §12): the constants of the copies as their means and
+//! Copies that differ (physics §14): the constants of the copies as their means and
 //! mismatches, and W by what the mean tree does and what the mismatch adds.
 //!
 //! A constant of the copies is transformed as their angles are: to its mean and its Helmert
@@ -92,10 +92,16 @@ impl Derivation<'_> {
                     true => format!(",{}", orbit(other).name),
                     false => String::new(),
                 };
-                self.symbols.find(&format!("{letter}_{}{other}", orbit(link).name))
+                self.symbols
+                    .find(&format!("{letter}_{}{other}", orbit(link).name))
             })
             .collect();
-        let Some(unit) = symbols.iter().flatten().map(|id| self.constants[id].unit).next() else {
+        let Some(unit) = symbols
+            .iter()
+            .flatten()
+            .map(|id| self.constants[id].unit)
+            .next()
+        else {
             return;
         };
         let value = |symbol: &Option<SymbolId>| match symbol {
@@ -122,7 +128,11 @@ impl Derivation<'_> {
                 }
             };
             let [code, text, index] = match coupled {
-                true => [format!("_{other}"), format!(",{other}"), format!(",{}", latex_name(other))],
+                true => [
+                    format!("_{other}"),
+                    format!(",{other}"),
+                    format!(",{}", latex_name(other)),
+                ],
                 false => [const { String::new() }; 3],
             };
             let with = match coupled {
@@ -133,7 +143,11 @@ impl Derivation<'_> {
                 &format!("{prefix}{word}_{label}{code}"),
                 &format!("{sign}{letter}_{label}{text}"),
                 &format!("{tex}{latex}_{{\\mathrm{{{}{index}}}}}", latex_name(label)),
-                &format!("{} of the copies of `{}`{with}: {kind}", word.replace('_', " "), node.name),
+                &format!(
+                    "{} of the copies of `{}`{with}: {kind}",
+                    word.replace('_', " "),
+                    node.name
+                ),
                 unit,
                 (&total / &Formula::integer(coordinate.norm())).expand(),
             );
@@ -147,7 +161,10 @@ impl Derivation<'_> {
         // Links of one orbit have one constant.
         for (symbol, sum) in symbols.into_iter().zip(sums) {
             if let Some(symbol) = symbol
-                && constants.replacements.iter().all(|(known, _)| *known != symbol)
+                && constants
+                    .replacements
+                    .iter()
+                    .all(|(known, _)| *known != symbol)
             {
                 constants.replacements.push((symbol, sum));
             }
@@ -209,7 +226,8 @@ impl Derivation<'_> {
         let rows = 0..velocities.len();
         let right = rows.map(|row| {
             let terms = velocities.iter().enumerate();
-            let terms = terms.map(|(column, &v)| &mismatch.mass.get(row, column) * &Formula::symbol(v));
+            let terms =
+                terms.map(|(column, &v)| &mismatch.mass.get(row, column) * &Formula::symbol(v));
             self.expr(&-terms.sum::<Formula>())
         });
         MeanTree {
@@ -231,7 +249,12 @@ impl Derivation<'_> {
         differences: &[usize],
         energy: &SubHamiltonian,
     ) -> DerivedParts {
-        let Mismatch { frame, mean, added, mass } = mismatch;
+        let Mismatch {
+            frame,
+            mean,
+            added,
+            mass,
+        } = mismatch;
         let velocity = |index: usize| Formula::symbol(frame.velocities[index]);
         let added = |index: usize| Formula::symbol(added[index]);
         let half = Formula::integer(2).pow(-1);

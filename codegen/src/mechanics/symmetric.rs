@@ -286,13 +286,12 @@ impl Derivation<'_> {
         let mut terms = Vec::new();
         for (_, links) in nodes {
             let count = Formula::integer(links.len() as i64);
-            let differ = links.iter().any(|link| {
-                self.scene.links[link.0].orbit != self.scene.links[links[0].0].orbit
-            });
+            let differ = links
+                .iter()
+                .any(|link| self.scene.links[link.0].orbit != self.scene.links[links[0].0].orbit);
             let mut parts = |function: fn(&Self, SymbolId) -> SymbolId| {
                 let symbol = |link: &LinkId| function(self, absolute.coordinates[link.0]);
-                let value =
-                    |link: &LinkId| Formula::symbol(symbol(link)).substitute(replacements);
+                let value = |link: &LinkId| Formula::symbol(symbol(link)).substitute(replacements);
                 let total = links.iter().map(value).sum::<Formula>().expand();
                 if !differ {
                     return (sum.derivative(symbol(&links[0])), total);

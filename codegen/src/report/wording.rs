@@ -539,15 +539,11 @@ impl Message {
                            for energies of your own",
                     ),
                     UnequalUse::Reduction => (
-                        "a tree with unequal copies has no such motion",
+                        "`in_phase` and `locked` need a tree of equal copies",
                         "leave this out, or `each(...)`",
                     ),
                 };
-                problem(
-                    what,
-                    format!("the copies of `{node}` differ"),
-                    hint,
-                )
+                problem(what, format!("the copies of `{node}` differ"), hint)
             }
             M::LateralTransfer { link } => problem(
                 format!("`transfer` needs the centre of mass of `{link}` on its axis"),

@@ -188,13 +188,11 @@ fn name_coordinates(scene: &Scene, coordinates: &mut [Coordinate]) {
     let link_names: Vec<&String> = scene.links.iter().map(|l| &l.name).collect();
     for coordinate in coordinates.iter_mut() {
         coordinate.name = match &coordinate.kind {
-            CoordinateKind::Mean { orbit } => {
-                match (coordinate.weights.as_slice(), one_strand) {
-                    ([(link, _)], _) => scene.links[link.0].name.clone(),
-                    (_, true) => "m".into(),
-                    _ => format!("{}_m", scene.orbits[orbit.0].node),
-                }
-            }
+            CoordinateKind::Mean { orbit } => match (coordinate.weights.as_slice(), one_strand) {
+                ([(link, _)], _) => scene.links[link.0].name.clone(),
+                (_, true) => "m".into(),
+                _ => format!("{}_m", scene.orbits[orbit.0].node),
+            },
             CoordinateKind::Difference {
                 group,
                 index,

@@ -121,7 +121,13 @@ fn constants(scene: &Scene) -> Vec<String> {
         let Some(&first) = own.links.first() else {
             continue;
         };
-        add_constants(scene, &own.name, &[first], |link| &orbit(link).name, &mut names);
+        add_constants(
+            scene,
+            &own.name,
+            &[first],
+            |link| &orbit(link).name,
+            &mut names,
+        );
     }
     if !scene.has_unequal_copies() {
         return names;
@@ -161,7 +167,10 @@ fn add_constants<'a>(
         ("rest", |link| &link.rest),
     ];
     for (word, force) in forces {
-        if links.iter().any(|link| force(&scene.links[link.0]).is_some()) {
+        if links
+            .iter()
+            .any(|link| force(&scene.links[link.0]).is_some())
+        {
             names.push(format!("{word}_{own}"));
         }
     }

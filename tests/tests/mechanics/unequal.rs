@@ -105,7 +105,8 @@ fn nested() -> Tree {
 
 fn agrees(compiled: &Compiled, tree: &Tree, what: &str) {
     let mut random = Random::new(3);
-    let [mut accelerations, mut kinetic, mut potential] = [const { () }; 3].map(|()| Worst::default());
+    let [mut accelerations, mut kinetic, mut potential] =
+        [const { () }; 3].map(|()| Worst::default());
     for count in 0..200 {
         let theta = random.around_zero(tree.links.len(), 3.0);
         let omega = random.around_zero(tree.links.len(), 8.0);
@@ -147,7 +148,9 @@ fn nested_copies_agree_with_bodies() {
 /// angles.
 #[test]
 fn symmetric_coordinates_of_nested_copies() {
-    let compiled = compile(&format!("{NESTED}, emit(energies, momenta, modes, symmetric)"));
+    let compiled = compile(&format!(
+        "{NESTED}, emit(energies, momenta, modes, symmetric)"
+    ));
     let equal = compile(
         "gravity = 9.80665,
         trunk(mass = 0.3, com = 0.1, inertia = 2e-3, joint = 0.25) [
@@ -169,7 +172,9 @@ fn symmetric_coordinates_of_nested_copies() {
         let (q, v) = (transform(&theta), transform(&omega));
         let alpha = transform(&compiled.evaluate("accelerations", &[&theta, &omega]));
         let found = compiled.evaluate("symmetric_accelerations", &[&q, &v]);
-        let largest = alpha.iter().fold(1.0_f64, |largest, a| largest.max(a.abs()));
+        let largest = alpha
+            .iter()
+            .fold(1.0_f64, |largest, a| largest.max(a.abs()));
         for (found, alpha) in found.iter().zip(&alpha) {
             worst.note(found - alpha, largest, || format!("state {count}"));
         }
@@ -177,7 +182,9 @@ fn symmetric_coordinates_of_nested_copies() {
         let energy = compiled.evaluate("kinetic_energy", &[&theta, &omega])[0]
             + compiled.evaluate("potential_energy", &[&theta])[0];
         let found = compiled.evaluate("hamiltonian", &[&q, &p])[0];
-        worst.note(found - energy, energy.abs() + 1.0, || format!("H, state {count}"));
+        worst.note(found - energy, energy.abs() + 1.0, || {
+            format!("H, state {count}")
+        });
         let back = compiled.evaluate("symmetric_velocities", &[&q, &p]);
         for (back, v) in back.iter().zip(&v) {
             worst.note(back - v, 5.0, || format!("velocities, state {count}"));
@@ -200,12 +207,17 @@ fn what_is_equal_stays_in_phase() {
     let names = (compiled.mechanics.coordinates.iter()).map(|own| own.name.as_str());
     assert_eq!(
         names.collect::<Vec<_>>(),
-        ["trunk", "arm_m", "hand_m", "arm_d", "hand_d", "hand_1_d", "hand_2_d"]
+        [
+            "trunk", "arm_m", "hand_m", "arm_d", "hand_d", "hand_1_d", "hand_2_d"
+        ]
     );
     let q = [0.3, 0.5, -0.2, 0.0, 0.0, 0.4, 0.4];
     let v = [1.0, -2.0, 3.0, 0.0, 0.0, 0.5, 0.5];
     let alpha = compiled.evaluate("symmetric_accelerations", &[&q, &v]);
-    assert!(alpha[3].abs() < 1e-12 && alpha[4].abs() < 1e-12, "{alpha:?}");
+    assert!(
+        alpha[3].abs() < 1e-12 && alpha[4].abs() < 1e-12,
+        "{alpha:?}"
+    );
     assert!((alpha[5] - alpha[6]).abs() < 1e-12);
     assert!(alpha[5].abs() > 1.0);
 }
@@ -229,10 +241,18 @@ fn equal_values_give_equal_copies() {
         let (q, v) = (draw(&mut random, 1.5), draw(&mut random, 4.0));
         let p = model.symmetric_momenta(&q, &v);
         let place = || format!("state {count}");
-        for (own, equal) in model.symmetric_accelerations(&q, &v).iter().zip(paper.symmetric_accelerations(&q, &v)) {
+        for (own, equal) in model
+            .symmetric_accelerations(&q, &v)
+            .iter()
+            .zip(paper.symmetric_accelerations(&q, &v))
+        {
             worst.note(own - equal, 1e3, place);
         }
-        worst.note(model.antiphase_energy(&q, &p) - paper.antiphase_energy(&q, &p), 1.0, place);
+        worst.note(
+            model.antiphase_energy(&q, &p) - paper.antiphase_energy(&q, &p),
+            1.0,
+            place,
+        );
         let expected = paper.transfer_exact(&q, &p);
         let scale = 1.0 + expected.kinetic.abs() + expected.potential.abs();
         for found in [
@@ -243,7 +263,10 @@ fn equal_values_give_equal_copies() {
             worst.note(found.kinetic - expected.kinetic, scale, place);
             worst.note(found.potential - expected.potential, scale, place);
         }
-        for forcing in [model.transfer_forcing(&q, &p), model.transfer_forcing_from_rates(&q, &v)] {
+        for forcing in [
+            model.transfer_forcing(&q, &p),
+            model.transfer_forcing_from_rates(&q, &v),
+        ] {
             assert_eq!((forcing.kinetic, forcing.potential), (0.0, 0.0));
         }
     }
@@ -281,14 +304,26 @@ macro_rules! assert_split {
             });
             let scale = 10.0 * (model.kinetic_energy(&theta, &omega) + model.$energy(&q, &p));
             let place = || format!("state {count}");
-            along.note(exact.total() + power(&model, &q, &v) - measured, scale, place);
+            along.note(
+                exact.total() + power(&model, &q, &v) - measured,
+                scale,
+                place,
+            );
             for (growth, forcing) in [
                 (model.$growth(&q, &p), model.$forcing(&q, &p)),
                 (model.$growth_rates(&q, &v), model.$forcing_rates(&q, &v)),
             ] {
                 largest = largest.max(forcing.total().abs() / scale);
-                parts.note(growth.kinetic + forcing.kinetic - exact.kinetic, scale, place);
-                parts.note(growth.potential + forcing.potential - exact.potential, scale, place);
+                parts.note(
+                    growth.kinetic + forcing.kinetic - exact.kinetic,
+                    scale,
+                    place,
+                );
+                parts.note(
+                    growth.potential + forcing.potential - exact.potential,
+                    scale,
+                    place,
+                );
             }
             let rates = model.$rates(&q, &v);
             parts.note(rates.total() - exact.total(), scale, place);
@@ -375,16 +410,28 @@ fn growth_is_quadratic_and_forcing_linear() {
         // Momenta of the differences are small with them.
         let mut p = Paper::new().symmetric_momenta(&q, &v);
         p[2] = 1e-3 * size;
-        let (growth, forcing) = (model.transfer_growth(&q, &p), model.transfer_forcing(&q, &p));
+        let (growth, forcing) = (
+            model.transfer_growth(&q, &p),
+            model.transfer_forcing(&q, &p),
+        );
         [growth.total(), forcing.total()]
     };
     let [growth, forcing] = at(1e-3, 1e-3);
     let [smaller, weaker] = at(1e-3, 1e-4);
-    assert!((growth / smaller / 100.0 - 1.0).abs() < 1e-3, "{growth} {smaller}");
-    assert!((forcing / weaker / 10.0 - 1.0).abs() < 1e-2, "{forcing} {weaker}");
+    assert!(
+        (growth / smaller / 100.0 - 1.0).abs() < 1e-3,
+        "{growth} {smaller}"
+    );
+    assert!(
+        (forcing / weaker / 10.0 - 1.0).abs() < 1e-2,
+        "{forcing} {weaker}"
+    );
     let [same, halved] = at(5e-4, 1e-3);
     assert!((growth / same - 1.0).abs() < 1e-9);
-    assert!((forcing / halved / 2.0 - 1.0).abs() < 1e-2, "{forcing} {halved}");
+    assert!(
+        (forcing / halved / 2.0 - 1.0).abs() < 1e-2,
+        "{forcing} {halved}"
+    );
 }
 
 /// From a start in phase the difference grows in proportion to the mismatch.
@@ -411,8 +458,14 @@ fn the_difference_grows_linearly_in_the_mismatch() {
     };
     for mismatch in [0.0025, 0.005, 0.01, 0.02] {
         let slope = largest(mismatch) / mismatch;
-        println!("mismatch {mismatch}: largest difference {} rad", largest(mismatch));
-        assert!((slope / (largest(0.001) / 0.001) - 1.0).abs() < 0.05, "{slope}");
+        println!(
+            "mismatch {mismatch}: largest difference {} rad",
+            largest(mismatch)
+        );
+        assert!(
+            (slope / (largest(0.001) / 0.001) - 1.0).abs() < 0.05,
+            "{slope}"
+        );
     }
     assert_eq!(largest(0.0), 0.0);
 }
