@@ -348,6 +348,29 @@ pub enum Message {
         /// The output.
         request: String,
     },
+    /// `each(...)` where there are no copies.
+    EachWithoutCopies,
+    /// `each(...)` in a generation rule.
+    EachInRule {
+        /// The rule.
+        link: String,
+    },
+    /// `each(...)` with more or fewer values than copies.
+    EachCount {
+        /// The link.
+        link: String,
+        /// Number of copies.
+        copies: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// An output that holds between equal copies only.
+    UnequalCopies {
+        /// Node whose copies differ.
+        node: String,
+        /// The output.
+        wanted: UnequalUse,
+    },
     /// Transfer between identical siblings that have children.
     NestedGroups {
         /// The first such group.
@@ -441,6 +464,17 @@ pub enum Lookalike {
     Function,
     /// An angle or its rate.
     Motion,
+}
+
+/// Use of a tree that copies which differ stand against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnequalUse {
+    /// An order of the transfer.
+    Order,
+    /// The budget of sectors.
+    Budget,
+    /// Copies in phase or joints that are locked.
+    Reduction,
 }
 
 impl Message {

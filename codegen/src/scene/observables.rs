@@ -168,6 +168,8 @@ const METHOD_FAMILIES: &[&str] = &[
     "transfer_amplitude_",
     "transfer_angle_",
     "transfer_exact",
+    "transfer_forcing",
+    "transfer_growth",
     "transfer_matrix",
     "transfer_quadratic_form",
 ];

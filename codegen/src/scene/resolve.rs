@@ -86,7 +86,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     // Copies may have stood where the tree was unreadable.
     let mut prescribed = Vec::new();
     if readable {
-        check_symmetry(&resolved, &expansion, report);
+        check_symmetry(&mut resolved, &expansion, report);
         if layout == Layout::Unrolled {
             prescribed = resolve_prescribed(&description.prescribed, &expansion, report);
         }
@@ -145,6 +145,13 @@ fn gravity(
             value: Value::Single(value),
             ..
         }) => values.evaluate(value, &usage, report),
+        Some(Property {
+            value: Value::Each { span, .. },
+            ..
+        }) => {
+            report.error(*span, Message::EachWithoutCopies);
+            None
+        }
         Some(Property {
             name,
             value: Value::Pair(..),
