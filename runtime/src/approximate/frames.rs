@@ -114,6 +114,11 @@ impl<T: Real> LinearFrames<T> {
         self.forces.len()
     }
 
+    /// Number of modes in each group that friction couples.
+    pub fn group_sizes(&self) -> impl Iterator<Item = usize> {
+        self.groups.iter().map(|group| group.size)
+    }
+
     /// Takes a full state, as far as the modes have it.
     pub fn set_state(&mut self, state: &[T]) {
         if state.len() != 2 * self.links {

@@ -167,6 +167,25 @@ impl Linear {
             .collect()
     }
 
+    /// Time (s) in which errors of the mode that friction lets live longest add up:
+    /// 1/(2δ) where its amplitude decays as exp(−δ t), and with it the errors that it
+    /// makes. Infinite without friction; of modes that friction couples, an estimate.
+    #[must_use]
+    pub fn fading_time(&self) -> f64 {
+        (0..self.kept).fold(0.0, |longest, mode| {
+            let half = 0.5 * self.damping.at(mode, mode).high();
+            let rest = half * half - self.squares[mode].high();
+            // Of two real rates the smaller one.
+            let decay = half - Scalar::sqrt(Real::max(rest, 0.0));
+            let time = if decay > 0.0 {
+                0.5 / decay
+            } else {
+                f64::INFINITY
+            };
+            Real::max(longest, time)
+        })
+    }
+
     /// The model without the modes above a frequency (Hz). Friction between them and
     /// those that stay is left out with them.
     #[must_use]

@@ -286,8 +286,11 @@ pub(super) fn number(value: f64) -> Double {
 pub(super) fn largest(values: &[Double]) -> f64 {
     let size = |value: &Double| value.high().abs();
     // NaN stays, which the maximum of numbers would leave out.
-    values.iter().map(size).fold(
-        0.0,
-        |largest, value| if value <= largest { largest } else { value },
-    )
+    values.iter().map(size).fold(0.0, |largest, value| {
+        if largest.is_nan() || value <= largest {
+            largest
+        } else {
+            value
+        }
+    })
 }

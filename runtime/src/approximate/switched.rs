@@ -8,13 +8,10 @@ use crate::system::{Forced, Ode};
 /// A motion by frames that takes an approximation while its error allows that, and the
 /// full model otherwise.
 ///
-/// Before each frame the approximation tells its error for the second to come
-/// ([`Approximation::error`]). Above the tolerance (rad) the full model takes the state
-/// over; the approximation has it back where its error has been below half of the
-/// tolerance for a tenth of a second. The state is handed over as it is.
-///
-/// Errors of a conservative motion add up from second to second, as those of any model
-/// do; friction makes them fade.
+/// Before each frame the approximation tells its error ([`Approximation::error`]), which
+/// counts for as many seconds as errors add up. Above the tolerance (rad) the full model
+/// takes the state over; the approximation has it back where its error has been below
+/// half of the tolerance for a tenth of a second. The state is handed over as it is.
 ///
 /// # Examples
 ///
@@ -37,8 +34,9 @@ use crate::system::{Forced, Ode};
 /// let start = State::at_rest(0.0, &[1.0, 0.5, 0.8]);
 /// let sub_step = longest_sub_step(&branch);
 /// let full = Frames::new(HeldTorques::new(&branch), &start, sub_step)?;
-/// let linear = Linear::about(&branch, &[0.0; 3])?.frames(1.0 / 60.0)?;
-/// let mut motion = Switched::new(full, linear, 1e-2);
+/// let linear = Linear::about(&branch, &[0.0; 3])?;
+/// let seconds = linear.fading_time();
+/// let mut motion = Switched::new(full, linear.frames(1.0 / 60.0)?, 1e-2, seconds);
 /// for _ in 0..1200 {
 ///     motion.advance_under(&[0.0; 3]);
 /// }
@@ -50,7 +48,8 @@ use crate::system::{Forced, Ode};
 pub struct Switched<O, A, T> {
     full: Frames<O, T>,
     approximation: A,
-    tolerance: T,
+    /// Largest error that the approximation may tell of a second.
+    limit: T,
     /// State of the approximation while it is in charge.
     state: alloc::vec::Vec<T>,
     approximate: bool,
@@ -76,16 +75,18 @@ pub struct SwitchLog {
 const CALM: f64 = 0.1;
 
 impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
-    /// A motion from the state of `full`, with errors up to `tolerance` (rad) in a
-    /// second. A tolerance that is no number, or not positive, is one that only the full
-    /// model meets.
-    pub fn new(full: Frames<O, T>, approximation: A, tolerance: T) -> Self {
+    /// A motion from the state of `full`, with errors up to `tolerance` (rad) where they
+    /// add up over a time of `seconds`: the length of the run, or where friction lets
+    /// them fade sooner, that of [`Linear::fading_time`](super::Linear::fading_time);
+    /// less than a second counts as one. A tolerance that is no number, or not positive,
+    /// is one that only the full model meets.
+    pub fn new(full: Frames<O, T>, approximation: A, tolerance: T, seconds: T) -> Self {
         let calm_frames = (CALM / approximation.frame().to_f64()) as u64;
         Self {
             state: full.state().to_vec(),
             full,
             approximation,
-            tolerance,
+            limit: tolerance / T::ONE.max(seconds),
             approximate: false,
             // The start may be calm already.
             calm: calm_frames,
@@ -129,13 +130,13 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
         let error = self.approximation.error(self.state());
         if self.approximate {
             // Not with an error that is no number either.
-            if !(error <= self.tolerance) && self.full.set_state(&self.state).is_ok() {
+            if !(error <= self.limit) && self.full.set_state(&self.state).is_ok() {
                 (self.approximate, self.calm) = (false, 0);
                 self.log.switches += 1;
             }
             return;
         }
-        let half = T::from_f64(0.5) * self.tolerance;
+        let half = T::from_f64(0.5) * self.limit;
         self.calm = if error < half { self.calm + 1 } else { 0 };
         if self.calm > self.calm_frames {
             self.state.copy_from_slice(self.full.state());

@@ -138,10 +138,11 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
 
     /// Moves on by `duration` (s), the length of a frame.
     pub fn advance(&mut self, duration: T) {
-        let duration = duration.to_f64().min(LONGEST_FRAME);
+        let duration = duration.to_f64();
         if !(duration > 0.0) {
             return;
         }
+        let duration = duration.min(LONGEST_FRAME);
         // As many as are needed, but none more for rounding.
         let ratio = duration / self.sub_step;
         let whole = ratio as u64;
