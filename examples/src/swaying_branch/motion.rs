@@ -15,7 +15,7 @@ use crate::failure::Failure;
 pub const WINDS: [f64; 3] = [0.1, 0.4, 1.0];
 
 /// Sub-steps, in the longest that the model asks for.
-const SUB_STEPS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
+const SUB_STEPS: [f64; 4] = [0.25, 0.5, 1.0, 2.0];
 
 /// Numbers of modes that truncated models keep.
 const MODES: [usize; 3] = [4, 10, 20];

@@ -1,5 +1,8 @@
 //! The cheaper model where it is good enough.
 
+use alloc::vec::Vec;
+use core::fmt;
+
 use super::Approximation;
 use crate::integrate::{Frames, HeldTorques};
 use crate::scalar::Real;
@@ -51,7 +54,7 @@ pub struct Switched<O, A, T> {
     /// Largest error that the approximation may tell of a second.
     limit: T,
     /// State of the approximation while it is in charge.
-    state: alloc::vec::Vec<T>,
+    state: Vec<T>,
     approximate: bool,
     /// Frames for which the approximation has been good enough.
     calm: u64,
@@ -69,6 +72,21 @@ pub struct SwitchLog {
     pub approximate_frames: u64,
     /// Number of times that the state went from one to the other.
     pub switches: u64,
+}
+
+impl fmt::Display for SwitchLog {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            full_frames,
+            approximate_frames,
+            switches,
+        } = self;
+        write!(
+            f,
+            "{full_frames} frames by the full model, {approximate_frames} by the approximation, \
+             {switches} switches"
+        )
+    }
 }
 
 /// Time for which the approximation must be good enough before it takes over, s.

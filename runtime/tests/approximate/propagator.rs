@@ -3,7 +3,7 @@
 use branched_pendulum::approximate::{Approximation, Linear, LinearError};
 use branched_pendulum::prelude::*;
 
-use crate::scenes::{Free, Reed, Tree, branched};
+use crate::scenes::{Free, Loops, Reed, Tree, branched};
 
 struct Case {
     name: String,
@@ -180,6 +180,20 @@ fn friction_couples_modes_of_one_sector_only() {
     sizes.sort_unstable();
     // In phase 3, left against right 2, two pairs of twigs 1 each.
     assert_eq!(sizes, [1, 1, 2, 3]);
+}
+
+#[test]
+fn trees_in_loops_have_the_same_modes() {
+    let written_out = Linear::about(&Tree::new(), &[0.0; 7]).unwrap();
+    let loops = Linear::about(&Loops::new(), &[0.0; 7]).unwrap();
+    let pairs = written_out
+        .frequencies_hz()
+        .into_iter()
+        .zip(loops.frequencies_hz());
+    for (a, b) in pairs {
+        assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
+    }
+    assert!((written_out.fading_time() / loops.fading_time() - 1.0).abs() < 1e-10);
 }
 
 #[test]

@@ -21,6 +21,15 @@ pub struct Branched;
 )]
 pub struct Tree;
 
+/// The same tree in loops.
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7, friction = 2e-3, friction_ratio = 0.3, code = loops),
+    emit(energies),
+)]
+pub struct Loops;
+
 /// A reed that stands up and leans, with a stiff twig on one side.
 #[branched_pendulum(
     gravity = -9.80665,

@@ -206,18 +206,23 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
     fn sub_step(&mut self, step: T) {
         self.runge_kutta(step);
         let n = self.values.len() / 2;
-        let largest = size(&self.stage[n..]);
-        if largest <= self.largest_rate && all_finite(&self.stage) {
+        let (angles, rates) = self.stage.split_at(n);
+        // False for a rate that is no number.
+        let limit = self.largest_rate;
+        let slow = rates
+            .iter()
+            .fold(true, |slow, rate| slow & (rate.abs() <= limit));
+        if slow && all_finite(angles) {
             core::mem::swap(&mut self.values, &mut self.stage);
             return;
         }
         self.limited += 1;
         // The end of the sub-step counts where angles have not run away on its way.
-        let turn = T::from_f64(2.0) * self.largest_rate * step;
+        let turn = T::from_f64(2.0) * limit * step;
         let pairs = self.values.iter().zip(&self.stage).take(n);
         let within = pairs.fold(true, |within, (a, b)| within & ((*b - *a).abs() <= turn));
         if within && all_finite(&self.stage) {
-            let factor = self.largest_rate / largest;
+            let factor = limit / size(rates).max(limit);
             self.values.copy_from_slice(&self.stage);
             self.values[n..]
                 .iter_mut()
