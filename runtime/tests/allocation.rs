@@ -117,7 +117,7 @@ fn frames_in_real_time() {
     let before = allocations();
     for _ in 0..100_000 {
         frames.advance(2.5 * STEP);
-        frames.set_state(&[1.0, 0.1]).unwrap();
+        frames.set_state(0.0, &[1.0, 0.1]).unwrap();
         modes.step_under(&mut state, &[0.1, 0.2]);
         modes.advance();
         modes.angles_into(&mut state[..2]);

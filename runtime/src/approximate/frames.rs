@@ -325,7 +325,7 @@ fn add_columns<T: Real>(sums: &mut [T], columns: &[T], factors: &[T]) {
         let &[p, q, r, s] = factors else { continue };
         let columns = a.iter().zip(b).zip(c.iter().zip(d));
         for (sum, ((&a, &b), (&c, &d))) in sums.iter_mut().zip(columns) {
-            *sum = *sum + ((p * a + q * b) + (r * c + s * d));
+            *sum += (p * a + q * b) + (r * c + s * d);
         }
         rest = others;
     }

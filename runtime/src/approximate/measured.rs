@@ -60,7 +60,7 @@ pub(super) fn errors<P: Cast<f64>>(model: &P, linear: &Linear, slopes: &Slopes) 
 
 /// Largest difference of an angle between two systems in the second after a start, by
 /// the same method with the same steps.
-fn distance(full: impl Ode<f64>, small: impl Ode<f64>, start: &State<f64>, sub_step: f64) -> f64 {
+fn distance(full: impl Ode<f64>, small: &impl Ode<f64>, start: &State<f64>, sub_step: f64) -> f64 {
     let follow = (
         Frames::new(full, start, sub_step),
         Frames::new(small, start, sub_step),

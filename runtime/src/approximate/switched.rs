@@ -49,12 +49,13 @@ use crate::system::{Forced, Ode};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Switched<O, A, T> {
+    /// Holds the state, whichever model moves it.
     full: Frames<O, T>,
     approximation: A,
     /// Largest error that the approximation may tell of a second.
     limit: T,
-    /// State of the approximation while it is in charge.
-    state: Vec<T>,
+    /// The state while the approximation moves it.
+    moved: Vec<T>,
     approximate: bool,
     /// Frames for which the approximation has been good enough.
     calm: u64,
@@ -101,7 +102,7 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
     pub fn new(full: Frames<O, T>, approximation: A, tolerance: T, seconds: T) -> Self {
         let calm_frames = (CALM / approximation.frame().to_f64()) as u64;
         Self {
-            state: full.state().to_vec(),
+            moved: full.state().to_vec(),
             full,
             approximation,
             limit: tolerance / T::ONE.max(seconds),
@@ -115,22 +116,17 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
 
     /// Moves on by a frame of the approximation.
     pub fn advance(&mut self) {
-        self.choose();
-        if self.approximate {
-            self.approximation.step(&mut self.state);
-        } else {
-            self.full.advance(self.approximation.frame());
-        }
-        self.keep();
+        self.frame(|approximation, _, state| approximation.step(state));
     }
 
     /// The state.
     pub fn state(&self) -> &[T] {
-        if self.approximate {
-            &self.state
-        } else {
-            self.full.state()
-        }
+        self.full.state()
+    }
+
+    /// Time of the state, s.
+    pub fn time(&self) -> f64 {
+        self.full.time()
     }
 
     /// True while the approximation moves the state.
@@ -143,32 +139,43 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
         self.log
     }
 
+    fn frame(&mut self, step: impl FnOnce(&mut A, &O, &mut [T])) {
+        self.choose();
+        let frame = self.approximation.frame();
+        if self.approximate {
+            self.moved.copy_from_slice(self.full.state());
+            step(&mut self.approximation, self.full.ode(), &mut self.moved);
+            let time = self.full.time() + frame.to_f64();
+            if self.full.set_state(time, &self.moved).is_ok() {
+                self.log.approximate_frames += 1;
+                return;
+            }
+            // Torques that are no numbers: the full model knows what to do.
+            self.switch(false);
+        }
+        self.full.advance(frame);
+        self.log.full_frames += 1;
+    }
+
     /// Takes the model for the next frame.
     fn choose(&mut self) {
-        let error = self.approximation.error(self.state());
+        let error = self.approximation.error(self.full.state());
         if self.approximate {
-            // Not with an error that is no number either.
-            if !(error <= self.limit) && self.full.set_state(&self.state).is_ok() {
-                (self.approximate, self.calm) = (false, 0);
-                self.log.switches += 1;
+            if error.to_f64().is_nan() || error > self.limit {
+                self.switch(false);
             }
             return;
         }
         let half = T::from_f64(0.5) * self.limit;
         self.calm = if error < half { self.calm + 1 } else { 0 };
         if self.calm > self.calm_frames {
-            self.state.copy_from_slice(self.full.state());
-            self.approximate = true;
-            self.log.switches += 1;
+            self.switch(true);
         }
     }
 
-    fn keep(&mut self) {
-        if self.approximate {
-            self.log.approximate_frames += 1;
-        } else {
-            self.log.full_frames += 1;
-        }
+    fn switch(&mut self, approximate: bool) {
+        (self.approximate, self.calm) = (approximate, 0);
+        self.log.switches += 1;
     }
 }
 
@@ -182,13 +189,6 @@ impl<P: Forced<T>, A: Approximation<T>, T: Real> Switched<HeldTorques<P, T>, A, 
         } else {
             held.fill(T::ZERO);
         }
-        self.choose();
-        if self.approximate {
-            let torques = self.full.ode().torques();
-            self.approximation.step_under(&mut self.state, torques);
-        } else {
-            self.full.advance(self.approximation.frame());
-        }
-        self.keep();
+        self.frame(|approximation, ode, state| approximation.step_under(state, ode.torques()));
     }
 }

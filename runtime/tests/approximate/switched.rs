@@ -53,6 +53,29 @@ fn the_switched_motion_meets_the_tolerance() {
     }
 }
 
+/// Torques that are no numbers are dealt with by the full model, which stops the links.
+#[test]
+fn the_state_stays_finite() {
+    let model = branched(8e-3);
+    let start = State::at_rest(0.0, &[0.01; 3]);
+    let full = Frames::new(HeldTorques::new(&model), &start, longest_sub_step(&model)).unwrap();
+    let linear = Linear::about(&model, &[0.0; 3]).unwrap();
+    let mut motion = Switched::new(full, linear.frames(FRAME).unwrap(), 0.1, 1.0);
+    for (frame, torque) in [0.0, f64::NAN, 0.0, 1e6, f64::INFINITY, 0.0]
+        .iter()
+        .enumerate()
+    {
+        motion.advance_under(&[*torque; 3]);
+        assert!(
+            motion.state().iter().all(|value| value.is_finite()),
+            "{frame}"
+        );
+        assert_eq!(motion.is_approximate(), frame == 0, "{frame}");
+    }
+    assert!((motion.time() - 6.0 * FRAME).abs() < 1e-15);
+    assert_eq!(motion.log().switches, 2);
+}
+
 #[test]
 fn a_tolerance_that_is_none_leaves_all_to_the_full_model() {
     for tolerance in [0.0, -1.0, f64::NAN] {

@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::scalar::{Dual, Real, Scalar};
 use crate::system::{Cast, Pendulum, Workspace};
@@ -49,9 +50,9 @@ pub fn longest_sub_step<T: Real, P: Cast<T>>(model: &P) -> T {
     for configuration in 0..CONFIGURATIONS {
         let angle = |link: usize| match configuration {
             0 => 0.0,
-            1 => [0.0, 1.57, 3.14, -1.57][link % 4],
+            1 => FRAC_PI_2 * (link % 4) as f64,
             // Multiples of the golden ratio lie everywhere.
-            _ => 6.28 * ((0.618_033_988_749_895 * (1 + link * 8 + configuration) as f64) % 1.0),
+            _ => TAU * ((0.618_033_988_749_895 * (1 + link * 8 + configuration) as f64) % 1.0),
         };
         let (stiffness, friction) = (
             slopes.largest(&dual, angle, Of::Angles),

@@ -139,7 +139,7 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
     /// Moves on by `duration` (s), the length of a frame.
     pub fn advance(&mut self, duration: T) {
         let duration = duration.to_f64();
-        if !(duration > 0.0) {
+        if duration.is_nan() || duration <= 0.0 {
             return;
         }
         let duration = duration.min(LONGEST_FRAME);
@@ -186,13 +186,14 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
         self.largest_rate
     }
 
-    /// Goes on from another state.
+    /// Goes on from another time and state.
     ///
     /// # Errors
     ///
-    /// [`InputError`] if it is not finite or of another length; nothing has changed then.
-    pub fn set_state(&mut self, values: &[T]) -> Result<(), InputError<T>> {
-        check_start(&self.ode, (T::ZERO, values))?;
+    /// [`InputError`] if they are not finite or of another length; nothing has changed
+    /// then.
+    pub fn set_state(&mut self, time: f64, values: &[T]) -> Result<(), InputError<T>> {
+        check_start(&self.ode, (T::from_f64(time), values))?;
         if values.len() != self.values.len() {
             return Err(InputError::Dimension {
                 expected: self.values.len(),
@@ -200,6 +201,7 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
             });
         }
         self.values.copy_from_slice(values);
+        self.time = time;
         Ok(())
     }
 
