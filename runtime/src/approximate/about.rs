@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::error::LinearError;
-use super::linear::Linear;
+use super::linear::{Linear, check_size};
 use super::matrix::{Matrix, number};
 use super::measured::errors;
 use crate::integrate::Factored;
@@ -39,6 +39,7 @@ impl Linear {
                 found: near.len(),
             });
         }
+        check_size(P::LINKS)?;
         let dual = model.cast(Dual::<f64, 1>::constant);
         let slopes = Slopes::at_rest(&dual, near.to_vec())?;
         let mass = mass(&dual, &slopes.equilibrium);

@@ -15,6 +15,13 @@ pub enum LinearError {
         /// Number of rows, or of entries in one of them.
         found: usize,
     },
+    /// More links than a model of dense matrices is for.
+    Size {
+        /// Number of links.
+        links: usize,
+        /// The largest number that there may be.
+        most: usize,
+    },
     /// A number is infinite or NaN: of a matrix, or an acceleration near the
     /// equilibrium.
     NotFinite,
@@ -44,6 +51,11 @@ impl fmt::Display for LinearError {
                 expected,
                 found,
             } => write!(f, "`{name}` has {found} numbers for {expected} links"),
+            Self::Size { links, most } => write!(
+                f,
+                "{links} links are too many for a linear model, which takes at most {most}: \
+                 reduce the tree by `in_phase(…)`"
+            ),
             Self::NotFinite => f.write_str("a number of the model is infinite or NaN"),
             Self::NoEquilibrium => {
                 f.write_str("no equilibrium was found: start nearer to one, at time 0")

@@ -232,6 +232,14 @@ fn what_has_no_linear_model_is_refused() {
         refused(Linear::about(&Tree::new(), &[f64::NAN; 7])),
         LinearError::NotFinite
     );
+    let none: Vec<[f64; 0]> = vec![[]; 1001];
+    assert!(matches!(
+        refused(Linear::of_matrices(&none, &none, &none)),
+        LinearError::Size {
+            links: 1001,
+            most: 1000
+        }
+    ));
     let linear = Linear::of_matrices(&one, &one, &one).unwrap();
     for frame in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(
