@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use branched_pendulum::ParameterError;
 use branched_pendulum::analysis::truncation::TruncationError;
 use branched_pendulum::analysis::{ModesError, SectorModesError, SpectrumError};
+use branched_pendulum::approximate::LinearError;
 use branched_pendulum::data::CsvError;
 use branched_pendulum_charts::ChartError;
 
@@ -34,6 +35,12 @@ pub enum Failure {
     /// A spectrum could not be taken.
     #[error("the spectrum of θ_m could not be taken")]
     Spectrum(#[from] SpectrumError),
+    /// There is no linear model of small motions.
+    #[error("the linear model could not be made")]
+    Linear(#[from] LinearError),
+    /// A motion in real time could not begin.
+    #[error("the frames could not begin")]
+    Frames(#[source] Box<dyn Error + Send + Sync>),
     /// Forms of W could not be compared.
     #[error("the forms of W could not be compared")]
     Truncation(#[from] TruncationError),
@@ -84,6 +91,7 @@ mod tests {
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
+    use branched_pendulum::approximate::LinearError;
     use branched_pendulum::data::CsvError;
     use branched_pendulum::integrate::{IntegrationError, RunError};
     use branched_pendulum::prelude::*;
@@ -173,6 +181,8 @@ mod tests {
             Box::new(Failure::integration(50.0, integration())),
             Box::new(Failure::Modes(no_rows())),
             Box::new(Failure::SectorModes(modes())),
+            Box::new(Failure::Linear(LinearError::NotFinite)),
+            Box::new(Failure::Frames(Box::new(request()))),
             Box::new(Failure::Truncation(truncation())),
             Box::new(Failure::Folder {
                 path: folder(),

@@ -12,5 +12,6 @@ pub mod program;
 pub mod quadrature;
 pub mod solvers;
 pub mod stability_map;
+pub mod swaying_branch;
 pub mod transfer_orders;
 pub mod work_precision;

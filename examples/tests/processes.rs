@@ -19,7 +19,7 @@ struct Program {
     arguments: &'static [&'static str],
 }
 
-const PROGRAMS: [Program; 7] = [
+const PROGRAMS: [Program; 8] = [
     Program {
         path: env!("CARGO_BIN_EXE_branched-double"),
         arguments: &["--angles", "40:43:0.2", "--duration", "4", "--rate", "50"],
@@ -35,6 +35,10 @@ const PROGRAMS: [Program; 7] = [
     Program {
         path: env!("CARGO_BIN_EXE_stability-map"),
         arguments: &["--map", "friction"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_swaying-branch"),
+        arguments: &["--duration", "2", "--storm", "2"],
     },
     Program {
         path: env!("CARGO_BIN_EXE_work-precision"),

@@ -8,6 +8,7 @@
 //! - [`scalar`]: the numbers that emitted code computes with,
 //! - [`system`]: the traits that it implements, and states,
 //! - [`integrate`]: trajectories, with error control, dense output and events,
+//! - [`approximate`]: models that are cheaper, with their errors,
 //! - [`ensemble`]: many trajectories on all cores,
 //! - [`batch`]: accelerations of many states, in vector registers,
 //! - [`tree`]: large trees, in loops,
@@ -72,7 +73,7 @@
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
 //!   `alloc` and offers [`scalar`], [`system`], [`model`], [`batch`], [`tree`],
-//!   [`taylor`], [`sectors`], [`transfer_forms`] and [`integrate`].
+//!   [`taylor`], [`sectors`], [`transfer_forms`], [`integrate`] and [`approximate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `macros` (default): the attribute `branched_pendulum`.
@@ -86,6 +87,7 @@ extern crate alloc;
 
 #[cfg(feature = "std")]
 pub mod analysis;
+pub mod approximate;
 pub mod batch;
 #[cfg(feature = "std")]
 pub mod data;
