@@ -1,0 +1,321 @@
+//! The reference: states that are known better than they are asked for, and how far.
+
+use std::error::Error;
+
+use super::extrapolation::extrapolate;
+use super::wanted::Wanted;
+use crate::integrate::{Dop853, Options, Verner98};
+use crate::scalar::{Double, Scalar};
+use crate::system::{CastOde, Ode, State};
+
+/// States of the scene at all times, start by start.
+#[derive(Clone, Debug)]
+pub(super) struct Paths {
+    dimension: usize,
+    times: usize,
+    values: Vec<f64>,
+}
+
+impl Paths {
+    /// None known yet: NaN.
+    pub(super) fn new(dimension: usize, starts: usize, times: usize) -> Self {
+        Self {
+            dimension,
+            times,
+            values: vec![f64::NAN; dimension * starts * times],
+        }
+    }
+
+    pub(super) fn set(&mut self, start: usize, time: usize, state: &[f64]) {
+        let begin = (start * self.times + time) * self.dimension;
+        if let Some(room) = self.values.get_mut(begin..begin + self.dimension)
+            && room.len() == state.len()
+        {
+            room.copy_from_slice(state);
+        }
+    }
+
+    /// Values of an output, for each start and time in their order, and how many there
+    /// are for each.
+    pub(super) fn outputs(&self, wanted: &Wanted<'_>, times: &[f64]) -> Outputs {
+        let mut values = Vec::new();
+        let states = self.values.chunks_exact(self.dimension.max(1));
+        for (state, &time) in states.zip(times.iter().cycle()) {
+            wanted.values(time, state, &mut values);
+        }
+        let samples = self.values.len() / self.dimension.max(1);
+        Outputs {
+            width: values.len() / samples.max(1),
+            times: times.len(),
+            values,
+        }
+    }
+
+    /// Distance of two states, over all their components.
+    fn distance(&self, other: &Self, start: usize, time: usize) -> f64 {
+        let begin = (start * self.times + time) * self.dimension;
+        let range = begin..begin + self.dimension;
+        let pairs = self.values[range.clone()].iter().zip(&other.values[range]);
+        pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+    }
+}
+
+/// Values of one output at all times, start by start.
+#[derive(Clone, Debug)]
+pub(super) struct Outputs {
+    pub(super) width: usize,
+    pub(super) times: usize,
+    pub(super) values: Vec<f64>,
+}
+
+impl Outputs {
+    /// The values at a time of a start.
+    pub(super) fn at(&self, start: usize, time: usize) -> &[f64] {
+        let begin = (start * self.times + time) * self.width;
+        self.values
+            .get(begin..begin + self.width)
+            .unwrap_or_default()
+    }
+
+    /// Largest difference from `other` at a time, over all starts; infinite where one is
+    /// no number.
+    pub(super) fn difference(&self, other: &Self, time: usize) -> f64 {
+        let starts = self.values.len() / (self.width * self.times).max(1);
+        let mut worst = 0.0_f64;
+        for start in 0..starts {
+            for (a, b) in self.at(start, time).iter().zip(other.at(start, time)) {
+                let difference = (a - b).abs();
+                worst = match difference.is_finite() {
+                    true => worst.max(difference),
+                    false => f64::INFINITY,
+                };
+            }
+        }
+        worst
+    }
+}
+
+/// A way to compute references.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Precise {
+    Verner98(f64),
+    Dop853(f64),
+    /// In double-double numbers.
+    Extrapolated(f64),
+}
+
+/// Ways in pairs, of which the difference tells the error, from the cheapest on: the
+/// first of a pair is the reference.
+const LADDER: [[Precise; 2]; 3] = [
+    [Precise::Verner98(1e-14), Precise::Dop853(2e-14)],
+    [Precise::Extrapolated(1e-21), Precise::Extrapolated(1e-18)],
+    [Precise::Extrapolated(1e-28), Precise::Extrapolated(1e-25)],
+];
+
+impl Precise {
+    fn name(self) -> String {
+        match self {
+            Self::Verner98(tolerance) => format!("Verner 9(8) at {tolerance:e} in f64"),
+            Self::Dop853(tolerance) => format!("Dormand–Prince 8(5,3) at {tolerance:e} in f64"),
+            Self::Extrapolated(tolerance) => {
+                format!("extrapolation at {tolerance:e} in double-double")
+            }
+        }
+    }
+}
+
+/// A system that is integrated in `f64` and in double-double numbers.
+pub(super) trait Exact {
+    fn dimension(&self) -> usize;
+
+    /// Follows a start, `moved` by some roundings or as it is.
+    fn follow(
+        &self,
+        by: Precise,
+        start: &State<f64>,
+        moved: bool,
+        times: &[f64],
+        visit: &mut dyn FnMut(usize, &[f64]),
+    ) -> Result<(), Box<dyn Error>>;
+}
+
+/// Relative size of the roundings that a start is moved by, to see what becomes of those
+/// of `f64`: several, as many steps make them.
+const MOVE: f64 = 8.0 * f64::EPSILON;
+
+impl<O: CastOde<f64, Double>> Exact for O {
+    fn dimension(&self) -> usize {
+        Ode::dimension(self)
+    }
+
+    fn follow(
+        &self,
+        by: Precise,
+        start: &State<f64>,
+        moved: bool,
+        times: &[f64],
+        visit: &mut dyn FnMut(usize, &[f64]),
+    ) -> Result<(), Box<dyn Error>> {
+        let mut number = 0;
+        let mut count = |_: f64, values: &[f64]| {
+            visit(number, values);
+            number += 1;
+        };
+        let options = |tolerance| Options {
+            compensated: true,
+            ..Options::with_tolerance(tolerance)
+        };
+        match by {
+            Precise::Verner98(tolerance) => {
+                Verner98::new(options(tolerance)).sample(self, start, times, count)?;
+            }
+            Precise::Dop853(tolerance) => {
+                Dop853::new(options(tolerance)).sample(self, start, times, count)?;
+            }
+            Precise::Extrapolated(tolerance) => {
+                let ode = self.cast(Double::from_f64);
+                // Roundings are of either sign.
+                let sign = |index: usize| if index.is_multiple_of(2) { MOVE } else { -MOVE };
+                let precise = |(index, &value): (usize, &f64)| match moved {
+                    true => Double::sum(value, sign(index) * value),
+                    false => Double::from_f64(value),
+                };
+                let mut state: Vec<Double> = start.values.iter().enumerate().map(precise).collect();
+                let mut values = vec![0.0; state.len()];
+                extrapolate(
+                    &ode,
+                    start.time,
+                    &mut state,
+                    times,
+                    tolerance,
+                    |index, state| {
+                        for (value, precise) in values.iter_mut().zip(state) {
+                            *value = precise.high();
+                        }
+                        count(times[index], &values);
+                    },
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The scene as it moves, and how far it is known.
+#[derive(Clone, Debug)]
+pub(super) struct Truth {
+    pub(super) method: String,
+    /// For each output: its values.
+    pub(super) outputs: Vec<Outputs>,
+    /// For each output: the largest error of the reference as far as it is trusted.
+    pub(super) errors: Vec<f64>,
+    /// For each output: the number of times up to which its values can be asked for.
+    pub(super) trusted: Vec<usize>,
+    /// Rate at which small deviations grow, 1/s, where it was looked at.
+    pub(super) growth: Option<f64>,
+}
+
+/// The part of a tolerance that the reference may be off by.
+const SHARE: f64 = 0.01;
+
+impl Truth {
+    /// Follows the scene with methods that get better until they agree to a hundredth of
+    /// the tolerances, as far as numbers of 16 digits can be asked to follow it.
+    pub(super) fn find(
+        exact: &dyn Exact,
+        starts: &[State<f64>],
+        times: &[f64],
+        wanted: &[Wanted<'_>],
+    ) -> Result<Self, Box<dyn Error>> {
+        let follow = |by, moved| {
+            let mut paths = Paths::new(exact.dimension(), starts.len(), times.len());
+            for (index, start) in starts.iter().enumerate() {
+                exact.follow(by, start, moved, times, &mut |time, state| {
+                    paths.set(index, time, state);
+                })?;
+            }
+            Ok::<_, Box<dyn Error>>(paths)
+        };
+        let all = |paths: &Paths| -> Vec<Outputs> {
+            let outputs = wanted.iter().map(|wanted| paths.outputs(wanted, times));
+            outputs.collect()
+        };
+        // The first time at which two runs differ by more than a share of a tolerance.
+        let parting = |a: &Outputs, b: &Outputs, most: f64| {
+            let apart = |&time: &usize| a.difference(b, time) > most;
+            (0..times.len()).find(apart).unwrap_or(times.len())
+        };
+        // As far as roundings leave anything; known from the first pair in more digits on.
+        let mut limits = vec![times.len(); wanted.len()];
+        let mut growth = None;
+        let mut last = None;
+        for [fine, check] in LADDER {
+            let runs = follow(fine, false).and_then(|best| Ok((best, follow(check, false)?)));
+            let (best, check) = match runs {
+                Ok(runs) => runs,
+                Err(error) => {
+                    last = Some(Err(error));
+                    continue;
+                }
+            };
+            let (outputs, checks) = (all(&best), all(&check));
+            if matches!(fine, Precise::Extrapolated(_)) && growth.is_none() {
+                let moved = follow(fine, true)?;
+                growth = Some(rate_of_growth(&best, &moved, starts.len(), times));
+                for (limit, ((own, moved), wanted)) in limits
+                    .iter_mut()
+                    .zip(outputs.iter().zip(&all(&moved)).zip(wanted))
+                {
+                    *limit = parting(own, moved, wanted.tolerance);
+                }
+            }
+            let known: Vec<usize> = wanted
+                .iter()
+                .zip(outputs.iter().zip(&checks))
+                .map(|(wanted, (own, check))| parting(own, check, SHARE * wanted.tolerance))
+                .collect();
+            let enough = known
+                .iter()
+                .zip(&limits)
+                .all(|(known, limit)| known >= limit);
+            let trusted: Vec<usize> = known.iter().zip(&limits).map(|(a, b)| *a.min(b)).collect();
+            let error = |((own, check), trusted): ((&Outputs, &Outputs), &usize)| {
+                let errors = (0..*trusted).map(|time| own.difference(check, time));
+                errors.fold(0.0, f64::max)
+            };
+            let errors = outputs
+                .iter()
+                .zip(&checks)
+                .zip(&trusted)
+                .map(error)
+                .collect();
+            last = Some(Ok(Self {
+                method: fine.name(),
+                errors,
+                outputs,
+                trusted,
+                growth: growth.flatten(),
+            }));
+            if enough {
+                break;
+            }
+        }
+        last.unwrap_or_else(|| Err("there is no reference".into()))
+    }
+}
+
+/// Mean rate at which a deviation grows while it is small, over all starts; none if it
+/// does not by a factor of ten.
+fn rate_of_growth(own: &Paths, moved: &Paths, starts: usize, times: &[f64]) -> Option<f64> {
+    let rate = |start: usize| {
+        let distances =
+            (0..times.len()).map(|time| (times[time], own.distance(moved, start, time)));
+        // Below, the digits end; above, the deviation is no longer small.
+        let mut small = distances.filter(|(_, distance)| (1e-13..1e-2).contains(distance));
+        let (first, last) = (small.next()?, small.next_back()?);
+        let growth = (last.1 / first.1).ln();
+        (growth > 10.0_f64.ln()).then(|| growth / (last.0 - first.0))
+    };
+    let rates: Vec<f64> = (0..starts).filter_map(rate).collect();
+    (!rates.is_empty()).then(|| rates.iter().sum::<f64>() / rates.len() as f64)
+}
