@@ -33,7 +33,7 @@ pub enum AdviceError {
     /// The request makes no sense.
     Request(&'static str),
     /// There is no reference: the equations were not integrated to the end.
-    Reference(Box<dyn Error>),
+    Reference(Box<dyn Error + Send + Sync>),
 }
 
 impl fmt::Display for AdviceError {
@@ -230,6 +230,17 @@ impl<'a> Advisor<'a> {
         }
         if self.times.is_empty() {
             return Err(request("times to which the motion is followed"));
+        }
+        let one_way = |start: &State<f64>| {
+            let from_start = std::iter::once(start.time).chain(self.times.iter().copied());
+            let steps: Vec<f64> = from_start
+                .zip(&self.times)
+                .map(|(before, after)| after - before)
+                .collect();
+            steps.iter().all(|&step| step >= 0.0) || steps.iter().all(|&step| step <= 0.0)
+        };
+        if !self.starts.iter().all(one_way) {
+            return Err(request("times that run one way from every start"));
         }
         if self.wanted.is_empty() {
             return Err(request("an output that must be right"));

@@ -34,7 +34,7 @@ pub type Visit<'v> = dyn FnMut(usize, usize, &[f64]) + 'v;
 ///         SettingRange::Fixed
 ///     }
 ///     fn run(&self, _: f64, starts: &[State<f64>], times: &[f64], visit: &mut Visit<'_>)
-///         -> Result<u64, Box<dyn Error>> {
+///         -> Result<u64, Box<dyn Error + Send + Sync>> {
 ///         for (index, start) in starts.iter().enumerate() {
 ///             for (number, time) in times.iter().enumerate() {
 ///                 let (sin, cos) = (time - start.time).sin_cos();
@@ -65,7 +65,7 @@ pub trait Candidate {
         starts: &[State<f64>],
         times: &[f64],
         visit: &mut Visit<'_>,
-    ) -> Result<u64, Box<dyn Error>>;
+    ) -> Result<u64, Box<dyn Error + Send + Sync>>;
 
     /// Lines to write for it, in the attribute and in Rust.
     fn to_write(&self, setting: f64) -> Vec<String> {

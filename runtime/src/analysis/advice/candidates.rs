@@ -215,7 +215,7 @@ impl<T: Real> Candidate for Integrated<'_, T> {
         starts: &[State<f64>],
         times: &[f64],
         visit: &mut Visit<'_>,
-    ) -> Result<u64, Box<dyn Error>> {
+    ) -> Result<u64, Box<dyn Error + Send + Sync>> {
         let method = self.method.with(T::from_f64(setting));
         let times = of_scalar::<T>(times);
         let mut steps = 0;
@@ -338,7 +338,7 @@ impl<T: Lane> Candidate for InLanes<'_, T> {
         starts: &[State<f64>],
         times: &[f64],
         visit: &mut Visit<'_>,
-    ) -> Result<u64, Box<dyn Error>> {
+    ) -> Result<u64, Box<dyn Error + Send + Sync>> {
         let own: Vec<State<T>> = starts
             .iter()
             .map(|start| entered(&self.form, start))

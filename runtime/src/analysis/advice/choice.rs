@@ -67,7 +67,8 @@ pub(super) struct Choice {
 }
 
 /// Chooses the cheapest run that is right and within the limit; beside it the cheapest
-/// of another candidate, and of those that cost less the dearest. Where there is none to
+/// of another candidate, and of those that cost less the dearest, of another candidate
+/// where there is one. Where there is none to
 /// choose, the closest is the one that is least wrong within the limit.
 pub(super) fn choose(runs: &[Measured], limit: Option<TimeLimit>, samples: usize) -> Choice {
     let within = |run: &Measured| limit.is_none_or(|limit| limit.allows(run, samples));
@@ -84,14 +85,15 @@ pub(super) fn choose(runs: &[Measured], limit: Option<TimeLimit>, samples: usize
             ..Choice::default()
         };
     };
+    let cheaper = |run: &Measured| run.seconds < best.seconds && !run.is_right();
+    let other = |run: &Measured| cheaper(run) && run.candidate != best.candidate;
     Choice {
         chosen,
         runner_up: least(|run| run.seconds, &|run| {
             run.candidate != best.candidate && run.is_right() && within(run)
         }),
-        next_cheaper: least(|run| -run.seconds, &|run| {
-            run.seconds < best.seconds && !run.is_right()
-        }),
+        next_cheaper: least(|run| -run.seconds, &other)
+            .or_else(|| least(|run| -run.seconds, &cheaper)),
         closest: None,
     }
 }

@@ -100,7 +100,8 @@ impl Advice {
         self.run(self.choice.runner_up)
     }
 
-    /// Of the runs that cost less than the choice and are wrong the dearest.
+    /// Of the runs that cost less than the choice and are wrong the dearest; of another
+    /// candidate where there is one.
     pub fn next_cheaper(&self) -> Option<&Measured> {
         self.run(self.choice.next_cheaper)
     }

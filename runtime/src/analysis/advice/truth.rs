@@ -51,6 +51,26 @@ impl Paths {
         }
     }
 
+    /// What roundings add up to along the way of a start, of either sign: in proportion to
+    /// the largest value of each component. One that is zero all the way has none, and
+    /// those that are always equal have equal ones.
+    fn roundings(&self, start: usize, from: &State<f64>) -> Vec<f64> {
+        let length = self.dimension * self.times;
+        let own = &self.values[start * length..(start + 1) * length];
+        let move_of = |component: usize| {
+            let visited = own.iter().skip(component).step_by(self.dimension);
+            let all = visited.chain(&from.values[component..=component]);
+            let (size, sum) = all.fold((0.0_f64, 0.0), |(size, sum), &value| {
+                (size.max(value.abs()), sum + value)
+            });
+            let bits = f64::to_bits(sum);
+            // Any digit in the middle: as good as chance.
+            let sign = if (bits >> 20) & 1 == 0 { 1.0 } else { -1.0 };
+            sign * MOVE * size
+        };
+        (0..self.dimension).map(move_of).collect()
+    }
+
     /// Distance of two states, over all their components.
     fn distance(&self, other: &Self, start: usize, time: usize) -> f64 {
         let begin = (start * self.times + time) * self.dimension;
@@ -128,20 +148,20 @@ impl Precise {
 pub(super) trait Exact {
     fn dimension(&self) -> usize;
 
-    /// Follows a start, `moved` by some roundings or as it is.
+    /// Follows a start, each component `moved` by as much, if it is.
     fn follow(
         &self,
         by: Precise,
         start: &State<f64>,
-        moved: bool,
+        moved: Option<&[f64]>,
         times: &[f64],
         visit: &mut dyn FnMut(usize, &[f64]),
-    ) -> Result<(), Box<dyn Error>>;
+    ) -> Result<(), Box<dyn Error + Send + Sync>>;
 }
 
-/// Relative size of the roundings that a start is moved by, to see what becomes of those
-/// of `f64`: several, as many steps make them.
-const MOVE: f64 = 8.0 * f64::EPSILON;
+/// Roundings that a start is moved by, to see what becomes of those of `f64`: several, as
+/// many steps make them.
+const MOVE: f64 = 32.0 * f64::EPSILON;
 
 impl<O: CastOde<f64, Double>> Exact for O {
     fn dimension(&self) -> usize {
@@ -152,10 +172,10 @@ impl<O: CastOde<f64, Double>> Exact for O {
         &self,
         by: Precise,
         start: &State<f64>,
-        moved: bool,
+        moved: Option<&[f64]>,
         times: &[f64],
         visit: &mut dyn FnMut(usize, &[f64]),
-    ) -> Result<(), Box<dyn Error>> {
+    ) -> Result<(), Box<dyn Error + Send + Sync>> {
         let mut number = 0;
         let mut count = |_: f64, values: &[f64]| {
             visit(number, values);
@@ -174,13 +194,10 @@ impl<O: CastOde<f64, Double>> Exact for O {
             }
             Precise::Extrapolated(tolerance) => {
                 let ode = self.cast(Double::from_f64);
-                // Roundings are of either sign.
-                let sign = |index: usize| if index.is_multiple_of(2) { MOVE } else { -MOVE };
-                let precise = |(index, &value): (usize, &f64)| match moved {
-                    true => Double::sum(value, sign(index) * value),
-                    false => Double::from_f64(value),
-                };
-                let mut state: Vec<Double> = start.values.iter().enumerate().map(precise).collect();
+                let moves = moved.unwrap_or_default().iter().copied();
+                let moves = moves.chain(std::iter::repeat(0.0));
+                let both = start.values.iter().zip(moves);
+                let mut state: Vec<Double> = both.map(|(&y, by)| Double::sum(y, by)).collect();
                 let mut values = vec![0.0; state.len()];
                 extrapolate(
                     &ode,
@@ -226,15 +243,16 @@ impl Truth {
         starts: &[State<f64>],
         times: &[f64],
         wanted: &[Wanted<'_>],
-    ) -> Result<Self, Box<dyn Error>> {
-        let follow = |by, moved| {
+    ) -> Result<Self, Box<dyn Error + Send + Sync>> {
+        let follow = |by, along: Option<&Paths>| {
             let mut paths = Paths::new(exact.dimension(), starts.len(), times.len());
             for (index, start) in starts.iter().enumerate() {
-                exact.follow(by, start, moved, times, &mut |time, state| {
+                let moves = along.map(|along| along.roundings(index, start));
+                exact.follow(by, start, moves.as_deref(), times, &mut |time, state| {
                     paths.set(index, time, state);
                 })?;
             }
-            Ok::<_, Box<dyn Error>>(paths)
+            Ok::<_, Box<dyn Error + Send + Sync>>(paths)
         };
         let all = |paths: &Paths| -> Vec<Outputs> {
             let outputs = wanted.iter().map(|wanted| paths.outputs(wanted, times));
@@ -250,7 +268,7 @@ impl Truth {
         let mut growth = None;
         let mut last = None;
         for [fine, check] in LADDER {
-            let runs = follow(fine, false).and_then(|best| Ok((best, follow(check, false)?)));
+            let runs = follow(fine, None).and_then(|best| Ok((best, follow(check, None)?)));
             let (best, check) = match runs {
                 Ok(runs) => runs,
                 Err(error) => {
@@ -260,7 +278,7 @@ impl Truth {
             };
             let (outputs, checks) = (all(&best), all(&check));
             if matches!(fine, Precise::Extrapolated(_)) && growth.is_none() {
-                let moved = follow(fine, true)?;
+                let moved = follow(fine, Some(&best))?;
                 growth = Some(rate_of_growth(&best, &moved, starts.len(), times));
                 for (limit, ((own, moved), wanted)) in limits
                     .iter_mut()
