@@ -48,6 +48,9 @@ pub struct Arguments {
     /// draws accuracy against cost of three scenes instead; needs --output
     #[arg(long)]
     pub chart: bool,
+    /// asks twelve questions instead, and measures what else might be cheaper
+    #[arg(long, conflicts_with = "chart")]
+    pub audit: bool,
     /// Folder of results.
     #[command(flatten)]
     pub results: Results,

@@ -6,10 +6,12 @@
 //! - [`arguments`]: the command line,
 //! - [`scenes`]: the trees, in all their forms,
 //! - [`asked`]: one scene as an advisor sees it,
-//! - [`chart`]: accuracy against cost.
+//! - [`chart`]: accuracy against cost,
+//! - [`audit`]: the choices of twelve questions against everything else.
 
 pub mod arguments;
 pub mod asked;
+pub mod audit;
 pub mod chart;
 pub mod scenes;
 
@@ -29,6 +31,9 @@ use crate::program::Job;
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     if arguments.chart {
         return chart::draw(arguments, job);
+    }
+    if arguments.audit {
+        return audit::run(job);
     }
     let progress = job.progress(1);
     progress.begin(arguments.scene.title());

@@ -62,7 +62,7 @@ impl Advice {
                 name: wanted.name.clone(),
                 unit: wanted.unit,
                 tolerance: wanted.tolerance,
-                reference_error: judge.truth.errors[output],
+                reference_error: judge.truth.error(output),
                 chaotic_from: judge.times.get(trusted).copied(),
                 beyond: short.then(|| judge.beyond(output)).flatten(),
             }
@@ -75,7 +75,7 @@ impl Advice {
             names: candidates.names().collect(),
             outputs: outputs.collect(),
             reference: judge.truth.method.clone(),
-            growth: judge.truth.growth,
+            growth: judge.truth.digits.growth,
             to_write: to_write.unwrap_or_default(),
             ranges: candidates.all.iter().map(|one| one.settings()).collect(),
             conserved: judge

@@ -224,10 +224,20 @@ pub(super) struct Truth {
     pub(super) method: String,
     /// For each output: its values.
     pub(super) outputs: Vec<Outputs>,
-    /// For each output: the largest error of the reference as far as it is trusted.
-    pub(super) errors: Vec<f64>,
-    /// For each output: the number of times up to which its values can be asked for.
+    /// For each output and time: the error of the reference.
+    errors: Vec<Vec<f64>>,
+    /// For each output: the number of times up to which its values are asked for.
     pub(super) trusted: Vec<usize>,
+    pub(super) digits: Digits,
+}
+
+/// How long the digits of `f64` last.
+#[derive(Clone, Debug)]
+pub(super) struct Digits {
+    /// For each output: the number of times up to which some roundings do not matter.
+    limits: Vec<usize>,
+    /// True if a single one matters before the end.
+    are_too_few: bool,
     /// Rate at which small deviations grow, 1/s, where it was looked at.
     pub(super) growth: Option<f64>,
 }
@@ -235,9 +245,15 @@ pub(super) struct Truth {
 /// The part of a tolerance that the reference may be off by.
 const SHARE: f64 = 0.01;
 
+/// The first time at which two runs differ by more than `most`.
+fn parting(a: &Outputs, b: &Outputs, most: f64) -> usize {
+    let apart = |&time: &usize| a.difference(b, time) > most;
+    (0..a.times).find(apart).unwrap_or(a.times)
+}
+
 impl Truth {
     /// Follows the scene with methods that get better until they agree to a hundredth of
-    /// the tolerances, as far as numbers of 16 digits can be asked to follow it.
+    /// the tolerances; at least as far as numbers of 16 digits can follow it.
     pub(super) fn find(
         exact: &dyn Exact,
         starts: &[State<f64>],
@@ -258,67 +274,97 @@ impl Truth {
             let outputs = wanted.iter().map(|wanted| paths.outputs(wanted, times));
             outputs.collect()
         };
-        // The first time at which two runs differ by more than a share of a tolerance.
-        let parting = |a: &Outputs, b: &Outputs, most: f64| {
-            let apart = |&time: &usize| a.difference(b, time) > most;
-            (0..times.len()).find(apart).unwrap_or(times.len())
-        };
-        // As far as roundings leave anything; known from the first pair in more digits on.
-        let mut limits = vec![times.len(); wanted.len()];
-        let mut growth = None;
-        let mut last = None;
+        let mut digits: Option<Digits> = None;
+        let mut found = Err("there is no reference".into());
         for [fine, check] in LADDER {
             let runs = follow(fine, None).and_then(|best| Ok((best, follow(check, None)?)));
             let (best, check) = match runs {
                 Ok(runs) => runs,
-                Err(error) => {
-                    last = Some(Err(error));
+                Err(error) if found.is_err() => {
+                    found = Err(error);
                     continue;
                 }
+                Err(_) => break,
             };
             let (outputs, checks) = (all(&best), all(&check));
-            if matches!(fine, Precise::Extrapolated(_)) && growth.is_none() {
+            if matches!(fine, Precise::Extrapolated(_)) && digits.is_none() {
                 let moved = follow(fine, Some(&best))?;
-                growth = Some(rate_of_growth(&best, &moved, starts.len(), times));
-                for (limit, ((own, moved), wanted)) in limits
-                    .iter_mut()
-                    .zip(outputs.iter().zip(&all(&moved)).zip(wanted))
-                {
-                    *limit = parting(own, moved, wanted.tolerance);
-                }
+                let growth = rate_of_growth(&best, &moved, starts.len(), times);
+                digits = Some(Digits::of(&outputs, &all(&moved), wanted, growth));
             }
             let known: Vec<usize> = wanted
                 .iter()
                 .zip(outputs.iter().zip(&checks))
                 .map(|(wanted, (own, check))| parting(own, check, SHARE * wanted.tolerance))
                 .collect();
-            let enough = known
-                .iter()
-                .zip(&limits)
-                .all(|(known, limit)| known >= limit);
-            let trusted: Vec<usize> = known.iter().zip(&limits).map(|(a, b)| *a.min(b)).collect();
-            let error = |((own, check), trusted): ((&Outputs, &Outputs), &usize)| {
-                let errors = (0..*trusted).map(|time| own.difference(check, time));
-                errors.fold(0.0, f64::max)
+            let digits = digits.clone().unwrap_or(Digits {
+                limits: vec![times.len(); wanted.len()],
+                are_too_few: false,
+                growth: None,
+            });
+            let needed = |output: usize| match digits.are_too_few {
+                true => digits.limits[output],
+                false => times.len(),
             };
-            let errors = outputs
-                .iter()
-                .zip(&checks)
-                .zip(&trusted)
-                .map(error)
-                .collect();
-            last = Some(Ok(Self {
+            let enough = (0..wanted.len()).all(|output| known[output] >= needed(output));
+            let errors = outputs.iter().zip(&checks).map(|(own, check)| {
+                let errors = (0..times.len()).map(|time| own.difference(check, time));
+                errors.collect()
+            });
+            let mut truth = Self {
                 method: fine.name(),
-                errors,
+                errors: errors.collect(),
                 outputs,
-                trusted,
-                growth: growth.flatten(),
-            }));
+                trusted: known,
+                digits,
+            };
+            if truth.digits.are_too_few {
+                truth.trust_less();
+            }
+            found = Ok(truth);
             if enough {
                 break;
             }
         }
-        last.unwrap_or_else(|| Err("there is no reference".into()))
+        found
+    }
+
+    /// Asks for values only as long as some roundings do not matter. Returns true if that
+    /// is shorter than before.
+    pub(super) fn trust_less(&mut self) -> bool {
+        let before = self.trusted.clone();
+        for (trusted, limit) in self.trusted.iter_mut().zip(&self.digits.limits) {
+            *trusted = (*trusted).min(*limit);
+        }
+        self.trusted != before
+    }
+
+    /// Largest error of the reference of an output, as far as its values are asked for.
+    pub(super) fn error(&self, output: usize) -> f64 {
+        let errors = self.errors[output].iter().take(self.trusted[output]);
+        errors.copied().fold(0.0, f64::max)
+    }
+}
+
+impl Digits {
+    /// By what became of a start that was moved by some roundings.
+    fn of(own: &[Outputs], moved: &[Outputs], wanted: &[Wanted<'_>], growth: Option<f64>) -> Self {
+        let until = |share: f64| -> Vec<usize> {
+            let outputs = own.iter().zip(moved).zip(wanted);
+            outputs
+                .map(|((own, moved), wanted)| parting(own, moved, share * wanted.tolerance))
+                .collect()
+        };
+        // As long as it is small, a deviation is in proportion to what it was.
+        let of_one = until(2.0 * MOVE / f64::EPSILON);
+        Self {
+            limits: until(1.0),
+            are_too_few: of_one
+                .iter()
+                .zip(own)
+                .any(|(until, own)| *until < own.times),
+            growth,
+        }
     }
 }
 
