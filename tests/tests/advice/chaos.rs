@@ -139,6 +139,32 @@ fn anything_may_be_a_candidate() {
     );
 }
 
+/// Frames of a game: right where samples stand at their ends, no result elsewhere.
+#[test]
+fn frames_may_be_candidates() {
+    let paper = Paper::new();
+    let ode = AbsoluteAngles(&paper);
+    let method = Dop853::new(Options::with_tolerance(1e-9));
+    let frame = |state: &mut [f64]| {
+        let start = State::new(0.0, state.to_vec());
+        let run = method.integrate(&ode, &start, 1.0 / 60.0, |_| ControlFlow::Continue(()));
+        state.copy_from_slice(&run.unwrap().state.values);
+    };
+    let ask = |rate: f64| {
+        let advisor = Advisor::new(&ode)
+            .start(State::at_rest(0.0, &[0.5, 0.1, 0.0]))
+            .at((1..20).map(|index| f64::from(index) / rate).collect())
+            .wanted(Wanted::angles(1e-6));
+        let form = ModelForm::new("game");
+        let candidates = Candidates::new().frames(&form, "f64", 1.0 / 60.0, frame);
+        advisor.advise(&candidates).unwrap()
+    };
+    assert!(ask(30.0).chosen().is_some());
+    let none = ask(50.0);
+    let failure = none.closest().unwrap().failure.as_deref().unwrap();
+    assert!(failure.contains("no frame ends at t = 0.02 s"), "{failure}");
+}
+
 #[test]
 fn a_limit_that_nothing_keeps_is_told() {
     let paper = Paper::new();

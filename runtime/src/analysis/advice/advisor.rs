@@ -174,7 +174,7 @@ impl<'a> Advisor<'a> {
 
     /// Measures every candidate at all settings of its range that are `spacing` decades
     /// apart, for a chart. What takes more than `most` seconds for one start is left
-    /// there, as is what has got no better for three settings.
+    /// there, as is what has got no better for three fine settings.
     ///
     /// # Errors
     ///
@@ -208,10 +208,11 @@ impl<'a> Advisor<'a> {
                 }
                 let slow = run.seconds > most;
                 runs.push(run);
-                useless = if ratio < least || !ratio.is_finite() {
-                    0
-                } else {
-                    useless + 1
+                // Coarse settings may all be wrong by as much.
+                let is_coarse = 2 * number < count;
+                useless = match ratio < least || is_coarse {
+                    true => 0,
+                    false => useless + 1,
                 };
                 least = least.min(ratio);
                 if slow || useless == 3 {

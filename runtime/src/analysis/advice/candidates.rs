@@ -378,14 +378,14 @@ fn of_scalar<T: Real>(values: &[f64]) -> Vec<T> {
 }
 
 /// A start of the scene as one of the model.
-fn entered<T: Real>(form: &ModelForm<'_>, start: &State<f64>) -> State<T> {
+pub(super) fn entered<T: Real>(form: &ModelForm<'_>, start: &State<f64>) -> State<T> {
     let own = form.enter.as_ref().map(|enter| enter(&start.values));
     let values = own.as_deref().unwrap_or(&start.values);
     State::new(T::from_f64(start.time), of_scalar(values))
 }
 
 /// A state of the model as one of the scene.
-fn left(form: &ModelForm<'_>, values: &[f64], visit: &mut dyn FnMut(&[f64])) {
+pub(super) fn left(form: &ModelForm<'_>, values: &[f64], visit: &mut dyn FnMut(&[f64])) {
     match &form.leave {
         Some(leave) => visit(&leave(values)),
         None => visit(values),
@@ -411,14 +411,11 @@ fn settings<T: Real>(method: Method) -> SettingRange {
 
 /// The lines for the attribute and for the method.
 fn written(form: &ModelForm<'_>, method: Method, scalar: &str, setting: f64) -> Vec<String> {
-    let mut entries = form.entries.clone();
+    let mut form = form.clone();
     if method == Method::Taylor {
-        entries.push(String::from("emit(taylor)"));
+        form = form.entry("emit(taylor)");
     }
-    let mut lines = Vec::new();
-    if !entries.is_empty() {
-        lines.push(format!("#[branched_pendulum(…, {})]", entries.join(", ")));
-    }
+    let mut lines: Vec<String> = form.attribute().into_iter().collect();
     let options = match method {
         // As `Method::with` has it.
         Method::Taylor if setting < 1e-12 => {

@@ -113,6 +113,14 @@ impl<'a> ModelForm<'a> {
     }
 }
 
+impl ModelForm<'_> {
+    /// The attribute, if anything is to be written there.
+    pub(super) fn attribute(&self) -> Option<String> {
+        let entries = self.entries.join(", ");
+        (!entries.is_empty()).then(|| format!("#[branched_pendulum(…, {entries})]"))
+    }
+}
+
 impl fmt::Debug for ModelForm<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {

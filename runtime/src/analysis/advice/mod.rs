@@ -55,6 +55,7 @@
 //! ```
 
 mod advisor;
+mod by_frames;
 mod candidate;
 mod candidates;
 mod choice;
