@@ -5,6 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use branched_pendulum::ParameterError;
+use branched_pendulum::analysis::advice::AdviceError;
 use branched_pendulum::analysis::truncation::TruncationError;
 use branched_pendulum::analysis::{ModesError, SectorModesError, SpectrumError};
 use branched_pendulum::approximate::LinearError;
@@ -44,6 +45,9 @@ pub enum Failure {
     /// Forms of W could not be compared.
     #[error("the forms of W could not be compared")]
     Truncation(#[from] TruncationError),
+    /// There is no advice.
+    #[error("there is no advice")]
+    Advice(#[from] AdviceError),
     /// The output folder could not be made.
     #[error("cannot make the output folder {}", path.display())]
     Folder {
@@ -88,6 +92,7 @@ impl Failure {
 mod tests {
     use super::Failure;
     use crate::program::messages;
+    use branched_pendulum::analysis::advice::AdviceError;
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
@@ -184,6 +189,10 @@ mod tests {
             Box::new(Failure::Linear(LinearError::NotFinite)),
             Box::new(Failure::Frames(Box::new(request()))),
             Box::new(Failure::Truncation(truncation())),
+            Box::new(Failure::Advice(AdviceError::Request("a start"))),
+            Box::new(Failure::Advice(AdviceError::Reference(Box::new(
+                integration(),
+            )))),
             Box::new(Failure::Folder {
                 path: folder(),
                 source: refused(),

@@ -1,7 +1,8 @@
 //! From matrices and trajectories to physics: linear modes, of a whole tree and
 //! sector by sector, spectra, the growth of deviations, and how far truncated
-//! transfers reach.
+//! transfers reach; and which model and method to take ([`advice`]).
 
+pub mod advice;
 pub mod equilibrium;
 pub mod modes;
 pub mod sector_modes;
