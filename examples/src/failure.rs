@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use branched_pendulum::ParameterError;
 use branched_pendulum::analysis::truncation::TruncationError;
 use branched_pendulum::analysis::{ModesError, SectorModesError, SpectrumError};
-use branched_pendulum::data::CsvError;
 use branched_pendulum_charts::ChartError;
+use branched_pendulum_data::CsvError;
 
 /// Why a program could not finish. Causes are told by `source`, once each.
 #[derive(Debug, thiserror::Error)]
@@ -84,11 +84,11 @@ mod tests {
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
-    use branched_pendulum::data::CsvError;
     use branched_pendulum::integrate::{IntegrationError, RunError};
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::OdeFn;
     use branched_pendulum_charts::ChartError;
+    use branched_pendulum_data::CsvError;
     use std::error::Error;
     use std::io;
     use std::path::PathBuf;

@@ -16,7 +16,6 @@
 //! - [`transfer_forms`]: several forms of one energy transfer,
 //! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
 //!   errors of truncated transfers,
-//! - [`data`]: CSV files,
 //! - [`model`]: what emitted models return, and what they refuse.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
@@ -87,8 +86,6 @@ extern crate alloc;
 #[cfg(feature = "std")]
 pub mod analysis;
 pub mod batch;
-#[cfg(feature = "std")]
-pub mod data;
 #[doc(hidden)]
 pub mod emitted;
 #[cfg(feature = "std")]
