@@ -122,7 +122,7 @@ impl Format {
     }
 
     /// Cuts one line without quotes into trimmed cells.
-    fn split<'a>(self, line: &'a str) -> Vec<&'a str> {
+    fn split(self, line: &str) -> Vec<&str> {
         let part = |mark: char| line.split(mark).map(unquoted).collect();
         match self.delimiter {
             Delimiter::Comma => part(','),

@@ -126,7 +126,7 @@ fn check(table: &Table, links: &[LinkSeries]) -> Result<(), ReadError> {
     for link in links {
         for (row, sample) in link.samples.iter().enumerate() {
             if let Sample::Measured(value) = *sample
-                && !(value.abs() <= LARGEST)
+                && (value.abs() > LARGEST || value.is_nan())
             {
                 let name = link.name.clone();
                 return Err(table.refused_at(ReadErrorKind::Angle { name, value }, row, None));

@@ -259,8 +259,8 @@ fn exports_of_tracker() {
     assert_eq!(table.kind(), FileKind::Tracker);
     let recording = Markers::default().read(&table).unwrap();
     assert_eq!(recording.links[0].name, "mass A to mass B");
-    for index in 0..times.len() {
-        close(recording.links[0].angle(index), one[index], 1e-14);
+    for (index, one) in one.iter().enumerate() {
+        close(recording.links[0].angle(index), *one, 1e-14);
     }
     let single = self::table(&single);
     assert_eq!(
