@@ -6,9 +6,9 @@ use std::path::PathBuf;
 
 use branched_pendulum::ParameterError;
 use branched_pendulum::analysis::truncation::TruncationError;
-use branched_pendulum::analysis::{ModesError, SectorModesError, SpectrumError};
+use branched_pendulum::analysis::{ModesError, SectorModesError, SmoothingError, SpectrumError};
 use branched_pendulum_charts::ChartError;
-use branched_pendulum_data::CsvError;
+use branched_pendulum_data::{CsvError, ReadError};
 
 /// Why a program could not finish. Causes are told by `source`, once each.
 #[derive(Debug, thiserror::Error)]
@@ -37,6 +37,12 @@ pub enum Failure {
     /// Forms of W could not be compared.
     #[error("the forms of W could not be compared")]
     Truncation(#[from] TruncationError),
+    /// A file of measurements could not be read.
+    #[error("the measurements could not be read")]
+    Reading(#[from] ReadError),
+    /// Measured angles could not be smoothed.
+    #[error("the motion could not be estimated")]
+    Smoothing(#[from] SmoothingError),
     /// The output folder could not be made.
     #[error("cannot make the output folder {}", path.display())]
     Folder {
