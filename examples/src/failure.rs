@@ -40,6 +40,14 @@ pub enum Failure {
     /// A file of measurements could not be read.
     #[error("the measurements could not be read")]
     Reading(#[from] ReadError),
+    /// A file holds another number of links than the pendulum.
+    #[error("{} holds angles of {found} links where the pendulum has 3; name them by `--columns` or `--dots`", path.display())]
+    Links {
+        /// The file.
+        path: PathBuf,
+        /// Number of links found.
+        found: usize,
+    },
     /// Measured angles could not be smoothed.
     #[error("the motion could not be estimated")]
     Smoothing(#[from] SmoothingError),

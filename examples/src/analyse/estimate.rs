@@ -174,70 +174,90 @@ impl Measured<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::camera::{Camera, Release, motion};
-    use super::{Estimate, quantity};
-    use crate::branched_double::{Apparatus, Friction, Sample};
+    use super::super::arguments::Arguments;
+    use super::super::report::{Trust, transfer_error};
+    use super::super::source::Source;
+    use super::{Draws, Estimate, Measured};
+    use crate::branched_double::{Apparatus, Friction};
 
-    fn rms(values: impl Iterator<Item = f64>) -> f64 {
-        let (sum, count) = values.fold((0.0, 0), |(sum, count), v| (sum + v * v, count + 1));
-        (sum / f64::from(count)).sqrt()
+    const DRAWS: Draws = Draws { count: 50, seed: 7 };
+
+    /// Looks with the simulated camera at an apparatus, and analyses it as one without
+    /// friction.
+    fn estimates(arguments: &Arguments, real: Friction, models: bool) -> (Source, Vec<Estimate>) {
+        let apparatus = Apparatus::new(Friction::default()).unwrap();
+        let source = Source::new(arguments, &Apparatus::new(real).unwrap()).unwrap();
+        let measured = Measured {
+            apparatus: &apparatus,
+            times: &source.times,
+            angles: &source.angles,
+        };
+        let mut all = vec![measured.by_smoothness(DRAWS).unwrap()];
+        if models {
+            all.push(measured.by_model(&all[0], DRAWS).unwrap());
+        }
+        (source, all)
+    }
+
+    /// The median of five cameras.
+    fn median(mut of: impl FnMut(u64) -> [f64; 2]) -> [f64; 2] {
+        let mut all: Vec<[f64; 2]> = (0..5).map(&mut of).collect();
+        [0, 1].map(|index| {
+            all.sort_by(|a, b| a[index].total_cmp(&b[index]));
+            all[2][index]
+        })
     }
 
     #[test]
-    fn table() {
-        let apparatus = Apparatus::new(Friction::default()).unwrap();
-        let damped = Apparatus::new(Friction {
-            root: 0.0,
-            children: 3.5e-5,
-        })
-        .unwrap();
-        let draws = super::Draws { count: 50, seed: 1 };
-        for difference in [1e-2, 1e-3] {
-            let rate = 240.0;
-            let release = Release {
-                angle_deg: 47.8,
-                difference,
-                duration: 4.0,
-            };
-            for (name, real) in [("right model", &apparatus), ("friction lacking", &damped)] {
-                let truth: Vec<Sample> = motion(real, release, rate).unwrap();
-                let times: Vec<f64> = truth.iter().map(|s| s.time).collect();
-                for noise in [2e-4] {
-                    for seed in 0..1 {
-                        let camera = Camera {
-                            rate,
-                            noise,
-                            distance: 0.25,
-                            seed,
-                        };
-                        let angles = camera.angles(&truth);
-                        let measured = super::Measured {
-                            apparatus: &apparatus,
-                            times: &times,
-                            angles: &angles,
-                        };
-                        let b = measured.by_smoothness(draws).unwrap();
-                        let started = std::time::Instant::now();
-                        let c = measured.by_model(&b, draws).unwrap();
-                        let spent = started.elapsed();
-                        let w = |i: usize| truth[i].flow.transfer[2].total();
-                        let n = times.len();
-                        let error = |e: &super::Estimate| {
-                            rms((0..n).map(|i| e.bands.means[i][quantity::TRANSFER] - w(i)))
-                                / rms((0..n).map(w))
-                        };
-                        println!(
-                            "d {difference} {name}: W smooth {:.5} model {:.5}, white {:.1} {:.1}, noise {:.2e} of {:.2e}, {spent:?}",
-                            error(&b),
-                            error(&c),
-                            b.whiteness,
-                            c.whiteness,
-                            c.noise,
-                            camera.angle_noise()
-                        );
-                    }
-                }
-            }
+    fn transfer_from_smoothness() {
+        for (difference, rate, bounds) in [
+            (1e-2, 240.0, [0.015, 0.02]),
+            (1e-2, 60.0, [0.025, 0.03]),
+            (1e-3, 240.0, [0.05, 0.05]),
+        ] {
+            let [transfer, closure] = median(|seed| {
+                let arguments = Arguments {
+                    difference,
+                    rate,
+                    seed,
+                    ..Arguments::default()
+                };
+                let (source, all) = estimates(&arguments, Friction::default(), false);
+                [
+                    transfer_error(&source, &all[0]).unwrap(),
+                    Trust::of(&all[0]).closure,
+                ]
+            });
+            assert!(
+                transfer < bounds[0] && closure < bounds[1],
+                "{rate} {transfer} {closure}"
+            );
+            // Not by far, or the bounds would tell nothing.
+            assert!(3.0 * transfer > bounds[0], "{rate} {transfer}");
         }
+    }
+
+    #[test]
+    fn the_right_model_is_worth_a_factor_ten_and_a_wrong_one_is_no_loss() {
+        let arguments = Arguments {
+            rate: 60.0,
+            ..Arguments::default()
+        };
+        let (source, all) = estimates(&arguments, Friction::default(), true);
+        let errors = all.iter().map(|one| transfer_error(&source, one).unwrap());
+        let errors: Vec<f64> = errors.collect();
+        assert!(
+            errors[1] < 2e-3 && errors[1] < 0.1 * errors[0],
+            "{errors:?}"
+        );
+
+        let real = Friction {
+            root: 0.0,
+            children: 1e-5,
+        };
+        let (source, all) = estimates(&arguments, real, true);
+        let errors = all.iter().map(|one| transfer_error(&source, one).unwrap());
+        let errors: Vec<f64> = errors.collect();
+        assert!(errors[1] < errors[0], "{errors:?}");
     }
 }

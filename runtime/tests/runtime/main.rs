@@ -20,6 +20,7 @@ mod requests;
 mod sector_modes;
 #[cfg(feature = "serde")]
 mod serde;
+mod smoothing;
 mod spectrum;
 mod stability;
 mod stepper;
