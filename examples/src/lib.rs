@@ -5,6 +5,7 @@
 //! its own.
 
 pub mod advise;
+pub mod analyse;
 pub mod branched_double;
 pub mod energy_cascade;
 pub mod failure;
