@@ -13,7 +13,9 @@ use crate::integrate::{
     Verner98,
 };
 use crate::scalar::{Lane, Real};
-use crate::system::{Cast, CastOde, Ode, RatesOnly, State, TaylorOde, TaylorPendulum};
+use crate::system::{
+    AbsoluteAngles, Cast, CastOde, Ode, RatesOnly, State, TaylorOde, TaylorPendulum,
+};
 
 /// Candidates among which [`Advisor::advise`](super::Advisor::advise) chooses.
 #[derive(Default)]
@@ -271,6 +273,7 @@ fn by_pair<T: Lane, P: Cast<T> + Sync>(
 ) -> Vec<Samples<T>> {
     let options = Options::with_tolerance(tolerance);
     let ensemble = one_thread();
+    let model = &AbsoluteAngles(model);
     match method {
         Method::Dopri5 => ensemble.sample_in_lanes(&Dopri5::new(options), model, starts, times),
         Method::Verner98 => ensemble.sample_in_lanes(&Verner98::new(options), model, starts, times),
@@ -305,7 +308,7 @@ impl<T: Lane, P: TaylorPendulum<T> + Sync> LaneSamplable<T> for LanesBySeries<P>
         match method {
             Method::Taylor => {
                 let series = Taylor::new(Options::with_tolerance(tolerance));
-                one_thread().sample_in_lanes(&series, &self.0, starts, times)
+                one_thread().sample_in_lanes(&series, &AbsoluteAngles(&self.0), starts, times)
             }
             _ => by_pair(&self.0, method, tolerance, starts, times),
         }
