@@ -12,6 +12,7 @@ mod columns;
 mod deficit;
 mod entries;
 mod equations;
+mod functions;
 mod reduced_units;
 mod root;
 mod strips;
