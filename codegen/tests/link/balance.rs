@@ -103,6 +103,7 @@ impl Algebra<'_> {
                 | Column::Drag
                 | Column::Spring
                 | Column::Rest
+                | Column::PerTorque
                 | Column::DriveTorque => self.s(SymbolId(20_000 + *column as u32)),
             };
             values.push((stand_in(Argument::Constants, index), value));
@@ -128,6 +129,7 @@ impl Algebra<'_> {
             &has(Column::Friction) * &joint(4),
             &has(Column::Drag) * &self.s(s.omega),
             -has(Column::DriveTorque),
+            -(&has(Column::PerTorque) * &joint(5)),
         ];
         terms.into_iter().sum()
     }
