@@ -5,11 +5,12 @@ use std::io;
 use std::path::PathBuf;
 
 use branched_pendulum::ParameterError;
+use branched_pendulum::analysis::advice::AdviceError;
 use branched_pendulum::analysis::truncation::TruncationError;
-use branched_pendulum::analysis::{ModesError, SectorModesError, SpectrumError};
+use branched_pendulum::analysis::{ModesError, SectorModesError, SmoothingError, SpectrumError};
 use branched_pendulum::approximate::LinearError;
-use branched_pendulum::data::CsvError;
 use branched_pendulum_charts::ChartError;
+use branched_pendulum_data::{CsvError, ReadError};
 
 /// Why a program could not finish. Causes are told by `source`, once each.
 #[derive(Debug, thiserror::Error)]
@@ -44,6 +45,23 @@ pub enum Failure {
     /// Forms of W could not be compared.
     #[error("the forms of W could not be compared")]
     Truncation(#[from] TruncationError),
+    /// There is no advice.
+    #[error("there is no advice")]
+    Advice(#[from] AdviceError),
+    /// A file of measurements could not be read.
+    #[error("the measurements could not be read")]
+    Reading(#[from] ReadError),
+    /// A file holds another number of links than the pendulum.
+    #[error("{} holds angles of {found} links where the pendulum has 3; name them by `--columns` or `--dots`", path.display())]
+    Links {
+        /// The file.
+        path: PathBuf,
+        /// Number of links found.
+        found: usize,
+    },
+    /// Measured angles could not be smoothed.
+    #[error("the motion could not be estimated")]
+    Smoothing(#[from] SmoothingError),
     /// The output folder could not be made.
     #[error("cannot make the output folder {}", path.display())]
     Folder {
@@ -88,15 +106,16 @@ impl Failure {
 mod tests {
     use super::Failure;
     use crate::program::messages;
+    use branched_pendulum::analysis::advice::AdviceError;
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
     use branched_pendulum::approximate::LinearError;
-    use branched_pendulum::data::CsvError;
     use branched_pendulum::integrate::{IntegrationError, RunError};
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::OdeFn;
     use branched_pendulum_charts::ChartError;
+    use branched_pendulum_data::CsvError;
     use std::error::Error;
     use std::io;
     use std::path::PathBuf;
@@ -184,6 +203,10 @@ mod tests {
             Box::new(Failure::Linear(LinearError::NotFinite)),
             Box::new(Failure::Frames(Box::new(request()))),
             Box::new(Failure::Truncation(truncation())),
+            Box::new(Failure::Advice(AdviceError::Request("a start"))),
+            Box::new(Failure::Advice(AdviceError::Reference(Box::new(
+                integration(),
+            )))),
             Box::new(Failure::Folder {
                 path: folder(),
                 source: refused(),

@@ -4,6 +4,8 @@
 //! `evaluation-speed`, whose many scenes take long to compile and whose modules are
 //! its own.
 
+pub mod advise;
+pub mod analyse;
 pub mod branched_double;
 pub mod energy_cascade;
 pub mod failure;

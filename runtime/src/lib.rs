@@ -17,7 +17,6 @@
 //! - [`transfer_forms`]: several forms of one energy transfer,
 //! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
 //!   errors of truncated transfers,
-//! - [`data`]: CSV files,
 //! - [`model`]: what emitted models return, and what they refuse.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
@@ -89,8 +88,6 @@ extern crate alloc;
 pub mod analysis;
 pub mod approximate;
 pub mod batch;
-#[cfg(feature = "std")]
-pub mod data;
 #[doc(hidden)]
 pub mod emitted;
 #[cfg(feature = "std")]
@@ -112,8 +109,8 @@ pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
 pub use system::{
-    Canonical, Cast, Energy, Forced, Pendulum, Positions, SymmetricPendulum, TaylorPendulum,
-    Transverse, WholeTree,
+    Canonical, Cast, Energy, Forced, Pendulum, Positions, Prescribed, SymmetricPendulum,
+    TaylorPendulum, Transverse, WholeTree,
 };
 pub use transfer_forms::{TransferForm, TransferForms};
 

@@ -266,17 +266,22 @@ impl<T: Scalar> TaylorPendulum<T> for Oscillator<T> {
 
 /// Allocations of ensembles in lanes whose trajectories make so many steps, and
 /// have a sample in each.
-fn in_lanes(method: &impl LaneMethod<Oscillator<f64>, f64>, steps: u32) -> u64 {
+fn in_lanes(method: &impl LaneMethod<AbsoluteAngles<Oscillator<f64>>, f64>, steps: u32) -> u64 {
     let starts = vec![State::at_rest(0.0, &[1.0]); 11];
     let releases: Vec<_> = (0..11)
-        .map(|i| (Oscillator(1.0 + 0.1 * f64::from(i)), starts[0].clone()))
+        .map(|i| {
+            (
+                AbsoluteAngles(Oscillator(1.0 + 0.1 * f64::from(i))),
+                starts[0].clone(),
+            )
+        })
         .collect();
     let times: Vec<f64> = (0..steps).map(|i| STEP * (f64::from(i) + 0.5)).collect();
     let (ensemble, end) = (
         Ensemble::new().threads(NonZeroUsize::MIN),
         STEP * f64::from(steps),
     );
-    let (model, starts) = (&Oscillator(1.0), starts.as_slice());
+    let (model, starts) = (&AbsoluteAngles(Oscillator(1.0)), starts.as_slice());
     let before = allocations();
     let ends = [
         ensemble.integrate_in_lanes(method, model, starts, end),
@@ -296,7 +301,7 @@ fn in_lanes(method: &impl LaneMethod<Oscillator<f64>, f64>, steps: u32) -> u64 {
 
 #[test]
 fn lanes() {
-    fn count(method: &impl LaneMethod<Oscillator<f64>, f64>) {
+    fn count(method: &impl LaneMethod<AbsoluteAngles<Oscillator<f64>>, f64>) {
         assert_eq!(in_lanes(method, 10), in_lanes(method, 10_000));
     }
     count(&Dopri5::new(options()));

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use branched_pendulum::data::{Cell, Column};
 use branched_pendulum::prelude::*;
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
+use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::Arguments;
 use super::motion::{Branches, Seen, Trial};

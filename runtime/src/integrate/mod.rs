@@ -41,7 +41,6 @@ mod request;
 mod run;
 mod stepper;
 mod steps;
-mod sum;
 mod taylor;
 mod trajectory;
 
