@@ -13,6 +13,7 @@
 //!             | "observe" "(" [ observable { "," observable } [ "," ] ] ")"
 //!             | "in_phase" "(" [ name { "," name } [ "," ] ] ")"
 //!             | "locked" "(" name "," expression ")"
+//!             | "prescribed" "(" name { "," name } [ "," ] ")"
 //!             | link
 //! link        = name [ ":" shape ] "(" [ property { "," property } [ "," ] ] ")"
 //!               [ "[" [ link { "," link } [ "," ] ] "]" ] [ "*" integer ]
@@ -43,8 +44,10 @@
 //! business of [`scene`](crate::scene); this module knows their shape only.
 
 mod expression;
+mod item;
 mod list;
 mod parse;
+mod requests;
 mod text;
 
 use proc_macro2::{Ident, Span, TokenStream};
@@ -80,8 +83,21 @@ pub struct Description {
     pub observables: Vec<ObservableClause>,
     /// `in_phase(...)` and `locked(...)`.
     pub reductions: Reductions,
+    /// `prescribed(...)`, each by itself.
+    pub prescribed: Vec<PrescribedClause>,
     /// True if part of it was unreadable, which is reported already: anything
     /// that is missing may have stood there.
+    pub damaged: bool,
+}
+
+/// Links whose motion the caller states.
+#[derive(Debug, Clone)]
+pub struct PrescribedClause {
+    /// The word `prescribed`.
+    pub name: Ident,
+    /// The links.
+    pub links: Vec<Ident>,
+    /// True if part of it was unreadable, which is reported already.
     pub damaged: bool,
 }
 

@@ -42,6 +42,10 @@ impl Display for Description {
         for LockedClause { link, angle } in locked {
             writeln!(f, "locked({link}, {angle})")?;
         }
+        for clause in &self.prescribed {
+            let links: Vec<String> = clause.links.iter().map(ToString::to_string).collect();
+            writeln!(f, "prescribed({})", links.join(", "))?;
+        }
         if !self.requests.is_empty() {
             write!(f, "emit(")?;
             separated(&self.requests, f)?;

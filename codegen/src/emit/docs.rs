@@ -135,6 +135,13 @@ impl Emission<'_> {
                 String::new(),
                 "The power of the torques is Q·ω. In canonical variables they add to the rates of the momenta.".into(),
             ],
+            Purpose::Prescribed(set) => self.prescribed_meaning(set),
+            Purpose::OutsidePower => vec![
+                "Power Q·ω (in W) of `torques` Q (in N m) from outside at angular velocities `omega` (in rad/s): dE/dt of E = K + U is this with the powers of friction and drive.".into(),
+            ],
+            Purpose::AntiphaseOutsidePower(n) => vec![
+                format!("Power Σ ∂H_d/∂p Q (in W) of `torques` Q (in N m) from outside, on each link, on H_d of `{}`.", difference(n)),
+            ],
             Purpose::Accelerations => vec![
                 format!("Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s).", self.at_time()),
                 String::new(),
@@ -266,7 +273,10 @@ impl Emission<'_> {
             Purpose::FrictionPower(n) => vec![
                 format!("Power (in W) of friction and drag on H_d of `{}`.", difference(n)),
             ],
-            Purpose::Budget(definition) => self.budget_meaning(definition),
+            Purpose::Budget(definition) => self.budget_meaning(definition, "friction and drive"),
+            Purpose::BudgetUnder(definition) => {
+                self.budget_meaning(definition, "friction, drive and the `torques` from outside")
+            }
             Purpose::SectorTransfers(order) => self.sector_transfers_meaning(order),
             Purpose::TransferMatrix => self.matrix_meaning(),
             Purpose::AntiphaseDrivePower(n) => vec![
@@ -313,6 +323,7 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::DifferenceRate(_) => Some("their rates `difference_rate` (in rad/s)"),
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
         Argument::Torques => Some("`torques` (in N m)"),
+        Argument::Prescribed(_) => Some("accelerations `prescribed` (in rad/s²)"),
         _ => None,
     }
 }

@@ -80,13 +80,10 @@ impl Emission<'_> {
                 Some(power) => self.power_formulas(power),
                 None => Vec::new(),
             },
-            Purpose::TotalFrictionPower => {
-                let drive = mechanics.drive.as_ref();
-                match drive.and_then(|drive| drive.friction_power.as_ref()) {
-                    Some(power) => simple("P", power),
-                    None => Vec::new(),
-                }
-            }
+            Purpose::TotalFrictionPower => match &mechanics.friction_power {
+                Some(power) => simple("P", power),
+                None => Vec::new(),
+            },
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
             Purpose::Observable(n, form) => self.observable_formulas(n, form),
             Purpose::Positions(_) | Purpose::PointVelocities(_) => self.positions_formulas(purpose),
@@ -96,6 +93,10 @@ impl Emission<'_> {
             | Purpose::TransverseFriction(_) => self.transverse_formulas(purpose),
             Purpose::AbsoluteVelocities
             | Purpose::AccelerationsUnder
+            | Purpose::Prescribed(_)
+            | Purpose::OutsidePower
+            | Purpose::AntiphaseOutsidePower(_)
+            | Purpose::BudgetUnder(_)
             | Purpose::TaylorCoefficients
             | Purpose::MassMatrix
             | Purpose::Budget(_)

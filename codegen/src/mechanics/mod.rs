@@ -11,6 +11,7 @@ mod derivation;
 mod drive;
 pub mod expression;
 mod finish;
+mod finish_loops;
 mod frame;
 mod hamiltonian;
 mod inverse_mass;
@@ -159,6 +160,8 @@ pub struct TransferFormulas {
     pub friction: Expr,
     /// The power of the drive on H_d; zero without a moving pivot.
     pub drive: Expr,
+    /// ∂H_d/∂p_d, by which torques on the difference have power.
+    pub velocity: Expr,
 }
 
 /// W cut off at an order.
@@ -239,6 +242,9 @@ pub struct Mechanics {
     pub constants: Vec<Constant>,
     /// The drive, if the scene has one.
     pub drive: Option<DriveTerms>,
+    /// Power −2 R of friction and drag, if there are any, where energies are asked for
+    /// and a drive or torques from outside feed them; not of trees in loops.
+    pub friction_power: Option<Expr>,
     /// The mechanics in absolute angles; without coordinates where the code is loops.
     pub absolute: Frame,
     /// The joints, from which their accelerations can be formed as well.

@@ -243,7 +243,7 @@ impl Mechanics {
         }
         let powers = [
             ("power", &drive.power),
-            ("power of friction", &drive.friction_power),
+            ("power of friction", &self.friction_power),
         ];
         powers.iter().try_for_each(|(name, power)| match power {
             Some(power) => self.line(f, name, power),

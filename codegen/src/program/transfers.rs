@@ -3,18 +3,19 @@
 use super::entries::EntryList;
 use super::lower::Environment;
 use super::{Argument, Cause, Purpose, Shape, ValueId};
-use crate::mechanics::{Counting, Frame, MeanTree, Mechanics, TransferFormulas, TransferParts};
-use crate::scene::CoordinateKind;
+use crate::mechanics::{Counting, Frame, MeanTree, TransferFormulas, TransferParts};
+use crate::scene::{CoordinateKind, LinkId, Scene};
 
 impl EntryList<'_, '_> {
     pub(super) fn transfer(
         &mut self,
-        mechanics: &Mechanics,
+        scene: &Scene,
         frame: &Frame,
         number: usize,
         transfer: &TransferFormulas,
     ) {
         use Argument::{Coordinates, Momenta, Rates};
+        let mechanics = self.lowering.mechanics;
         let several = mechanics
             .coordinates
             .iter()
@@ -122,6 +123,27 @@ impl EntryList<'_, '_> {
                 &format!("antiphase_drive_power{place}"),
                 Purpose::AntiphaseDrivePower(number),
                 &[Argument::Time, Coordinates, Rates],
+                vec![power],
+                Shape::Scalar,
+            );
+        }
+        if scene.requests.forces {
+            let velocity = self.lowering.expr(&mut motion, &transfer.velocity);
+            let builder = &mut self.lowering.builder;
+            let mut torque = builder.integer(0);
+            for &(LinkId(link), weight) in &mechanics.coordinates[transfer.coordinate].weights {
+                let (weight, own) = (
+                    builder.integer(weight),
+                    builder.input(Argument::Torques, link),
+                );
+                let part = builder.mul(weight, own);
+                torque = builder.add(torque, part);
+            }
+            let power = builder.mul(velocity, torque);
+            self.push(
+                &format!("antiphase_outside_power{place}"),
+                Purpose::AntiphaseOutsidePower(number),
+                &[Coordinates, Rates, Argument::Torques],
                 vec![power],
                 Shape::Scalar,
             );

@@ -21,6 +21,7 @@ mod link_properties;
 mod names;
 mod observable_text;
 mod observables;
+mod prescribed;
 mod probe;
 mod properties;
 mod quantity;
@@ -97,6 +98,9 @@ pub struct Scene {
     /// Quantities of the user's own. One that is written in symmetric
     /// coordinates comes with `requests.symmetric`.
     pub observables: Vec<Observable>,
+    /// Links whose motion the caller states, those of each set together. They come with
+    /// `requests.forces`.
+    pub prescribed: Vec<PrescribedLinks>,
     /// How the links stand for those of the whole tree, where the description makes it
     /// smaller.
     pub reduction: Option<Reduction>,
@@ -212,6 +216,15 @@ pub struct Group {
     pub parent: Option<LinkId>,
     /// The roots of the copies, two or more.
     pub copies: Vec<LinkId>,
+}
+
+/// Links whose motion is handed over together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PrescribedLinks {
+    /// Their names, joined: part of the name of their function.
+    pub name: String,
+    /// The links, in the order written.
+    pub links: Vec<LinkId>,
 }
 
 /// Whole tree of a description whose scene is smaller than it.

@@ -133,7 +133,7 @@ fn flattened(tokens: TokenStream, all: &mut Vec<TokenTree>) {
 #[test]
 fn mutated_descriptions_give_a_scene_or_messages() {
     let _alone = alone();
-    let mut random = Random(20_250_101);
+    let mut random = Random::new(20_250_101);
     let mut supply = Vec::new();
     // Brackets that do not match cannot be tokens.
     let words = TOKENS.split_whitespace();

@@ -38,7 +38,7 @@ fn watch(present: Present) {
 /// Looks at `count` descriptions; gives those that broke something, with what.
 fn broken(seed: u64, count: usize) -> Vec<String> {
     let _alone = alone();
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let present: Present = Arc::default();
     watch(Arc::clone(&present));
     let (mut faults, mut expanded, mut refused) = (Vec::new(), 0, 0);

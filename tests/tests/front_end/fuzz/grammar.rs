@@ -30,7 +30,7 @@ pub(crate) fn description(random: &mut Random) -> (String, String) {
 }
 
 impl Grammar<'_> {
-    /// Whether the next choice is odd.
+    /// Returns true if the next choice is odd.
     fn is_odd(&mut self) -> bool {
         self.odd > 0 && self.one_in(self.odd)
     }
