@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 use proc_macro2::{Span, TokenStream};
 use quote::quote_spanned;
 
-pub use message::{Lookalike, Message};
+pub use message::{Lookalike, Message, UnequalUse};
 pub use nearest::nearest;
 pub use wording::Problem;
 

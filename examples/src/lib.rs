@@ -5,6 +5,7 @@
 //! its own.
 
 pub mod advise;
+pub mod analyse;
 pub mod branched_double;
 pub mod energy_cascade;
 pub mod failure;
@@ -13,5 +14,6 @@ pub mod program;
 pub mod quadrature;
 pub mod solvers;
 pub mod stability_map;
+pub mod swaying_branch;
 pub mod transfer_orders;
 pub mod work_precision;

@@ -19,7 +19,7 @@ struct Program {
     arguments: &'static [&'static str],
 }
 
-const PROGRAMS: [Program; 8] = [
+const PROGRAMS: [Program; 9] = [
     Program {
         path: env!("CARGO_BIN_EXE_branched-double"),
         arguments: &["--angles", "40:43:0.2", "--duration", "4", "--rate", "50"],
@@ -39,6 +39,10 @@ const PROGRAMS: [Program; 8] = [
     Program {
         path: env!("CARGO_BIN_EXE_stability-map"),
         arguments: &["--map", "friction"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_swaying-branch"),
+        arguments: &["--duration", "2", "--storm", "2"],
     },
     Program {
         path: env!("CARGO_BIN_EXE_work-precision"),

@@ -5,8 +5,8 @@ pub use crate::requirements::{
     LinkBody, require_finite, require_non_negative, require_positive, require_regular,
 };
 pub use crate::scalar::Turns;
-pub use crate::simd::{Part, outlined};
-pub use crate::system::positions::{fill, properties};
+pub use crate::simd::{Part, Simd, outlined};
+pub use crate::system::positions::{arrays, fill, properties, write};
 pub use crate::system::{WholeMotion, WholeOrbit};
 
 /// The recurrences of Taylor coefficients.

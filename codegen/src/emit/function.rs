@@ -27,11 +27,13 @@ impl Emission<'_> {
         let result = self.result_type(entry);
         let needed = self.program.needed(&entry.outputs);
         let (body, parts) = self.body(entry, &needed);
-        // A batch compiles the accelerations for wider registers than the rest
+        // Batches and lanes compile the accelerations for wider registers than the rest
         // of the build uses, which only inlining allows. Those of loops call the
         // drive.
         let inline = match entry.purpose {
-            Purpose::Accelerations => quote!(#[inline(always)]),
+            Purpose::Accelerations | Purpose::AccelerationsUnder | Purpose::Transverse(_) => {
+                quote!(#[inline(always)])
+            }
             Purpose::Drive if self.scene.in_loops() => quote!(#[inline(always)]),
             _ => quote!(#[inline]),
         };
@@ -69,6 +71,7 @@ impl Emission<'_> {
             Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                 self.transverse_links(sector)
             }
+            Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
             _ => self.scene.links.len(),
         })
     }
@@ -83,6 +86,11 @@ impl Emission<'_> {
                 let rows = Literal::usize_unsuffixed(entry.outputs.len() / length);
                 let length = Literal::usize_unsuffixed(length);
                 quote!([[T; #length]; #rows])
+            }
+            Shape::Arrays(first) => {
+                let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
+                let first = Literal::usize_unsuffixed(first);
+                quote!(([T; #first], [T; #rest]))
             }
             Shape::Split(first) => {
                 let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
@@ -277,6 +285,7 @@ impl Emission<'_> {
                 Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                     self.transverse_links(sector)
                 }
+                Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
                 _ => self.scene.links.len(),
             },
         };
@@ -360,6 +369,10 @@ impl Emission<'_> {
             Shape::Rows(length) => {
                 let rows = values.chunks(length).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
+            }
+            Shape::Arrays(first) => {
+                let (first, second) = values.split_at(first);
+                quote!(([#(#first),*], [#(#second),*]))
             }
             Shape::Split(first) => {
                 let (first, second) = values.split_at(first);

@@ -348,6 +348,29 @@ pub enum Message {
         /// The output.
         request: String,
     },
+    /// `each(...)` where there are no copies.
+    EachWithoutCopies,
+    /// `each(...)` in a generation rule.
+    EachInRule {
+        /// The rule.
+        link: String,
+    },
+    /// `each(...)` with more or fewer values than copies.
+    EachCount {
+        /// The link.
+        link: String,
+        /// Number of copies.
+        copies: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// An output that holds between equal copies only.
+    UnequalCopies {
+        /// Node whose copies differ.
+        node: String,
+        /// The output.
+        wanted: UnequalUse,
+    },
     /// Transfer between identical siblings that have children.
     NestedGroups {
         /// The first such group.
@@ -405,6 +428,8 @@ pub enum Message {
         /// The link, or `all`.
         name: String,
     },
+    /// A clause of prescribed links without any.
+    NothingPrescribed,
     /// The root as a joint that does not move.
     LockedRoot,
     /// A generation of a tree in loops as a joint that does not move.
@@ -441,6 +466,17 @@ pub enum Lookalike {
     Motion,
 }
 
+/// Use of a tree that copies which differ stand against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnequalUse {
+    /// An order of the transfer.
+    Order,
+    /// The budget of sectors.
+    Budget,
+    /// Copies in phase or joints that are locked.
+    Reduction,
+}
+
 impl Message {
     /// A property or setting given twice.
     pub fn duplicate_property(name: &impl ToString) -> Self {
@@ -464,6 +500,7 @@ impl Message {
                 "observe",
                 "in_phase",
                 "locked",
+                "prescribed",
             ],
         );
         Self::UnknownEntry { name, nearest }

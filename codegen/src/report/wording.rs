@@ -2,7 +2,7 @@
 //! instead.
 
 use super::Message;
-use super::message::Lookalike;
+use super::message::{Lookalike, UnequalUse};
 
 /// A message in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -462,6 +462,11 @@ impl Message {
                 "no copies",
                 "leave it out, or write copies as in `child(...) * 2`",
             ),
+            M::NothingPrescribed => problem(
+                "`prescribed()` names no link",
+                "no link",
+                "write the links whose motion is handed over, as in `prescribed(arm)`",
+            ),
             M::LockedRoot => problem(
                 "the root cannot be locked",
                 "hangs from the ground",
@@ -507,6 +512,44 @@ impl Message {
                 "no link has copies",
                 "write `child(...) * 2`: links that merely have equal numbers do not count",
             ),
+            M::EachWithoutCopies => problem(
+                "`each(...)` where there are no copies",
+                "one value is enough here",
+                "write the value alone, or copies behind the link: \
+                   `child(mass = each(0.105, 0.106), ...) * 2`",
+            ),
+            M::EachInRule { link } => problem(
+                format!("`each(...)` in the generation rule `{link}`"),
+                "all links of a generation are equal",
+                "write the generations out, each link with its children in `[ ]`",
+            ),
+            M::EachCount {
+                link,
+                copies,
+                values,
+            } => problem(
+                format!("`each(...)` needs {copies} values for the {copies} copies of `{link}`"),
+                format!("{values} of them here"),
+                "write one value for each copy, as in `each(0.105, 0.106)` for two",
+            ),
+            M::UnequalCopies { node, wanted } => {
+                let (what, hint) = match wanted {
+                    UnequalUse::Order => (
+                        "truncated forms of W need equal copies",
+                        "write `transfer(exact)`, which splits W into growth and forcing",
+                    ),
+                    UnequalUse::Budget => (
+                        "sectors of unequal copies have no budget",
+                        "write `transfer(exact)` for copies without children, or `observe(...)` \
+                           for energies of your own",
+                    ),
+                    UnequalUse::Reduction => (
+                        "`in_phase` and `locked` need a tree of equal copies",
+                        "leave this out, or `each(...)`",
+                    ),
+                };
+                problem(what, format!("the copies of `{node}` differ"), hint)
+            }
             M::LateralTransfer { link } => problem(
                 format!("`transfer` needs the centre of mass of `{link}` on its axis"),
                 "a lateral centre of mass among the copies",

@@ -344,6 +344,8 @@ fn evaluate(
             report.error(property.name.span(), Message::NotAPoint { name });
             None
         }
+        // Reported with the copies.
+        Value::Each { .. } => None,
     }
 }
 

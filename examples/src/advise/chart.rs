@@ -2,8 +2,8 @@
 //! and the advisor's choices.
 
 use branched_pendulum::analysis::advice::{Advice, CandidateName, Measured, pareto};
-use branched_pendulum::data::{Cell, Column};
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
+use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::Arguments;
 use super::asked::{self, OutputName, Question, SceneName};

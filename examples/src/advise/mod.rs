@@ -16,7 +16,7 @@ pub mod chart;
 pub mod scenes;
 
 use branched_pendulum::analysis::advice::Advice;
-use branched_pendulum::data::{Cell, Column};
+use branched_pendulum_data::{Cell, Column};
 
 pub use arguments::Arguments;
 pub use asked::SceneName;

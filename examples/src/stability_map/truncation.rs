@@ -2,10 +2,10 @@
 //! against the size of the motion that feeds it.
 
 use branched_pendulum::analysis::truncation::{Background, PhaseAverage, logarithmic};
-use branched_pendulum::data::{Cell, Column};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::{TransferForm, TransferForms};
 use branched_pendulum_charts::{Axis, Chart, Panel};
+use branched_pendulum_data::{Cell, Column};
 
 use crate::failure::Failure;
 use crate::program::Job;

@@ -4,10 +4,10 @@ use core::marker::PhantomData;
 
 use super::{Batch, BatchError};
 use crate::model::Transfer;
-use crate::scalar::dispatch::{self, RegisterKernel};
-use crate::scalar::register::Register;
 use crate::scalar::{Lane, Scalar};
 use crate::sectors::Budget;
+use crate::simd::dispatch;
+use crate::simd::{Kernel, Simd};
 use crate::system::Cast;
 
 /// A function of one state of a pendulum `P`, on any scalar, of `A` arguments with a
@@ -216,8 +216,7 @@ struct FunctionOfStates<'a, F, P, T, In, Out, const A: usize> {
     values: &'a mut [Out],
 }
 
-impl<F, P, T, In, Out, const A: usize> RegisterKernel<T>
-    for FunctionOfStates<'_, F, P, T, In, Out, A>
+impl<F, P, T, In, Out, const A: usize> Kernel<T> for FunctionOfStates<'_, F, P, T, In, Out, A>
 where
     F: StateFunction<P, T, A>,
     P: Cast<T>,
@@ -230,7 +229,7 @@ where
     /// A register of states after the other; the last one overlaps the one before where
     /// it would not be full.
     #[inline(always)]
-    fn run<R: Register<Lane = T>>(self) {
+    fn run<R: Simd<T>>(self) {
         let pendulum = self.pendulum.cast(R::splat);
         let time = R::splat(self.time);
         let mut arguments = alloc::vec![R::splat(T::from_f64(0.0)); A * P::LINKS];
@@ -243,7 +242,7 @@ where
             for (place, slice) in arguments.iter_mut().zip(slices) {
                 *place = R::load_front(slice.as_ref().get(start..).unwrap_or_default());
             }
-            let Some(values) = F::call::<R>(&pendulum, time, &arguments) else {
+            let Some(values) = F::call(&pendulum, time, &arguments) else {
                 return;
             };
             values.tell(0, &mut |index, value: R| {

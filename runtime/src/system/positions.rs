@@ -1,6 +1,7 @@
 //! Where links are.
 
 use super::Pendulum;
+use super::by_reference::by_reference;
 use crate::scalar::Scalar;
 
 /// A point that every link has.
@@ -180,33 +181,16 @@ pub trait Positions<T: Scalar>: Pendulum<T> {
     );
 }
 
-impl<T: Scalar, P: Positions<T>> Positions<T> for &P {
-    fn properties_of(&self, link: usize) -> Option<LinkProperties<T>> {
-        (**self).properties_of(link)
-    }
-
-    fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]) {
-        (**self).points_into(point, theta, points);
-    }
-
-    fn point_velocities_into(
-        &self,
-        point: LinkPoint,
-        theta: &[T],
-        omega: &[T],
-        velocities: &mut [[T; 2]],
-    ) {
-        (**self).point_velocities_into(point, theta, omega, velocities);
-    }
-
-    fn point_torques_into(
-        &self,
-        point: LinkPoint,
-        theta: &[T],
-        forces: &[[T; 2]],
-        torques: &mut [T],
-    ) {
-        (**self).point_torques_into(point, theta, forces, torques);
+by_reference! {
+    impl<T: Scalar> Positions<T> for &P {
+        fn properties_of(&self, link: usize) -> Option<LinkProperties<T>>;
+        fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]);
+        fn point_velocities_into(
+            &self, point: LinkPoint, theta: &[T], omega: &[T], velocities: &mut [[T; 2]]
+        );
+        fn point_torques_into(
+            &self, point: LinkPoint, theta: &[T], forces: &[[T; 2]], torques: &mut [T]
+        );
     }
 }
 
@@ -242,6 +226,27 @@ pub fn fill<A, B, C: Copy + Unknown, const N: usize>(
         }
         _ => output.fill(C::unknown()),
     }
+}
+
+/// Takes slices as arrays; none where lengths differ.
+#[inline(always)]
+pub fn arrays<T, const N: usize, const A: usize>(slices: [&[T]; A]) -> Option<[&[T; N]; A]> {
+    const { assert!(N > 0) }
+    let mut arrays = [slices.first()?.first_chunk()?; A];
+    for (array, slice) in arrays.iter_mut().zip(slices) {
+        *array = slice.try_into().ok()?;
+    }
+    Some(arrays)
+}
+
+/// Writes values to a slice; false, and nothing written, where lengths differ.
+#[inline(always)]
+pub fn write<T: Copy>(out: &mut [T], values: &[T]) -> bool {
+    let fit = out.len() == values.len();
+    if fit {
+        out.copy_from_slice(values);
+    }
+    fit
 }
 
 /// The properties of a link of a tree that is written out.

@@ -8,7 +8,7 @@ use crate::scalar::Scalar;
 use crate::scalar::kind::{compiled, compiled_once};
 use crate::system::Workspace;
 
-/// What each link hangs from.
+/// Parents of the links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// The parent of each link, before it; the root's own is 0.
@@ -86,14 +86,14 @@ impl<T: Scalar> Bodies<T> {
         Self { shape, rows, rests }
     }
 
-    /// The same with the angles at which the springs of each link or of each generation
+    /// Returns these bodies with the angles at which the springs of each link or of each generation
     /// are at rest, rad.
     #[must_use]
     pub fn with_rests(self, rests: Vec<T>) -> Self {
         Self { rests, ..self }
     }
 
-    /// The same bodies on other scalars.
+    /// Returns these bodies on other scalars.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<S> {
         Bodies {
@@ -140,6 +140,18 @@ impl<T: Scalar> Bodies<T> {
     #[must_use]
     pub fn friction_power(&self, omega: &[T]) -> T {
         compiled::<FrictionPower, T>()(self, omega)
+    }
+
+    /// Power Q·ω, W, of torques Q from outside. NaN for slices of another length than
+    /// there are links.
+    #[must_use]
+    pub fn outside_power(&self, omega: &[T], torques: &[T]) -> T {
+        let mut sum = Sum::new();
+        for (&rate, &torque) in omega.iter().zip(torques) {
+            sum.add(torque * rate);
+        }
+        let whole = [omega.len(), torques.len()] == [self.shape.links(); 2];
+        Self::or_nan(whole, sum.total())
     }
 
     /// Potential energy, J, zero where all angles are zero and springs at rest:

@@ -1,4 +1,4 @@
-//! What equations read of the angles and velocities, formed before the recursion.
+//! Sines, cosines and joint motions that equations read, formed before the recursion.
 
 use super::block::{Block, Generation};
 use super::columns::Columns;
@@ -13,6 +13,8 @@ pub(super) struct Motions<'a, 'b, T> {
     pub(super) sweep: &'a mut Sweep<'b, T, T>,
     pub(super) theta: &'a [T],
     pub(super) omega: &'a [T],
+    /// Torques from outside; none where there are none.
+    pub(super) torques: Option<&'a [T]>,
     /// Where results are written once the block has gone up.
     pub(super) alpha: Option<Shared<'a, T>>,
 }
@@ -32,6 +34,12 @@ impl<T: Scalar> Kernel<T> for Motions<'_, '_, T> {
                 velocities: storage
                     .velocities
                     .and_then(|column| column.window(start, rows)),
+                torques: (storage.sizes.forced).then(|| {
+                    let given = self
+                        .torques
+                        .map(|torques| torques.get(whole..).unwrap_or_default());
+                    (storage.torques.window(start, rows), given)
+                }),
                 ahead: block.ahead(),
                 alpha: self.alpha.and_then(|alpha| alpha.from(whole)),
             };
@@ -46,6 +54,8 @@ struct Span<'a, T> {
     omega: &'a [T],
     sincos: Option<Columns<'a, T, 2>>,
     velocities: Option<Columns<'a, T, 1>>,
+    /// Torques from outside, where equations read them, and those that are given.
+    torques: Option<(Option<Columns<'a, T, 1>>, Option<&'a [T]>)>,
     /// How far the links are that come next.
     ahead: Option<usize>,
     /// The results, where they are written next.
@@ -68,6 +78,10 @@ impl<T: Scalar> Span<'_, T> {
                 sincos.store(places[i], &[sines[i], cosines[i]])?;
                 if let Some(velocities) = self.velocities {
                     velocities.store::<V, 1>(places[i], &[at(self.omega, places[i])])?;
+                }
+                if let Some((own, given)) = self.torques {
+                    let torques = given.map_or(V::from_f64(0.0), |given| at(given, places[i]));
+                    own?.store::<V, 1>(places[i], &[torques])?;
                 }
                 if let Some(ahead) = self.ahead {
                     let next = places[i] + ahead;
@@ -112,14 +126,14 @@ pub(super) fn joint_motions<T: Scalar>(
 
 /// Where a link of a block stands: there, in the tree and in its generation.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Link {
+pub(super) struct LinkPlace {
     pub(super) own: usize,
     pub(super) place: usize,
     number: usize,
     above: Option<(usize, usize)>,
 }
 
-impl Link {
+impl LinkPlace {
     /// Returns the place of the parent, but for the root; in a tree of any shape these
     /// are the parents of all.
     #[inline(always)]
@@ -152,12 +166,12 @@ impl<'a> Links<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn next(&mut self) -> Option<Link> {
+    pub(super) fn next(&mut self) -> Option<LinkPlace> {
         let generation = self.generations.first()?;
         let own = generation.own + self.span * generation.length + self.index;
         let within = self.span * generation.stride + self.index * generation.step;
         let number = self.start + within;
-        let link = Link {
+        let link = LinkPlace {
             own,
             place: generation.whole + number,
             number,

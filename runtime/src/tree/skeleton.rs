@@ -1,14 +1,13 @@
-//! What of a tree does not depend on its equations.
+//! The parts of a tree that do not depend on its equations.
 
 use alloc::vec::Vec;
 
 use super::block::WIDEST;
-use super::evaluate::{SweepFn, accelerations};
-use super::layout::Layout;
+use super::evaluate::{Given, SweepFn, accelerations};
+use super::layout::EvaluationMemory;
 use super::memory::{Sizes, line, odd_lines};
 use super::partition::Policy;
 use super::plan::Plan;
-use super::root::RootDrive;
 use crate::scalar::Scalar;
 use crate::scalar::kind::compiled_once;
 use crate::system::Workspace;
@@ -26,7 +25,7 @@ pub(super) struct Skeleton<T> {
     /// Acceleration of the root's pivot.
     pub(super) root: [T; 2],
     threads: usize,
-    pub(super) layout: Layout,
+    pub(super) layout: EvaluationMemory,
     /// How many numbers an evaluation of one state needs room for.
     pub(super) room: usize,
 }
@@ -73,7 +72,7 @@ impl<T: Scalar> Skeleton<T> {
         root: [T; 2],
         threads: usize,
     ) -> Self {
-        let layout = Layout::new::<T>(&plan, sizes);
+        let layout = EvaluationMemory::new::<T>(&plan, sizes);
         Self {
             room: layout.room::<T>(&plan, sizes, threads),
             layout,
@@ -95,7 +94,7 @@ impl<T: Scalar> Skeleton<T> {
         self.room = self.layout.room::<T>(&self.plan, self.sizes, threads);
     }
 
-    /// The same tree on other scalars.
+    /// Returns this tree on other scalars.
     pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Skeleton<S> {
         Skeleton::new(
             self.plan.clone(),
@@ -121,8 +120,7 @@ compiled_once! {
 }
 
 /// [`accelerations`] by equations that are compiled with a model.
-type Accelerate<T> =
-    fn(&Skeleton<T>, SweepFn<T>, Option<RootDrive<T>>, [&[T]; 2], &mut [T], &mut Workspace<T>);
+type Accelerate<T> = fn(&Skeleton<T>, SweepFn<T>, Given<'_, T>, &mut [T], &mut Workspace<T>);
 
 compiled_once! {
     /// [`accelerations`] of a tree in one piece.

@@ -39,13 +39,15 @@ pub enum Column {
     Spring,
     /// Angle at which the spring is at rest.
     Rest,
+    /// 1/(m l²), by which torques from outside are multiplied.
+    PerTorque,
     /// Torque on the root over m l², stated by each evaluation; zero in the rows.
     DriveTorque,
 }
 
 impl Column {
     /// All columns, in their order.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Inertia,
         Self::Moment,
         Self::LateralMoment,
@@ -61,6 +63,7 @@ impl Column {
         Self::Drag,
         Self::Spring,
         Self::Rest,
+        Self::PerTorque,
         Self::DriveTorque,
     ];
 
@@ -82,6 +85,7 @@ impl Column {
             Self::Drag => "drag",
             Self::Spring => "spring",
             Self::Rest => "rest",
+            Self::PerTorque => "per_torque",
             Self::DriveTorque => "drive_torque",
         }
     }
@@ -104,6 +108,7 @@ impl Column {
             Self::Drag => "drag against the ground over m l²",
             Self::Spring => "stiffness of the torsion spring over m l²",
             Self::Rest => "angle at which the torsion spring is at rest",
+            Self::PerTorque => "1/(m l²), factor of torques from outside",
             Self::DriveTorque => "torque on the root over m l², stated anew by every evaluation",
         }
     }
@@ -115,7 +120,7 @@ impl Strips {
         let torque = usize::from(self.has_joint_torques);
         match argument {
             Argument::Constants => self.columns.len(),
-            Argument::Motion => 5,
+            Argument::Motion => 5 + usize::from(self.has_outside_torques),
             Argument::Response => 5 + torque,
             Argument::Sums if self.has_several_places => 9 + torque,
             Argument::Sums => 5 + torque,
@@ -127,7 +132,14 @@ impl Strips {
 
     /// Name of an element.
     pub fn element(&self, argument: Argument, index: usize) -> &'static str {
-        const MOTION: [&str; 5] = ["sine", "cosine", "omega", "joint_angle", "joint_rate"];
+        const MOTION: [&str; 6] = [
+            "sine",
+            "cosine",
+            "omega",
+            "joint_angle",
+            "joint_rate",
+            "outside_torque",
+        ];
         const RESPONSE: [&str; 6] = [
             "deficit_xx_child",
             "deficit_xy_child",

@@ -37,6 +37,7 @@ impl EntryList<'_, '_> {
         let functions = Functions {
             table: &table,
             joints,
+            forced: scene.requests.forces,
             drive_torque: mechanics
                 .drive
                 .as_ref()
@@ -145,6 +146,7 @@ impl EntryList<'_, '_> {
 struct Functions<'t> {
     table: &'t Table,
     joints: bool,
+    forced: bool,
     drive_torque: bool,
 }
 
@@ -189,12 +191,14 @@ impl Functions<'_> {
         let drag = at(Column::Drag);
         let driven = at(Column::DriveTorque);
         let joint = self.joint_torque(list, own);
+        let outside = self.outside_torque(list, own);
         let builder = &mut list.lowering.builder;
-        // −c (ω − ω_π) − κ (θ − θ_π − ρ) − k ω + τ and the torques of the children's joints.
+        // −c (ω − ω_π) − κ (θ − θ_π − ρ) − k ω + τ + Q and the torques of the children's joints.
         let dragged = builder.mul(drag, omega);
         let resisting = builder.add(joint, dragged);
         let below = torque.unwrap_or_else(|| builder.integer(0));
         let pushed = builder.add(below, driven);
+        let pushed = builder.add(pushed, outside);
         let torque = builder.sub(pushed, resisting);
         let torque = builder.mul(inverse_length, torque);
         let link = Link {
@@ -225,6 +229,16 @@ impl Functions<'_> {
         let (slowed, bent) = (builder.mul(friction, rate), builder.mul(spring, angle));
         let torque = builder.add(slowed, bent);
         builder.name(torque, "joint_torque")
+    }
+
+    /// The torque from outside over m l².
+    fn outside_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
+        if !self.forced {
+            return list.lowering.builder.integer(0);
+        }
+        let unit = self.column(list, kind, Column::PerTorque);
+        let torque = self.motion(list, Motion::OutsideTorque);
+        list.lowering.builder.mul(unit, torque)
     }
 
     /// A response in an argument, and the torque of joints behind it.
@@ -398,4 +412,5 @@ enum Motion {
     Omega,
     JointAngle,
     JointRate,
+    OutsideTorque,
 }

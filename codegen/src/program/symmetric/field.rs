@@ -256,8 +256,11 @@ impl<'b> SymmetricTree<'b> {
     pub(super) fn mul(&mut self, f: &SymmetricField, g: &SymmetricField) -> SymmetricField {
         debug_assert_eq!(f.orbit, g.orbit);
         let mut result = SymmetricField::zero(f.orbit);
-        let branch = self.branch(f.orbit);
         let product = self.series.mul(&f.mean, &g.mean);
+        if self.series.builder.is_exceeded() {
+            return SymmetricField::uniform(f.orbit, product);
+        }
+        let branch = self.branch(f.orbit);
         let excess = self.excess(branch, f, g, [&f.mean, &g.mean], &mut result);
         result.mean = self.series.add(&product, &excess);
         result
@@ -296,21 +299,19 @@ impl<'b> SymmetricTree<'b> {
         let from_below = self.differences(&below);
         let mut excess = self.average(&below);
         for index in 1..count {
+            if self.series.builder.is_exceeded() {
+                break;
+            }
             let id = (branch.group, index);
             let (f_own, g_own) = (f.at(id), g.at(id));
             let forward = self.series.mul(f_mean, &g_own);
             let backward = self.series.mul(&f_own, g_mean);
             let mut difference = self.series.add(&forward, &backward);
-            for i in 1..count {
-                for l in 1..count {
-                    if let Some(ratio) = structure(count, index, i, l) {
-                        let product = self
-                            .series
-                            .mul(&f.at((branch.group, i)), &g.at((branch.group, l)));
-                        let term = self.series.scale(&ratio, &product);
-                        difference = self.series.add(&difference, &term);
-                    }
-                }
+            for (i, l, ratio) in structure(count, index) {
+                let parts = [f.at((branch.group, i)), g.at((branch.group, l))];
+                let product = self.series.mul(&parts[0], &parts[1]);
+                let term = self.series.scale(&ratio, &product);
+                difference = self.series.add(&difference, &term);
             }
             difference = self.series.add(&difference, &from_below[index - 1]);
             result.put(id, difference);

@@ -1,4 +1,4 @@
-//! What must hold for the expansion of any description.
+//! Properties that the expansion of any description must have.
 
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
