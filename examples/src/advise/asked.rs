@@ -188,18 +188,16 @@ fn cascade<R>(
         released(links, 0.4 + more)
     })
     .conserved(Wanted::energy(&model, DRIFT));
-    // Generation by generation in loops, depth first where it is written out.
+    // Generation by generation in loops, branch by branch where the tree is written out, or
+    // would be without its reduction: Taylor series are written out.
     let places = places::<Cascade, CascadeWrittenOut>();
-    let back = places.clone();
     let out = ModelForm::new("written out")
         .entry("code = unrolled")
-        .through(
-            move |state| permuted(state, &places, true),
-            move |state| permuted(state, &back, false),
-        );
+        .ordered(&places);
     let in_phase = ModelForm::new("in phase")
         .entry("in_phase(all)")
-        .reduced(CascadeInPhase::WHOLE);
+        .reduced(CascadeInPhase::WHOLE)
+        .ordered(&places);
     let candidates = Candidates::new()
         .series(&in_phase, AbsoluteAngles(&chain))
         .rates(&ModelForm::new("loops"), AbsoluteAngles(&model))
@@ -217,12 +215,9 @@ fn branch<R>(
     let advisor = asked(Advisor::new(&ode), question, &model, |more| {
         released(links, 0.3 + more)
     });
-    let places = places::<Branch, BranchLoops>();
-    let back = places.clone();
-    let in_loops = ModelForm::new("loops").entry("code = loops").through(
-        move |state| permuted(state, &places, true),
-        move |state| permuted(state, &back, false),
-    );
+    let in_loops = ModelForm::new("loops")
+        .entry("code = loops")
+        .ordered(&places::<Branch, BranchLoops>());
     let in_phase = ModelForm::new("in phase")
         .entry("in_phase(all)")
         .reduced(BranchInPhase::WHOLE);
@@ -265,20 +260,4 @@ fn places<P: Pendulum<f64>, Q: Pendulum<f64>>() -> Vec<usize> {
             .unwrap_or(link)
     };
     (0..P::LINKS).map(place).collect()
-}
-
-/// Angles and rates in the order of the other form, or back.
-fn permuted(state: &[f64], places: &[usize], enter: bool) -> Vec<f64> {
-    let links = places.len();
-    let mut own = vec![f64::NAN; state.len()];
-    for half in [0, links] {
-        for (link, &place) in places.iter().enumerate() {
-            let (to, from) = match enter {
-                true => (place, link),
-                false => (link, place),
-            };
-            own[half + to] = state[half + from];
-        }
-    }
-    own
 }
