@@ -14,7 +14,7 @@ use crate::scalar::Scalar;
     message = "`{Self}` takes no torques from outside",
     note = "a model takes them with `emit(forces)` in its attribute"
 )]
-pub trait Forced<T: Scalar>: Cast<T> {
+pub trait Forced<T: Scalar>: Cast<T> + Sized {
     /// Writes the angular accelerations, in rad/s², as
     /// [`Pendulum::accelerations_into`] does, with generalized torques Q (N m) on top of
     /// all others: M θ̈ + b = Q. Their power is Q·ω. All slices have length
