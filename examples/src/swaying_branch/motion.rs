@@ -4,8 +4,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use branched_pendulum::approximate::{Approximation, Linear, LinearFrames, Switched};
-use branched_pendulum::integrate::{Frames, HeldTorques, InputError, longest_sub_step};
+use branched_pendulum::integrate::{Frames, InputError, longest_sub_step};
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::UnderTorques;
 
 use super::scene::{Branch, LINKS};
 use super::weather::Weather;
@@ -79,7 +80,7 @@ pub fn reference(
     let start = State::at_rest(0.0, branches.linear.equilibrium());
     let method = Dop853::new(Options::with_tolerance(1e-10));
     let failed = |error| Failure::integration(0.0, error);
-    let held = HeldTorques::new(&branches.double);
+    let held = UnderTorques::of(&branches.double, vec![0.0; LINKS]);
     let mut stepper = method.start(held, &start).map_err(failed)?;
     let mut states = vec![start.values];
     for number in 0..frames {
@@ -99,7 +100,7 @@ trait Mover<T> {
     fn state_into(&self, state: &mut [T]);
 }
 
-impl<T: Real, P: Forced<T>> Mover<T> for (Frames<HeldTorques<P, T>, T>, T) {
+impl<T: Real, P: Forced<T>> Mover<T> for (Frames<UnderTorques<P, Vec<T>>, T>, T) {
     fn advance(&mut self, torques: &[T]) {
         let (frames, frame) = self;
         frames.ode_mut().torques_mut().copy_from_slice(torques);
@@ -121,7 +122,9 @@ impl<T: Real> Mover<T> for LinearFrames<T> {
     }
 }
 
-impl<T: Real, P: Forced<T>, A: Approximation<T>> Mover<T> for Switched<HeldTorques<P, T>, A, T> {
+impl<T: Real, P: Forced<T>, A: Approximation<T>> Mover<T>
+    for Switched<UnderTorques<P, Vec<T>>, A, T>
+{
     fn advance(&mut self, torques: &[T]) {
         self.advance_under(torques);
     }
@@ -213,7 +216,11 @@ impl Course<'_> {
         let start = State::new(T::ZERO, start);
         let full = |share: f64| -> Result<_, InputError<T>> {
             let sub_step = T::from_f64(share * self.branches.sub_step);
-            Frames::new(HeldTorques::new(branch), &start, sub_step)
+            Frames::new(
+                UnderTorques::of(branch, vec![T::ZERO; LINKS]),
+                &start,
+                sub_step,
+            )
         };
         let failed = |error: InputError<T>| Failure::Frames(Box::new(error));
         for share in SUB_STEPS {
