@@ -25,7 +25,7 @@ pub struct Arguments {
         value_parser = read_outputs,
         verbatim_doc_comment
     )]
-    pub right: Outputs,
+    pub right: RightOutputs,
     /// time followed, s from 0.1 to 1000
     #[arg(long, value_name = "S", default_value = "10", value_parser = number(0.1..=1e3, "s"))]
     pub horizon: f64,
@@ -58,7 +58,7 @@ pub struct Arguments {
 
 /// Outputs with their tolerances.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outputs(pub Vec<(OutputName, f64)>);
+pub struct RightOutputs(pub Vec<(OutputName, f64)>);
 
 /// A limit on time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +97,7 @@ impl crate::program::Arguments for Arguments {
     }
 }
 
-fn read_outputs(text: &str) -> Result<Outputs, String> {
+fn read_outputs(text: &str) -> Result<RightOutputs, String> {
     let one = |part: &str| {
         let (name, tolerance) = part
             .split_once(':')
@@ -110,7 +110,7 @@ fn read_outputs(text: &str) -> Result<Outputs, String> {
         Ok::<_, String>((*output, number(1e-14..=1e3, "")(tolerance)?))
     };
     let outputs: Result<_, String> = text.split(',').map(one).collect();
-    Ok(Outputs(outputs?))
+    Ok(RightOutputs(outputs?))
 }
 
 fn read_limit(text: &str) -> Result<Limit, String> {

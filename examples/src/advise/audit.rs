@@ -8,9 +8,7 @@ use crate::failure::Failure;
 use crate::program::Job;
 
 /// The questions: scene, output, largest error, time followed, samples a second, starts.
-type Row = (SceneName, OutputName, f64, f64, f64, u32);
-
-const QUESTIONS: [Row; 12] = [
+const QUESTIONS: [(SceneName, OutputName, f64, f64, f64, u32); 12] = [
     (SceneName::Paper, OutputName::Angles, 1e-2, 10.0, 10.0, 1),
     (SceneName::Paper, OutputName::Angles, 1e-4, 10.0, 10.0, 1),
     (SceneName::Paper, OutputName::Angles, 1e-6, 10.0, 10.0, 1),

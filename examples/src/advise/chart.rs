@@ -62,7 +62,7 @@ fn survey(scene: SceneName, arguments: &Arguments) -> Result<Surveyed, Failure> 
     // Errors are those of an allowed one of 1 rad; the finest choice is not the dearest
     // point of the chart.
     let dearest = advice.iter().filter_map(Advice::chosen);
-    let most = 20.0 * dearest.map(|run| run.seconds).fold(0.0, f64::max);
+    let most = 5.0 * dearest.map(|run| run.seconds).fold(0.0, f64::max);
     let (names, runs) = asked::with(&question(1.0), |advisor, candidates| {
         let names = candidates.names().collect();
         Ok((names, advisor.survey(candidates, SPACING, most)?))

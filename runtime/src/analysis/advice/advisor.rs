@@ -8,10 +8,11 @@ use std::time::Instant;
 use super::candidate::{Candidate, SettingRange};
 use super::candidates::Candidates;
 use super::choice::{Measured, TimeLimit, choose};
-use super::judge::Judge;
+use super::comparison::Comparison;
+use super::paths::Paths;
 use super::report::Advice;
 use super::search::bracket;
-use super::truth::{Exact, Paths, Truth};
+use super::truth::{Exact, Truth};
 use super::wanted::Wanted;
 use crate::scalar::Double;
 use crate::system::{CastOde, State};
@@ -63,6 +64,9 @@ const ALLOWED: f64 = 1.5;
 /// Rounds of turns in which the best are timed, at most, and their time.
 const ROUNDS: usize = 60;
 const SECONDS: f64 = 0.5;
+
+/// Time for repeated runs of one setting of a survey, s.
+const SHORT: f64 = 0.02;
 
 impl<'a> Advisor<'a> {
     /// One for a scene with these exact equations: a model in its coordinates, of which
@@ -131,16 +135,16 @@ impl<'a> Advisor<'a> {
     ///
     /// [`AdviceError`].
     pub fn advise(&self, candidates: &Candidates<'_>) -> Result<Advice, AdviceError> {
-        let mut judge = self.judge()?;
-        let advice = self.advise_by(&judge, candidates);
+        let mut comparison = self.comparison()?;
+        let advice = self.advise_by(&comparison, candidates);
         // Near the end of the digits of `f64` it is tried first whether they last.
-        if advice.runs.iter().any(Measured::is_right) || !judge.truth.trust_less() {
+        if advice.runs.iter().any(Measured::is_right) || !comparison.truth.trust_less() {
             return Ok(advice);
         }
-        Ok(self.advise_by(&judge, candidates))
+        Ok(self.advise_by(&comparison, candidates))
     }
 
-    fn advise_by(&self, judge: &Judge<'_>, candidates: &Candidates<'_>) -> Advice {
+    fn advise_by(&self, comparison: &Comparison<'_>, candidates: &Candidates<'_>) -> Advice {
         let samples = self.times.len();
         let eligible = |run: &Measured| {
             run.is_right() && self.limit.is_none_or(|limit| limit.allows(run, samples))
@@ -158,7 +162,7 @@ impl<'a> Advisor<'a> {
                 if let Some(known) = known {
                     return (known.ratio(), known.seconds);
                 }
-                let run = self.measure(judge, index, candidate.as_ref(), setting);
+                let run = self.measure(comparison, index, candidate.as_ref(), setting);
                 let found = (run.ratio(), run.seconds);
                 if eligible(&run) {
                     best = best.min(run.seconds);
@@ -169,7 +173,7 @@ impl<'a> Advisor<'a> {
         }
         self.time_the_best(candidates, &mut runs, &eligible);
         let choice = choose(&runs, self.limit, samples);
-        Advice::new(judge, candidates, runs, choice, self.limit)
+        Advice::new(comparison, candidates, runs, choice, self.limit)
     }
 
     /// Measures every candidate at all settings of its range that are `spacing` decades
@@ -185,7 +189,7 @@ impl<'a> Advisor<'a> {
         spacing: f64,
         most: f64,
     ) -> Result<Vec<Measured>, AdviceError> {
-        let judge = self.judge()?;
+        let comparison = self.comparison()?;
         let mut runs = Vec::new();
         for (index, candidate) in candidates.all.iter().enumerate() {
             let range = candidate.settings();
@@ -198,10 +202,12 @@ impl<'a> Advisor<'a> {
             let (mut least, mut useless) = (f64::INFINITY, 0);
             for number in 0..=count {
                 let setting = range.setting(coarsest - spacing * f64::from(number));
-                let mut run = self.measure(&judge, index, candidate.as_ref(), setting);
+                let mut run = self.measure(&comparison, index, candidate.as_ref(), setting);
                 let ratio = run.ratio();
+                let clock = Instant::now();
                 for _ in 0..4 {
-                    if ratio.is_finite() && run.seconds < most {
+                    let is_short = clock.elapsed().as_secs_f64() < SHORT;
+                    if is_short && ratio.is_finite() && run.seconds < most {
                         let again = self.time(candidate.as_ref(), setting);
                         run.seconds = run.seconds.min(again);
                     }
@@ -223,7 +229,7 @@ impl<'a> Advisor<'a> {
         Ok(runs)
     }
 
-    fn judge(&self) -> Result<Judge<'_>, AdviceError> {
+    fn comparison(&self) -> Result<Comparison<'_>, AdviceError> {
         let request = AdviceError::Request;
         if self.starts.is_empty() {
             return Err(request("a start"));
@@ -272,7 +278,7 @@ impl<'a> Advisor<'a> {
             }
             values.first().copied().unwrap_or(f64::NAN)
         };
-        Ok(Judge {
+        Ok(Comparison {
             wanted: &self.wanted,
             conserved,
             times: &self.times,
@@ -290,7 +296,7 @@ impl<'a> Advisor<'a> {
     /// One run, judged, and timed twice.
     fn measure(
         &self,
-        judge: &Judge<'_>,
+        comparison: &Comparison<'_>,
         index: usize,
         candidate: &dyn Candidate,
         setting: f64,
@@ -318,7 +324,7 @@ impl<'a> Advisor<'a> {
         match result {
             Ok(steps) => {
                 measured.steps = steps as f64 / starts;
-                measured.worst = Some(judge.worst(&paths));
+                measured.worst = Some(comparison.worst(&paths));
                 measured.seconds = measured.seconds.min(self.time(candidate, setting));
             }
             Err(error) => measured.failure = Some(error.to_string()),

@@ -4,8 +4,9 @@ use std::cell::RefCell;
 use std::error::Error;
 
 use super::candidate::{Candidate, CandidateName, SettingRange, Visit};
-use super::candidates::{Candidates, entered, left};
+use super::candidates::Candidates;
 use super::form::ModelForm;
+use super::integrated::{entered, left};
 use crate::scalar::Real;
 use crate::system::State;
 

@@ -1,6 +1,6 @@
 //! Which of the runs that were measured is to be taken.
 
-use super::judge::Worst;
+use super::comparison::Worst;
 
 /// One candidate at one setting, measured.
 #[derive(Clone, Debug, PartialEq)]

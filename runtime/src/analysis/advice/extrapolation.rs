@@ -47,7 +47,7 @@ pub(super) fn extrapolate<T: Real, O: Ode<T> + ?Sized>(
     tolerance: f64,
     mut visit: impl FnMut(usize, &[T]),
 ) -> Result<(), Unreachable> {
-    let mut table = Table::new(ode, state.len());
+    let mut table = ExtrapolatedStep::new(ode, state.len());
     let mut longest = f64::INFINITY;
     for (number, &goal) in times.iter().enumerate() {
         // Times of steps are rounded, the state at the goal is that of the goal.
@@ -76,7 +76,7 @@ pub(super) fn extrapolate<T: Real, O: Ode<T> + ?Sized>(
 }
 
 /// One step, extrapolated.
-struct Table<'a, T, O: ?Sized> {
+struct ExtrapolatedStep<'a, T, O: ?Sized> {
     ode: &'a O,
     workspace: Workspace<T>,
     /// The last row of the table, the best last.
@@ -87,7 +87,7 @@ struct Table<'a, T, O: ?Sized> {
     now: Vec<T>,
 }
 
-impl<'a, T: Real, O: Ode<T> + ?Sized> Table<'a, T, O> {
+impl<'a, T: Real, O: Ode<T> + ?Sized> ExtrapolatedStep<'a, T, O> {
     fn new(ode: &'a O, dimension: usize) -> Self {
         let zeros = || vec![T::ZERO; dimension];
         Self {

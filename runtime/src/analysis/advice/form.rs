@@ -111,6 +111,42 @@ impl<'a> ModelForm<'a> {
             },
         )
     }
+
+    /// The links of the model, or of the whole tree behind a reduced one, stand in another
+    /// order than those of the scene: trees in loops by a rule go generation by
+    /// generation, others branch by branch. `places` has the place of each link of the
+    /// scene; [`link_name`](crate::Pendulum::link_name) tells which is which.
+    #[must_use]
+    pub fn ordered(mut self, places: &[usize]) -> Self {
+        let mut back = vec![usize::MAX; places.len()];
+        for (link, &place) in places.iter().enumerate() {
+            if let Some(back) = back.get_mut(place) {
+                *back = link;
+            }
+        }
+        let (enter, leave) = (self.enter.take(), self.leave.take());
+        let places = places.to_vec();
+        self.through(
+            move |state| {
+                let own = reordered(state, &back);
+                enter.as_ref().map_or(own.clone(), |enter| enter(&own))
+            },
+            move |own| {
+                let whole = leave.as_ref().map(|leave| leave(own));
+                reordered(whole.as_deref().unwrap_or(own), &places)
+            },
+        )
+    }
+}
+
+/// Angles and rates in the order of `places`.
+fn reordered(state: &[f64], places: &[usize]) -> Vec<f64> {
+    let links = places.len();
+    let at = |index: usize| state.get(index).copied().unwrap_or(f64::NAN);
+    let halves = [0, links].into_iter();
+    halves
+        .flat_map(|half| places.iter().map(move |place| at(half + place)))
+        .collect()
 }
 
 impl ModelForm<'_> {

@@ -5,7 +5,7 @@ use std::fmt;
 use super::candidate::{CandidateName, SettingRange};
 use super::candidates::Candidates;
 use super::choice::{Choice, Measured, TimeLimit};
-use super::judge::{Criterion, Judge};
+use super::comparison::{Comparison, Criterion};
 
 /// How far an output could be followed, and how well it is known so far.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,24 +49,28 @@ pub struct Advice {
 
 impl Advice {
     pub(super) fn new(
-        judge: &Judge<'_>,
+        comparison: &Comparison<'_>,
         candidates: &Candidates<'_>,
         runs: Vec<Measured>,
         choice: Choice,
         limit: Option<TimeLimit>,
     ) -> Self {
-        let outputs = judge.wanted.iter().enumerate().map(|(output, wanted)| {
-            let trusted = judge.truth.trusted[output];
-            let short = judge.is_short(output);
-            Followed {
-                name: wanted.name.clone(),
-                unit: wanted.unit,
-                tolerance: wanted.tolerance,
-                reference_error: judge.truth.error(output),
-                chaotic_from: judge.times.get(trusted).copied(),
-                beyond: short.then(|| judge.beyond(output)).flatten(),
-            }
-        });
+        let outputs = comparison
+            .wanted
+            .iter()
+            .enumerate()
+            .map(|(output, wanted)| {
+                let trusted = comparison.truth.trusted[output];
+                let short = comparison.is_short(output);
+                Followed {
+                    name: wanted.name.clone(),
+                    unit: wanted.unit,
+                    tolerance: wanted.tolerance,
+                    reference_error: comparison.truth.error(output),
+                    chaotic_from: comparison.times.get(trusted).copied(),
+                    beyond: short.then(|| comparison.beyond(output)).flatten(),
+                }
+            });
         let to_write = choice.chosen.map(|index| {
             let run = &runs[index];
             candidates.all[run.candidate].to_write(run.setting)
@@ -74,18 +78,18 @@ impl Advice {
         Self {
             names: candidates.names().collect(),
             outputs: outputs.collect(),
-            reference: judge.truth.method.clone(),
-            growth: judge.truth.digits.growth,
+            reference: comparison.truth.method.clone(),
+            growth: comparison.truth.digits.growth,
             to_write: to_write.unwrap_or_default(),
             ranges: candidates.all.iter().map(|one| one.settings()).collect(),
-            conserved: judge
+            conserved: comparison
                 .conserved
                 .map(|kept| (kept.name.clone(), kept.unit, kept.tolerance)),
             runs,
             choice,
             limit,
-            samples: judge.times.len(),
-            end: judge.times.last().copied().unwrap_or(f64::NAN),
+            samples: comparison.times.len(),
+            end: comparison.times.last().copied().unwrap_or(f64::NAN),
         }
     }
 
@@ -135,15 +139,13 @@ impl Advice {
             },
         };
         let gap = if unit.is_empty() { "" } else { " " };
-        let (error, time) = (worst.error, worst.time);
+        let (error, time, tolerance) = (worst.error, worst.time, plain(tolerance));
         match worst.criterion {
             Criterion::Values => {
-                format!(
-                    "{name} off by {error:.1e}{gap}{unit} at {time:.4} s, {tolerance:e} allowed"
-                )
+                format!("{name} off by {error:.1e}{gap}{unit} at {time:.4} s, {tolerance} allowed")
             }
             Criterion::Conserved => format!(
-                "{name} drifts by {error:.1e}{gap}{unit} at {time:.4} s, {tolerance:e} allowed"
+                "{name} drifts by {error:.1e}{gap}{unit} at {time:.4} s, {tolerance} allowed"
             ),
             Criterion::Statistics => format!(
                 "means of {name} from {time:.4} s on off by {:.1} of what chance makes",
@@ -155,6 +157,15 @@ impl Advice {
     fn cost(&self, run: &Measured) -> String {
         let per_sample = run.seconds / self.samples.max(1) as f64;
         format!("{}, {} a sample", time(run.seconds), time(per_sample))
+    }
+}
+
+/// A number, as one writes it.
+fn plain(value: f64) -> String {
+    if (1e-3..1e6).contains(&value) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
     }
 }
 
@@ -177,8 +188,8 @@ fn time(seconds: f64) -> String {
 impl fmt::Display for Followed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let gap = if self.unit.is_empty() { "" } else { " " };
-        let (name, unit, tolerance) = (&self.name, self.unit, self.tolerance);
-        write!(f, "{name} to {tolerance:e}{gap}{unit}")?;
+        let (name, unit, tolerance) = (&self.name, self.unit, plain(self.tolerance));
+        write!(f, "{name} to {tolerance}{gap}{unit}")?;
         let error = self.reference_error;
         write!(f, "; the reference is good to {error:.1e}{gap}{unit}")?;
         if let Some(from) = self.chaotic_from {

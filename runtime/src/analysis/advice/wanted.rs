@@ -1,4 +1,4 @@
-//! Outputs that must be right, each with its tolerance.
+//! OutputValues that must be right, each with its tolerance.
 
 use std::cell::RefCell;
 use std::fmt;

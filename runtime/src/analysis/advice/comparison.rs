@@ -1,7 +1,8 @@
 //! How wrong a run is: by its values as far as they can be known, beyond by what is
 //! kept or by statistics.
 
-use super::truth::{Outputs, Paths, Truth};
+use super::paths::{OutputValues, Paths};
+use super::truth::Truth;
 use super::wanted::Wanted;
 
 /// What an output is judged by.
@@ -32,7 +33,7 @@ pub struct Worst {
 }
 
 /// Everything that runs are compared with.
-pub(super) struct Judge<'a> {
+pub(super) struct Comparison<'a> {
     pub(super) wanted: &'a [Wanted<'a>],
     pub(super) conserved: Option<&'a Wanted<'a>>,
     pub(super) times: &'a [f64],
@@ -47,7 +48,7 @@ const SIGMAS: f64 = 3.0;
 /// Parts of a record, by whose spread the standard error of its mean is told.
 const PARTS: usize = 10;
 
-impl Judge<'_> {
+impl Comparison<'_> {
     /// Returns true if an output cannot be followed to the end.
     pub(super) fn is_short(&self, output: usize) -> bool {
         self.truth.trusted[output] < self.times.len()
@@ -124,8 +125,8 @@ impl Judge<'_> {
     fn by_statistics(
         &self,
         output: usize,
-        own: &Outputs,
-        truth: &Outputs,
+        own: &OutputValues,
+        truth: &OutputValues,
         trusted: usize,
     ) -> Worst {
         let mut worst = Worst {
@@ -138,7 +139,7 @@ impl Judge<'_> {
         let starts = truth.values.len() / (truth.width * truth.times).max(1);
         for value in 0..truth.width {
             for power in [1, 2] {
-                let mean = |outputs: &Outputs| {
+                let mean = |outputs: &OutputValues| {
                     let mut parts = Vec::new();
                     let count = (truth.times - trusted) / PARTS;
                     for start in 0..starts {
