@@ -115,6 +115,16 @@ impl Column {
 }
 
 impl Strips {
+    /// Names of the elements of a link's motion: the fields of the runtime's type.
+    pub const MOTION: [&str; 6] = [
+        "sine",
+        "cosine",
+        "omega",
+        "joint_angle",
+        "joint_rate",
+        "outside_torque",
+    ];
+
     /// Number of elements of an argument of the link functions.
     pub fn length(&self, argument: Argument) -> usize {
         let torque = usize::from(self.has_joint_torques);
@@ -132,14 +142,6 @@ impl Strips {
 
     /// Name of an element.
     pub fn element(&self, argument: Argument, index: usize) -> &'static str {
-        const MOTION: [&str; 6] = [
-            "sine",
-            "cosine",
-            "omega",
-            "joint_angle",
-            "joint_rate",
-            "outside_torque",
-        ];
         const RESPONSE: [&str; 6] = [
             "deficit_xx_child",
             "deficit_xy_child",
@@ -170,7 +172,7 @@ impl Strips {
         ];
         let names: &[&str] = match argument {
             Argument::Constants => return self.columns[index].name(),
-            Argument::Motion => &MOTION,
+            Argument::Motion => &Self::MOTION,
             Argument::Response => &RESPONSE,
             Argument::Sums if self.has_several_places => &ATTACHED,
             Argument::Sums => &SUMS,
