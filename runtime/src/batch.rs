@@ -51,8 +51,8 @@ mod function;
 
 use alloc::vec::Vec;
 
-use crate::scalar::dispatch;
 use crate::scalar::{InstructionSet, Lane, at};
+use crate::simd::dispatch;
 use crate::system::cast;
 use crate::system::{Cast, Workspace};
 use blocks::Blocks;

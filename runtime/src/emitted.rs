@@ -5,7 +5,7 @@ pub use crate::requirements::{
     LinkBody, require_finite, require_non_negative, require_positive, require_regular,
 };
 pub use crate::scalar::Turns;
-pub use crate::simd::{Part, outlined};
+pub use crate::simd::{Part, Simd, outlined};
 pub use crate::system::positions::{arrays, fill, properties, write};
 pub use crate::system::{WholeMotion, WholeOrbit};
 

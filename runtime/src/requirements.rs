@@ -45,7 +45,8 @@ fn require(
 /// A link as [`require_regular`] sees it. SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkBody {
-    /// What is zero where the link turns without energy, for the message.
+    /// Name of the quantity that is zero where the link turns without energy, for the
+    /// message.
     pub what: &'static str,
     /// Index of the parent, which stands before the link.
     pub parent: Option<usize>,

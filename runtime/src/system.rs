@@ -7,6 +7,7 @@
 //! [`Ode`], a first-order system. [`AbsoluteAngles`] and
 //! [`SymmetricCoordinates`] turn one into the other.
 
+mod by_reference;
 mod canonical;
 pub(crate) mod cast;
 mod coordinates;
@@ -24,6 +25,7 @@ mod whole_tree;
 mod workspace;
 
 use crate::scalar::Scalar;
+use by_reference::by_reference;
 
 pub use canonical::{Canonical, CanonicalVariables};
 #[doc(hidden)]
@@ -98,29 +100,15 @@ pub trait Pendulum<T: Scalar> {
     }
 }
 
-impl<T: Scalar, P: Pendulum<T>> Pendulum<T> for &P {
-    const LINKS: usize = P::LINKS;
-    const LINK_NAMES: &'static [&'static str] = P::LINK_NAMES;
-
-    fn link_name(index: usize) -> Option<LinkName> {
-        P::link_name(index)
-    }
-
-    #[inline]
-    fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        (**self).accelerations_into(time, theta, omega, alpha);
-    }
-
-    #[inline]
-    fn accelerations_with(
-        &self,
-        workspace: &mut Workspace<T>,
-        time: T,
-        theta: &[T],
-        omega: &[T],
-        alpha: &mut [T],
-    ) {
-        (**self).accelerations_with(workspace, time, theta, omega, alpha);
+by_reference! {
+    impl<T: Scalar> Pendulum<T> for &P {
+        const LINKS: usize;
+        const LINK_NAMES: &'static [&'static str];
+        static fn link_name(index: usize) -> Option<LinkName>;
+        fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]);
+        fn accelerations_with(
+            &self, workspace: &mut Workspace<T>, time: T, theta: &[T], omega: &[T], alpha: &mut [T]
+        );
     }
 }
 
@@ -150,18 +138,12 @@ pub trait SymmetricPendulum<T: Scalar>: Pendulum<T> {
     );
 }
 
-impl<T: Scalar, P: SymmetricPendulum<T>> SymmetricPendulum<T> for &P {
-    const COORDINATE_NAMES: &'static [&'static str] = P::COORDINATE_NAMES;
-
-    #[inline]
-    fn symmetric_accelerations_into(
-        &self,
-        time: T,
-        coordinates: &[T],
-        rates: &[T],
-        accelerations: &mut [T],
-    ) {
-        (**self).symmetric_accelerations_into(time, coordinates, rates, accelerations);
+by_reference! {
+    impl<T: Scalar> SymmetricPendulum<T> for &P {
+        const COORDINATE_NAMES: &'static [&'static str];
+        fn symmetric_accelerations_into(
+            &self, time: T, coordinates: &[T], rates: &[T], accelerations: &mut [T]
+        );
     }
 }
 
@@ -196,25 +178,14 @@ pub trait Energy<T: Scalar>: Pendulum<T> {
     }
 }
 
-impl<T: Scalar, P: Energy<T>> Energy<T> for &P {
-    #[inline]
-    fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
-        (**self).kinetic_energy_of(theta, omega)
-    }
-
-    #[inline]
-    fn potential_energy_of(&self, theta: &[T]) -> T {
-        (**self).potential_energy_of(theta)
-    }
-
-    #[inline]
-    fn kinetic_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> T {
-        (**self).kinetic_energy_with(workspace, theta, omega)
-    }
-
-    #[inline]
-    fn potential_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
-        (**self).potential_energy_with(workspace, theta)
+by_reference! {
+    impl<T: Scalar> Energy<T> for &P {
+        fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T;
+        fn potential_energy_of(&self, theta: &[T]) -> T;
+        fn kinetic_energy_with(
+            &self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]
+        ) -> T;
+        fn potential_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T;
     }
 }
 

@@ -6,7 +6,8 @@ mod counting;
 
 use std::num::NonZeroUsize;
 
-use branched_pendulum::integrate::{Crossing, Event, Solver};
+use branched_pendulum::approximate::{Approximation, Linear};
+use branched_pendulum::integrate::{Crossing, Event, Frames, Solver};
 use branched_pendulum::integrate::{LaneMethod, Projected, StoermerVerlet};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{OdeFn, TaylorOde};
@@ -102,6 +103,27 @@ fn methods_with_fixed_steps() {
         assert_eq!(in_frames(&ode, &method), 0);
     }
     assert_eq!(in_frames(&ode, &Gauss::for_animation(STEP)), 0);
+}
+
+#[test]
+fn frames_in_real_time() {
+    let ode = oscillator();
+    let start = State::at_rest(0.0, &[1.0]);
+    let mut frames = Frames::new(&ode, &start, STEP).unwrap();
+    let damped = [[0.1, 0.02], [0.02, 0.2]];
+    let linear = Linear::of_matrices(&damped, &damped, &damped).unwrap();
+    let mut modes = linear.frames(STEP).unwrap();
+    let mut state = [1.0, 0.0, 0.0, 0.5];
+    let before = allocations();
+    for _ in 0..100_000 {
+        frames.advance(2.5 * STEP);
+        frames.set_state(0.0, &[1.0, 0.1]).unwrap();
+        modes.step_under(&mut state, &[0.1, 0.2]);
+        modes.advance();
+        modes.angles_into(&mut state[..2]);
+        state[0] += modes.validity(&state);
+    }
+    assert_eq!(allocations() - before, 0);
 }
 
 #[test]

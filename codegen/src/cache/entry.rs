@@ -13,12 +13,12 @@ const COMPILER: &str = concat!(
 );
 
 /// A question and its answer.
-pub(super) struct Entry<'a> {
+pub(super) struct CacheEntry<'a> {
     pub(super) question: &'a str,
     pub(super) expansion: &'a str,
 }
 
-impl Entry<'_> {
+impl CacheEntry<'_> {
     /// Name of the file that answers a question, if there is one.
     pub(super) fn file_name(question: &str) -> String {
         format!("{:016x}.expansion", hash(question))
@@ -29,7 +29,7 @@ impl Entry<'_> {
     pub(super) fn answer(text: &str, question: &str) -> Option<TokenStream> {
         let (head, rest) = text.split_once('\n')?;
         let expansion = rest.strip_prefix(question)?.strip_prefix('\n')?;
-        let entry = Entry {
+        let entry = CacheEntry {
             question,
             expansion,
         };
@@ -43,7 +43,7 @@ impl Entry<'_> {
     }
 }
 
-impl Display for Entry<'_> {
+impl Display for CacheEntry<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{}\n{}\n{}", self.head(), self.question, self.expansion)
     }

@@ -18,7 +18,7 @@ mod placed;
 mod tests;
 
 use crate::stages;
-use entry::Entry;
+use entry::CacheEntry;
 use folder::Folder;
 use proc_macro2::TokenStream;
 use std::path::PathBuf;
@@ -57,9 +57,9 @@ impl ExpansionCache {
     /// be written keeps nothing.
     pub fn expand(&self, attribute: TokenStream, item: TokenStream) -> TokenStream {
         let question = entry::question(&attribute, &item);
-        let name = Entry::file_name(&question);
+        let name = CacheEntry::file_name(&question);
         let kept = self.folder.read(&name);
-        if let Some(tokens) = kept.and_then(|text| Entry::answer(&text, &question)) {
+        if let Some(tokens) = kept.and_then(|text| CacheEntry::answer(&text, &question)) {
             return placed::placed(tokens, &item);
         }
         let tokens = match stages(attribute, item.clone()) {
@@ -71,7 +71,7 @@ impl ExpansionCache {
         let Ok(tokens) = expansion.parse() else {
             return tokens;
         };
-        let entry = Entry {
+        let entry = CacheEntry {
             question: &question,
             expansion: &expansion,
         };

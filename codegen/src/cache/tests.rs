@@ -1,4 +1,4 @@
-use super::entry::{Entry, question};
+use super::entry::{CacheEntry, question};
 use super::{ExpansionCache, placed};
 use crate::{expand, layout};
 use proc_macro2::TokenStream;
@@ -59,12 +59,16 @@ fn what_is_kept_is_the_answer_and_nothing_is_derived() {
     let own = Own::new("answer");
     let question = question(&attribute(), &item());
     // No derivation gives these tokens.
-    let entry = Entry {
+    let entry = CacheEntry {
         question: &question,
         expansion: "fn kept() {}",
     };
     fs::create_dir_all(&own.0).unwrap();
-    fs::write(own.0.join(Entry::file_name(&question)), entry.to_string()).unwrap();
+    fs::write(
+        own.0.join(CacheEntry::file_name(&question)),
+        entry.to_string(),
+    )
+    .unwrap();
     let tokens = own.cache().expand(attribute(), item());
     assert_eq!(
         tokens.to_string(),
@@ -81,11 +85,15 @@ fn what_is_kept_is_the_answer_and_nothing_is_derived() {
     assert_ne!(other.to_string(), tokens.to_string());
     let older = question.replacen(env!("BRANCHED_PENDULUM_COMPILER"), "0123456789abcdef", 1);
     assert_ne!(older, question);
-    let entry = Entry {
+    let entry = CacheEntry {
         question: &older,
         expansion: "fn kept() {}",
     };
-    fs::write(own.0.join(Entry::file_name(&question)), entry.to_string()).unwrap();
+    fs::write(
+        own.0.join(CacheEntry::file_name(&question)),
+        entry.to_string(),
+    )
+    .unwrap();
     let tokens = own.cache().expand(attribute(), item());
     assert_ne!(
         tokens.to_string(),

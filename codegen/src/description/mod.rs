@@ -18,7 +18,8 @@
 //! link        = name [ ":" shape ] "(" [ property { "," property } [ "," ] ] ")"
 //!               [ "[" [ link { "," link } [ "," ] ] "]" ] [ "*" integer ]
 //! property    = name "=" value
-//! value       = expression | "(" expression "," expression ")"
+//! value       = point | "each" "(" point { "," point } [ "," ] ")"
+//! point       = expression | "(" expression "," expression ")"
 //! request     = name [ "(" [ form { "," form } [ "," ] ] ")" ]
 //! form        = name [ "=" integer | "(" [ name { "," name } [ "," ] ] ")" ]
 //! observable  = name "=" expression
@@ -37,13 +38,16 @@
 //! other name is one. In observables a `name` is a symbol
 //! of the scene (an angle, a velocity, a momentum, a parameter, a constant of the
 //! model), and only they and drives have functions. A pair is a point of a link,
-//! `(along, lateral)`; a single value there means `(along, 0)`. Which properties,
+//! `(along, lateral)`; a single value there means `(along, 0)`. Copies of a link may differ:
+//! `each(...)` holds a value for each. Which properties,
 //! requests, symbols and functions there are, and what they mean, is the
 //! business of [`scene`](crate::scene); this module knows their shape only.
 
 mod expression;
+mod item;
 mod list;
 mod parse;
+mod requests;
 mod text;
 
 use proc_macro2::{Ident, Span, TokenStream};
@@ -249,6 +253,13 @@ pub enum Value {
     Single(Expression),
     /// A point, `(along, lateral)`.
     Pair(Expression, Expression),
+    /// A value for each copy, `each(first, second)`.
+    Each {
+        /// The values, in the order of the copies.
+        values: Vec<Value>,
+        /// Place of the word `each`.
+        span: Span,
+    },
 }
 
 impl Value {
@@ -260,6 +271,7 @@ impl Value {
                 along.for_each_name(visit);
                 lateral.for_each_name(visit);
             }
+            Self::Each { values, .. } => values.iter().for_each(|v| v.for_each_name(visit)),
         }
     }
 }

@@ -90,9 +90,20 @@ fn separated<T: Display>(members: &[T], f: &mut Formatter<'_>) -> fmt::Result {
 
 impl Display for Property {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match &self.value {
-            Value::Single(value) => write!(f, "{} = {value}", self.name),
-            Value::Pair(along, lateral) => write!(f, "{} = ({along}, {lateral})", self.name),
+        write!(f, "{} = {}", self.name, self.value)
+    }
+}
+
+impl Display for Value {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Single(value) => write!(f, "{value}"),
+            Self::Pair(along, lateral) => write!(f, "({along}, {lateral})"),
+            Self::Each { values, .. } => {
+                write!(f, "each(")?;
+                separated(values, f)?;
+                write!(f, ")")
+            }
         }
     }
 }

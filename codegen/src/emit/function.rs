@@ -5,7 +5,7 @@ use super::gather::Gathered;
 use super::names::Locals;
 use super::parts::{self, Line};
 use super::tokens::{Binding, ident};
-use crate::program::{Argument, Entry, Op, Pass, Purpose, Strips, ValueId};
+use crate::program::{Argument, Entry, LINK_MOTION, Op, Pass, Purpose, ValueId};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -296,7 +296,7 @@ impl Emission<'_> {
             }
         });
         let names: Vec<TokenStream> = names.collect();
-        let rest = (names.len() < Strips::MOTION.len()).then(|| quote!(..));
+        let rest = (names.len() < LINK_MOTION.len()).then(|| quote!(..));
         quote!(let #runtime::tree::LinkMotion { #(#names,)* #rest } = #array;)
     }
 

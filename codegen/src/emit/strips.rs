@@ -342,7 +342,7 @@ impl Emission<'_> {
                 }
 
                 #[inline(always)]
-                fn in_registers<R: #runtime::scalar::Register<Lane = T>>(
+                fn in_registers<R: #runtime::emitted::Simd<T>>(
                     &self,
                     #time: T,
                     room: &mut [T],

@@ -34,7 +34,14 @@ const NUMBERS: [&str; 4] = [
 /// Methods from the time and two arrays to a number.
 const POWERS: [&str; 2] = ["drive_power", "antiphase_drive_power"];
 /// Methods from two arrays to a transfer.
-const TRANSFERS: [&str; 2] = ["transfer_exact", "transfer_exact_from_rates"];
+const TRANSFERS: [&str; 6] = [
+    "transfer_exact",
+    "transfer_exact_from_rates",
+    "transfer_forcing",
+    "transfer_forcing_from_rates",
+    "transfer_growth",
+    "transfer_growth_from_rates",
+];
 
 /// The type and its documented methods as stubs. They are never run: the
 /// errors beside them keep the crate from compiling.

@@ -4,7 +4,7 @@
 use super::algebra::Formula;
 use super::drive::DerivedDrive;
 use super::expression::{Role, SymbolId, Symbols};
-use super::observable::Composite;
+use super::observable::CompositeObservable;
 use super::observables::EnergySymbols;
 use super::print::latex_name;
 use crate::scene::Scene;
@@ -56,7 +56,7 @@ pub(super) struct Derivation<'s> {
     pub(super) groups_of: BTreeMap<SymbolId, usize>,
     of_combination: Vec<(SymbolId, SymbolId)>,
     /// Functions of whole expressions, which observables alone have.
-    pub(super) composites: BTreeMap<SymbolId, Composite>,
+    pub(super) composites: BTreeMap<SymbolId, CompositeObservable>,
     /// K and U of a frame of which symbols alone are derived.
     pub(super) energies: Option<EnergySymbols>,
     /// Derivatives that are symbols of their own: function, variable, slope.

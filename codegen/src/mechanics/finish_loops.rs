@@ -28,6 +28,7 @@ impl Derivation<'_> {
             sectors: None,
             transverse: None,
             expansion: None,
+            mean_tree: None,
             transfers: Vec::new(),
             observables: Observables::default(),
             trigonometry: self.trigonometry,

@@ -18,6 +18,7 @@ mod inverse_mass;
 mod lagrangian;
 mod link;
 mod lock;
+mod mismatch;
 mod observable;
 mod observable_rate;
 mod observables;
@@ -152,6 +153,9 @@ pub struct TransferFormulas {
     pub higher: Vec<Truncated>,
     /// W without truncation.
     pub exact: Option<TransferParts>,
+    /// The same as what the mean tree does and what the mismatch adds, between copies that
+    /// differ; the first in velocities of the mean tree.
+    pub split: Option<[TransferParts; 2]>,
     /// The power of friction and drag on H_d; zero without both.
     pub friction: Expr,
     /// The power of the drive on H_d; zero without a moving pivot.
@@ -195,6 +199,16 @@ pub struct MassExpansion {
     pub corrections: Vec<Correction>,
     /// w and the inverse mass matrix solved and written out, for small blocks.
     pub written_out: Option<WrittenOut>,
+}
+
+/// The mean tree of one whose copies differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeanTree {
+    /// Its mechanics, in the symmetric coordinates of the tree.
+    pub frame: Frame,
+    /// The velocities that the mismatch adds at given momenta; solved for with the mass
+    /// matrix of the mean tree.
+    pub added: System,
 }
 
 /// Formulas for people: what the code solves, written out.
@@ -251,6 +265,8 @@ pub struct Mechanics {
     pub transverse: Option<TransverseMechanics>,
     /// Expansion about the in-phase motion, if a transfer is asked for.
     pub expansion: Option<MassExpansion>,
+    /// The mean tree, if a transfer is asked for between copies that differ.
+    pub mean_tree: Option<MeanTree>,
     /// Energy transfers, one for each difference, if asked for.
     pub transfers: Vec<TransferFormulas>,
     /// Quantities of the user's own with their rates.

@@ -9,7 +9,7 @@ use crate::scene::Coordinate;
 use crate::scene::{CoordinateIndex, Function, LinkId, Observed, Variable, VariableKind};
 
 /// Meaning of a symbol that stands for a function of an expression.
-pub(super) struct Composite {
+pub(super) struct CompositeObservable {
     pub(super) function: Function,
     pub(super) argument: Formula,
     /// The cosine that belongs to a sine, and the other way round; the symbol
@@ -242,7 +242,7 @@ impl Derivation<'_> {
         argument: Formula,
         partner: SymbolId,
     ) {
-        let composite = Composite {
+        let composite = CompositeObservable {
             function,
             argument,
             partner,
@@ -254,7 +254,7 @@ impl Derivation<'_> {
     pub(super) fn composite_slope(
         &self,
         symbol: SymbolId,
-        composite: &Composite,
+        composite: &CompositeObservable,
         variable: SymbolId,
     ) -> Formula {
         let inner = self.partial(&composite.argument, variable);

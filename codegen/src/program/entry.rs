@@ -114,6 +114,25 @@ impl PointKind {
     }
 }
 
+/// Cause of an energy transfer between copies that differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The tree of equal copies that have the means of all constants.
+    MeanTree,
+    /// What the copies differ in.
+    Mismatch,
+}
+
+impl Cause {
+    /// Name of its part of W in code.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MeanTree => "growth",
+            Self::Mismatch => "forcing",
+        }
+    }
+}
+
 /// Purpose of an entry point; the emitter documents it accordingly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
@@ -167,6 +186,8 @@ pub enum Purpose {
     ExactTransfer(usize),
     /// W exactly, from coordinates and velocities.
     ExactTransferFromRates(usize),
+    /// The part of W that has this cause.
+    SplitTransfer(usize, Cause),
     /// Power of friction on H_d.
     FrictionPower(usize),
     /// Energies of all sectors, the transfers into them and the power of other

@@ -66,7 +66,13 @@ impl Display for Scene {
         for link in links {
             self.write_link(link, f)?;
         }
-        for Orbit { name, depth, links } in orbits {
+        for Orbit {
+            name,
+            node: _,
+            depth,
+            links,
+        } in orbits
+        {
             let links = self.names(links.iter().map(|link| link.0));
             writeln!(f, "orbit {name}, depth {depth}: {links}")?;
         }

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::modes::{ModesError, symmetric_matrix};
 
-/// What a model says of a tree at rest.
+/// Matrices of a tree at rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtRest<const N: usize> {
     /// Mass matrix M, kg m².

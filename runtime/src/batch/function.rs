@@ -4,10 +4,9 @@ use core::marker::PhantomData;
 
 use super::{Batch, BatchError};
 use crate::model::Transfer;
-use crate::scalar::dispatch::{self, RegisterKernel};
-use crate::scalar::register::Register;
 use crate::scalar::{Lane, Scalar};
 use crate::sectors::Budget;
+use crate::simd::{Kernel, Simd, dispatch};
 use crate::system::{Cast, Forced};
 
 /// A function of one state of a pendulum `P`, on any scalar, of `A` arguments with a
@@ -310,8 +309,7 @@ struct FunctionOfStates<'a, F, P, T, In, Out, const A: usize> {
     values: &'a mut [Out],
 }
 
-impl<F, P, T, In, Out, const A: usize> RegisterKernel<T>
-    for FunctionOfStates<'_, F, P, T, In, Out, A>
+impl<F, P, T, In, Out, const A: usize> Kernel<T> for FunctionOfStates<'_, F, P, T, In, Out, A>
 where
     F: RegisterFunction<P, T>,
     P: Cast<T>,
@@ -324,7 +322,7 @@ where
     /// A register of states after the other; the last one overlaps the one before where
     /// it would not be full.
     #[inline(always)]
-    fn run<R: Register<Lane = T>>(self) {
+    fn run<R: Simd<T>>(self) {
         let pendulum = self.pendulum.cast(R::splat);
         let time = R::splat(self.time);
         let mut arguments = alloc::vec![R::splat(T::from_f64(0.0)); A * P::LINKS];

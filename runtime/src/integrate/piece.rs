@@ -7,7 +7,7 @@ use super::explicit::{alternating, bernstein, blend};
 use super::fixed::GaussOrder;
 use super::taylor::Ahead;
 use crate::scalar::{Dual, Real, Scalar};
-use crate::simd::run_packs;
+use crate::simd::dispatch::in_fours;
 
 /// How a polynomial is written, s being the fraction of the step and r = 1 − s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,7 +72,7 @@ impl<'a, T: Real> Piece<'a, T> {
     /// Writes the solution at the fraction `fraction` of the step, from 0 to 1.
     pub(crate) fn value(&self, fraction: T, out: &mut [T]) {
         if self.form == Form::Taylor {
-            return run_packs::<T, _>(Ahead {
+            return in_fours::<T, _>(Ahead {
                 coefficients: self.terms[0],
                 tau: fraction * self.length,
                 start: self.start,

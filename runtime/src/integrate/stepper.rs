@@ -9,8 +9,8 @@ use super::integrator::Integrator;
 use super::report::Report;
 use super::request::{check_start, check_times};
 use super::run::Run;
-use super::sum::two_sum;
 use crate::scalar::Real;
+use crate::scalar::two_sum;
 use crate::system::{Ode, State};
 
 /// A motion under way: [`Integrator::start`] begins it, the caller asks for its

@@ -1,17 +1,30 @@
 //! The machine's own numbers.
 
-#[cfg(not(target_arch = "x86_64"))]
-use super::Lanes;
 use super::kind::{ByKind, Compiled};
-use super::lanes::{Lane, Sealed};
+use super::lanes::{Lane, LaneRegisters, Lanes};
 use super::{Real, Scalar, sincos};
+use crate::simd::Fused;
 #[cfg(target_arch = "x86_64")]
-use crate::simd as register;
-use crate::simd::{PackKernel, StateKernel, dispatch, run_f32, run_f64};
+use crate::simd::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
+
+/// A register of this name, or as many lanes where there are none.
+#[cfg(target_arch = "x86_64")]
+macro_rules! register {
+    ($name:ty, $lanes:literal of $float:ident) => {
+        $name
+    };
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+macro_rules! register {
+    ($name:ty, $lanes:literal of $float:ident) => {
+        Lanes<$float, $lanes>
+    };
+}
 
 macro_rules! implement_scalar {
     ($float:ident, $sin_cos:path, $several:path, $sqrt:ident, $pow:ident,
-     $lanes:literal, $build:ident, $avx2:ident, $avx512:ident, $compiled:ident, $packs:path) => {
+     $lanes:literal, $build:ty, $avx2:ty, $avx512:ty, $four:ty, $compiled:ident) => {
         impl Scalar for $float {
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation)]
@@ -44,42 +57,18 @@ macro_rules! implement_scalar {
             }
         }
 
-        impl Lane for $float {
-            #[inline(always)]
-            fn sin_cos_lanes<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]) {
-                $sin_cos(angles)
-            }
-        }
+        impl Lane for $float {}
 
-        impl Sealed for $float {
-            #[cfg(target_arch = "x86_64")]
-            type Build = register::$build;
-            #[cfg(target_arch = "x86_64")]
-            type Avx2 = register::$avx2;
-            #[cfg(target_arch = "x86_64")]
-            type Avx512 = register::$avx512;
-            #[cfg(not(target_arch = "x86_64"))]
-            type Build = Lanes<$float, $lanes>;
+        impl LaneRegisters for $float {
+            type Build = register!($build, $lanes of $float);
+            type Avx2 = register!($avx2, $lanes of $float);
+            type Avx512 = register!($avx512, $lanes of $float);
+            type Fused = Fused<$float>;
+            type Four = register!($four, 4 of $float);
 
             #[inline(always)]
             fn compiled<C: Compiled>() -> C::Function<Self> {
                 C::$compiled()
-            }
-
-            #[inline(always)]
-            fn run_state<K: StateKernel<Self>>(
-                model: &K::Model,
-                time: Self,
-                theta: &[Self],
-                omega: &[Self],
-                out: &mut [Self],
-            ) -> bool {
-                dispatch::run_state::<Self, K>(model, time, theta, omega, out)
-            }
-
-            #[inline(always)]
-            fn run_packs<K: PackKernel<Self>>(kernel: K) {
-                $packs(kernel);
             }
         }
 
@@ -125,8 +114,8 @@ implement_scalar!(
     F64x2,
     F64x4,
     F64x8,
-    of_f64,
-    run_f64
+    F64x4,
+    of_f64
 );
 implement_scalar!(
     f32,
@@ -138,8 +127,8 @@ implement_scalar!(
     F32x4,
     F32x8,
     F32x16,
-    of_f32,
-    run_f32
+    Lanes<f32, 4>,
+    of_f32
 );
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! What depends on the kind of a number: plain, wide, or any other.
+//! Choices by the kind of a number: plain, wide, or any other.
 
 // The traits appear in the interface of public ones, so that they must be `pub`, and
 // are named by no one else.
@@ -29,7 +29,7 @@ pub trait ByKind<S: Scalar>: Sized {
 
     /// Answers for a wide number of several plain ones, or for one that fuses.
     #[inline(always)]
-    fn of_wide<T: Lane>(self) -> Self::Output
+    fn of_wide<T: Scalar>(self) -> Self::Output
     where
         S: Simd<T>,
     {

@@ -3,45 +3,28 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::kind::{ByKind, Compiled};
-use super::register::{PackKernel, Register, StateKernel};
 use super::{Real, Scalar};
+use crate::simd::Simd;
 
 /// A number that has lanes: `f64` or `f32`.
-pub trait Lane: Real + Sealed {
-    /// As [`Scalar::sin_cos_each`], for code that is compiled for wide
-    /// registers already.
-    #[doc(hidden)]
-    fn sin_cos_lanes<const N: usize>(angles: [Self; N]) -> ([Self; N], [Self; N]);
-}
+pub trait Lane: Real + LaneRegisters {}
 
 /// Keeps other crates from implementing [`Lane`]; the registers of each
 /// instruction set.
-pub trait Sealed: Scalar {
+pub trait LaneRegisters: Scalar {
     /// Those of the build.
-    type Build: Register<Lane = Self>;
+    type Build: Simd<Self>;
     /// Those of AVX2.
-    #[cfg(target_arch = "x86_64")]
-    type Avx2: Register<Lane = Self>;
+    type Avx2: Simd<Self>;
     /// Those of AVX-512.
-    #[cfg(target_arch = "x86_64")]
-    type Avx512: Register<Lane = Self>;
+    type Avx512: Simd<Self>;
+    /// One number that fuses.
+    type Fused: Simd<Self>;
+    /// Four numbers with the instructions of AVX2.
+    type Four: Simd<Self>;
 
     /// Returns a function that is compiled with this crate.
     fn compiled<C: Compiled>() -> C::Function<Self>;
-
-    /// Runs a computation on one state in fused arithmetic. Returns false, and does
-    /// nothing, where the machine has none.
-    fn run_state<K: StateKernel<Self>>(
-        model: &K::Model,
-        time: Self,
-        theta: &[Self],
-        omega: &[Self],
-        out: &mut [Self],
-    ) -> bool;
-
-    /// Runs a computation in packs of four numbers, with the vector instructions that
-    /// the machine has for them.
-    fn run_packs<K: PackKernel<Self>>(kernel: K);
 }
 
 /// `N` numbers that go through the same operations, each in its lane: one
@@ -72,7 +55,7 @@ pub struct Lanes<T, const N: usize>(
 );
 
 impl<T: Copy, const N: usize> Lanes<T, N> {
-    /// The same value in every lane.
+    /// One value in every lane.
     #[inline(always)]
     #[must_use]
     pub const fn splat(value: T) -> Self {
@@ -82,7 +65,7 @@ impl<T: Copy, const N: usize> Lanes<T, N> {
 
 macro_rules! lane_by_lane {
     ($trait:ident, $function:ident, $operator:tt) => {
-        impl<T: Lane, const N: usize> $trait for Lanes<T, N> {
+        impl<T: Scalar, const N: usize> $trait for Lanes<T, N> {
             type Output = Self;
 
             #[inline(always)]
@@ -102,7 +85,7 @@ lane_by_lane!(Sub, sub, -);
 lane_by_lane!(Mul, mul, *);
 lane_by_lane!(Div, div, /);
 
-impl<T: Lane, const N: usize> Neg for Lanes<T, N> {
+impl<T: Scalar, const N: usize> Neg for Lanes<T, N> {
     type Output = Self;
 
     #[inline(always)]
@@ -115,7 +98,7 @@ impl<T: Lane, const N: usize> Neg for Lanes<T, N> {
     }
 }
 
-impl<T: Lane, const N: usize> Scalar for Lanes<T, N> {
+impl<T: Scalar, const N: usize> Scalar for Lanes<T, N> {
     #[inline(always)]
     fn by_kind<Q: ByKind<Self>>(question: Q) -> Q::Output {
         question.of_wide::<T>()
@@ -127,8 +110,21 @@ impl<T: Lane, const N: usize> Scalar for Lanes<T, N> {
     }
 
     #[inline(always)]
+    fn from_parts(high: f64, low: f64) -> Self {
+        Self::splat(T::from_parts(high, low))
+    }
+
+    #[inline(always)]
+    fn mul_add(mut self, factor: Self, addend: Self) -> Self {
+        for i in 0..N {
+            self.0[i] = self.0[i].mul_add(factor.0[i], addend.0[i]);
+        }
+        self
+    }
+
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let (sines, cosines) = T::sin_cos_lanes(self.0);
+        let (sines, cosines) = T::sin_cos_each(&self.0);
         (Self(sines), Self(cosines))
     }
 

@@ -53,12 +53,9 @@ pub use turns::Turns;
 #[doc(hidden)]
 pub(crate) use turns::at;
 pub use wide::Double;
+pub(crate) use wide::two_sum;
 
 pub use crate::simd::InstructionSet;
-#[doc(hidden)]
-pub use crate::simd::Register;
-pub(crate) use crate::simd::{self as register, dispatch};
-pub(crate) use lanes::Sealed;
 
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
@@ -172,7 +169,7 @@ pub trait Real: Scalar + PartialOrd + AddAssign + Display {
     /// `self` to the power `exponent`, for `self >= 0`.
     fn powf(self, exponent: Self) -> Self;
 
-    /// Whether the value is neither infinite nor NaN.
+    /// Returns true if the value is neither infinite nor NaN.
     fn is_finite(self) -> bool;
 
     /// The larger of two numbers; `self` if either is NaN.

@@ -6,8 +6,8 @@
 //! angles are looked at before, so that what is computed late needs no way out to
 //! a slower function.
 
+use super::Scalar;
 use super::kind::ByKind;
-use super::{Lane, Scalar};
 use crate::simd::Simd;
 
 /// Sines and cosines, in the order of their angles.
@@ -54,7 +54,7 @@ impl<S: Scalar, const N: usize> ByKind<S> for SinesAhead<'_, S, N> {
     }
 
     #[inline(always)]
-    fn of_wide<T: Lane>(self) -> Self::Output
+    fn of_wide<T: Scalar>(self) -> Self::Output
     where
         S: Simd<T>,
     {
@@ -74,7 +74,7 @@ impl<S: Scalar, const N: usize> ByKind<S> for SinesNear<'_, S, N> {
     }
 
     #[inline(always)]
-    fn of_wide<T: Lane>(self) -> Self::Output
+    fn of_wide<T: Scalar>(self) -> Self::Output
     where
         S: Simd<T>,
     {

@@ -1,13 +1,11 @@
 //! The widest vector instructions of the machine, chosen at run time.
 //!
 //! A build for x86-64 may use SSE2 only, unless it names a newer processor.
-//! [`run`] compiles a computation three times, with wider instructions allowed,
-//! and takes the copy that the machine can run. The results have equal bits: each
-//! instruction set computes the same IEEE 754 operations.
+//! A [`Kernel`] is compiled three times, each with wider instructions allowed and with
+//! the numbers to compute with, and the copy runs that the machine can.
 //!
-//! [`run_in_registers`] hands a computation the registers to compute with. The
-//! wide ones fuse products with sums, and so does [`run_state`] for one number at
-//! a time: these two have equal bits for AVX2 and AVX-512, and others without.
+//! The wide registers fuse products with sums, and so does [`in_fused`] for one number
+//! at a time: they have equal bits for AVX2 and AVX-512, and others without.
 
 #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
 mod portable;
@@ -21,10 +19,9 @@ use portable as machine;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use x86 as machine;
 
-use super::Register;
-use super::{Fused, Simd};
+use super::{Kernel, Simd};
 use crate::scalar::kind::ByKind;
-use crate::scalar::{Lane, Scalar, Sealed};
+use crate::scalar::{Lane, Lanes, Scalar};
 
 /// Vector instructions that a build can choose among at run time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,39 +58,15 @@ impl fmt::Display for InstructionSet {
     }
 }
 
-/// A computation that is compiled for several instruction sets. What it calls
-/// profits only as far as it is inlined: write `#[inline(always)]`.
-pub trait Routine {
-    /// What it returns.
-    type Output;
-
-    /// Computes.
-    fn run(self) -> Self::Output;
-}
-
-/// Runs `kernel` with the instructions of `set`, or with the widest that the
-/// machine has, if these are narrower.
-#[cfg(test)]
-pub(crate) fn run<K: Routine>(set: InstructionSet, kernel: K) -> K::Output {
-    machine::run(set.min(InstructionSet::widest()), kernel)
-}
-
-/// Runs `kernel` with the widest instructions of the machine.
-#[inline(always)]
-pub(crate) fn run_widest<K: Routine>(kernel: K) -> K::Output {
-    machine::run(InstructionSet::widest(), kernel)
-}
-
-/// Runs `kernel` with the widest instructions that fuse, for
-/// [`Fused`](super::Fused) numbers.
+/// Runs `kernel` with fused single numbers and the widest instructions that fuse.
 ///
 /// # Errors
 /// Gives the kernel back if the machine has none.
 #[cfg(test)]
-pub(crate) fn run_fused<K: Routine>(kernel: K) -> Result<K::Output, K> {
+pub(crate) fn run_fused<T: Lane, K: Kernel<T>>(kernel: K) -> Result<K::Output, K> {
     match InstructionSet::widest() {
         InstructionSet::Build => Err(kernel),
-        set => Ok(machine::run(set, kernel)),
+        set => Ok(machine::run::<T, T, T::Fused, T::Fused, K>(set, kernel)),
     }
 }
 
@@ -108,7 +81,7 @@ pub trait StateKernel<T> {
     /// How long its slices are.
     const LINKS: usize;
 
-    /// Whether its functions are so long that parts of them are functions of their
+    /// True if its functions are so long that parts of them are functions of their
     /// own, which are compiled for AVX2: then so is the rest.
     const IN_PARTS: bool = Self::LINKS > 63;
 
@@ -158,82 +131,50 @@ impl<S: Scalar, K: StateKernel<S>> ByKind<S> for InFused<'_, K, S> {
     where
         S: Lane,
     {
-        S::run_state::<K>(self.model, self.time, self.theta, self.omega, self.out)
+        machine::run_state::<S, K>(self.model, self.time, self.theta, self.omega, self.out)
     }
 }
 
-/// Runs `K` with the widest instructions that fuse: 512 bits have twice as many
-/// registers, which plain numbers gain by too. False, and nothing done, if the machine has
-/// none that do, or if a slice has another length.
+/// Runs `kernel` in a function of its own with AVX2 and FMA, in numbers `V`. For types
+/// that exist where the machine has them, and for their methods alone.
 #[inline(always)]
-pub(crate) fn run_state<T, K: StateKernel<T>>(
-    model: &K::Model,
-    time: T,
-    theta: &[T],
-    omega: &[T],
-    out: &mut [T],
-) -> bool
-where
-    Fused<T>: Simd<T>,
-{
-    machine::run_state::<T, K>(model, time, theta, omega, out)
+pub(crate) fn outlined_avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    machine::outlined_avx2::<T, V, K>(kernel)
 }
 
-/// Runs `kernel` in a function of its own with AVX2 and FMA. For types that exist
-/// where the machine has them, and for their methods alone.
-#[inline(always)]
-pub(crate) fn outlined_avx2<K: Routine>(kernel: K) -> K::Output {
-    machine::outlined_avx2(kernel)
-}
-
-/// The same with AVX-512.
+/// Does so with AVX-512.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub(crate) fn outlined_avx512<K: Routine>(kernel: K) -> K::Output {
-    machine::outlined_avx512(kernel)
-}
-
-/// A computation in registers.
-pub(crate) trait RegisterKernel<T> {
-    /// What it returns.
-    type Output;
-
-    /// Computes with one kind of registers.
-    fn run<R: Register<Lane = T>>(self) -> Self::Output;
+pub(crate) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    machine::outlined_avx512::<T, V, K>(kernel)
 }
 
 /// Runs `kernel` with the registers of `set`, or with the widest that the
 /// machine has, if these are narrower.
 #[inline(always)]
-pub(crate) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
-    set: InstructionSet,
-    kernel: K,
-) -> K::Output {
-    machine::run_in_registers(set.min(InstructionSet::widest()), kernel)
+pub(crate) fn run_in_registers<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
+    let set = set.min(InstructionSet::widest());
+    machine::run::<T, T::Build, T::Avx2, T::Avx512, K>(set, kernel)
 }
 
-/// A kernel whose registers are chosen.
-struct Chosen<K, R>(K, core::marker::PhantomData<R>);
-
-impl<K: RegisterKernel<R::Lane>, R: Register> Routine for Chosen<K, R> {
-    type Output = K::Output;
-
-    #[inline(always)]
-    fn run(self) -> K::Output {
-        self.0.run::<R>()
-    }
+/// Runs `kernel` with the wide numbers of `set`, or with the widest that the machine
+/// has, if these are narrower.
+#[inline(always)]
+pub(crate) fn run_wide<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
+    let set = set.min(InstructionSet::widest());
+    machine::run_wide(set, kernel)
 }
 
 /// Runs `kernel` with the widest numbers of the machine that are made of `T`.
 #[inline(always)]
-pub(crate) fn in_widest<T: Scalar, K: super::Kernel<T>>(kernel: K) -> K::Output {
+pub(crate) fn in_widest<T: Scalar, K: Kernel<T>>(kernel: K) -> K::Output {
     T::by_kind(InWidest(kernel))
 }
 
 /// Asks for the widest numbers.
 struct InWidest<K>(K);
 
-impl<S: Scalar, K: super::Kernel<S>> ByKind<S> for InWidest<K> {
+impl<S: Scalar, K: Kernel<S>> ByKind<S> for InWidest<K> {
     type Output = K::Output;
 
     #[inline(always)]
@@ -251,25 +192,30 @@ impl<S: Scalar, K: super::Kernel<S>> ByKind<S> for InWidest<K> {
     }
 }
 
-/// Runs `kernel` with the wide numbers of `set`, or with the widest that the machine
-/// has, if these are narrower.
-///
-/// For SSE2 these are single numbers: every model would be compiled once more for
-/// registers of two, and hardly a machine runs them.
+/// Runs `kernel` with the machine's numbers of four lanes that are made of `T`.
 #[inline(always)]
-pub(crate) fn run_wide<T: Lane, K: super::Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
-    machine::run_wide(set.min(InstructionSet::widest()), kernel)
+pub(crate) fn in_fours<T: Scalar, K: Kernel<T>>(kernel: K) -> K::Output {
+    T::by_kind(InFours(kernel))
 }
 
-/// A kernel of any wide numbers as one of registers.
-struct Wide<K>(K);
+/// Asks for numbers of four lanes.
+struct InFours<K>(K);
 
-impl<T: Lane, K: super::Kernel<T>> RegisterKernel<T> for Wide<K> {
+impl<S: Scalar, K: Kernel<S>> ByKind<S> for InFours<K> {
     type Output = K::Output;
 
     #[inline(always)]
-    fn run<R: Register<Lane = T>>(self) -> K::Output {
-        self.0.run::<R>()
+    fn of_any(self) -> K::Output {
+        self.0.run::<Lanes<S, 4>>()
+    }
+
+    #[inline(always)]
+    fn of_plain(self) -> K::Output
+    where
+        S: Lane,
+    {
+        let set = InstructionSet::widest();
+        machine::run::<S, Lanes<S, 4>, S::Four, S::Four, K>(set, self.0)
     }
 }
 

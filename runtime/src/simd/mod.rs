@@ -11,7 +11,6 @@
 // and can be reached by no one.
 #![allow(unreachable_pub)]
 
-mod block;
 pub(crate) mod dispatch;
 mod known;
 mod one;
@@ -22,22 +21,22 @@ mod quad;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub(crate) use block::Block;
+use core::mem::MaybeUninit;
+
 pub use dispatch::{InstructionSet, StateKernel};
 pub(crate) use known::Known;
 pub use one::Fused;
 pub use part::{Part, outlined};
-pub(crate) use quad::{OneLink, run_f32, run_f64, run_packs, two_sum};
-pub use quad::{Pack, PackKernel, Quad};
+pub use quad::Quad;
 #[cfg(target_arch = "x86_64")]
 pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 
-use crate::scalar::{Lane, Real, Scalar};
+use crate::scalar::{Real, Scalar};
 
 /// A computation that is compiled for the wide numbers of every instruction set.
-/// What it calls profits only as far as it is inlined: write `#[inline(always)]`.
+/// Code that it calls profits only as far as it is inlined: write `#[inline(always)]`.
 pub trait Kernel<T> {
-    /// What it returns.
+    /// The result.
     type Output;
 
     /// Computes with one kind of wide numbers.
@@ -104,29 +103,70 @@ pub trait Simd<T>: Scalar {
     /// Runs `kernel` in a function of its own, which is compiled for the instructions
     /// that the number stands for.
     #[inline(never)]
-    fn in_own_function<K: dispatch::Routine>(kernel: K) -> K::Output {
-        kernel.run()
-    }
-
-    /// Returns sines and cosines of `M` blocks: the same values as
-    /// [`Scalar::sin_cos_each`].
-    #[inline(always)]
-    fn sin_cos_blocks<const N: usize, const M: usize>(
-        angles: &[[Self; N]; M],
-    ) -> ([[Self; N]; M], [[Self; N]; M]) {
-        let zero = [[Self::from_f64(0.0); N]; M];
-        let (mut sines, mut cosines) = (zero, zero);
-        for j in 0..M {
-            (sines[j], cosines[j]) = Self::sin_cos_each(&angles[j]);
-        }
-        (sines, cosines)
+    fn in_own_function<K: Kernel<T>>(kernel: K) -> K::Output {
+        kernel.run::<Self>()
     }
 
     /// Returns the same number in every lane.
     fn splat(value: T) -> Self;
 
+    /// Returns the numbers moved forward: lane `i` gets lane `first + i`; what has
+    /// none there is left open.
+    fn rotate_lanes(self, first: usize) -> Self;
+
+    /// Returns the first `count` lanes over and over.
+    fn tile_lanes(self, count: usize) -> Self;
+
+    /// Reads the numbers at `start`, wherever a `T` may lie.
+    ///
+    /// # Safety
+    /// So many numbers may be read there.
+    #[inline(always)]
+    unsafe fn read(start: *const T) -> Self {
+        // SAFETY: the caller's. A wide number is its lanes, but for types that say
+        // otherwise by a function of their own. They need not lie where registers would.
+        unsafe { start.cast::<Self>().read_unaligned() }
+    }
+
+    /// Writes the numbers to `start`.
+    ///
+    /// # Safety
+    /// So many numbers may be written there.
+    #[inline(always)]
+    unsafe fn write(self, start: *mut T) {
+        // SAFETY: as in `read`.
+        unsafe { start.cast::<Self>().write_unaligned(self) }
+    }
+
+    /// Writes its first `count` numbers to `start`, or all if these are fewer.
+    ///
+    /// # Safety
+    /// So many numbers may be written there.
+    #[inline(always)]
+    unsafe fn write_some(self, start: *mut T, count: usize)
+    where
+        T: Copy,
+    {
+        let numbers = self.to_chunk();
+        let first = core::ptr::from_ref(&numbers).cast::<T>();
+        // Over all lanes, so that compilers do not call a function that copies.
+        for lane in 0..Self::LANES {
+            if lane < count {
+                // SAFETY: a chunk holds so many numbers; the places are the caller's.
+                unsafe { start.add(lane).write(first.add(lane).read()) }
+            }
+        }
+    }
+
     /// Reads the first numbers of a slice, if it has enough.
-    fn load(numbers: &[T]) -> Option<Self>;
+    #[inline(always)]
+    fn load(numbers: &[T]) -> Option<Self> {
+        if numbers.len() < Self::LANES {
+            return None;
+        }
+        // SAFETY: there are so many.
+        Some(unsafe { Self::read(numbers.as_ptr()) })
+    }
 
     /// Reads the first numbers of a slice, and zeros behind its end.
     #[inline(always)]
@@ -141,50 +181,91 @@ pub trait Simd<T>: Scalar {
     }
 
     /// Writes the numbers to the front of a slice. A slice too short gets none.
-    fn store(self, numbers: &mut [T]);
+    #[inline(always)]
+    fn store(self, numbers: &mut [T]) {
+        if numbers.len() >= Self::LANES {
+            // SAFETY: there are places for so many.
+            unsafe { self.write(numbers.as_mut_ptr()) }
+        }
+    }
 
-    /// Its numbers where they lie in memory.
+    /// Writes the numbers to the end of a slice. A slice too short gets none.
+    #[inline(always)]
+    fn store_last(self, numbers: &mut [T]) {
+        let first = numbers.len().wrapping_sub(Self::LANES);
+        self.store(numbers.get_mut(first..).unwrap_or_default());
+    }
+
+    /// Reads wide number `index` of those in `quads`, of which each has four or one.
+    #[inline(always)]
+    fn load_quad(quads: &[Quad<T>], index: usize) -> Self {
+        const { assert!(4 % Self::LANES == 0) }
+        let first = index * Self::LANES;
+        match Self::load(&quads[first / 4].0[first % 4..]) {
+            Some(numbers) => numbers,
+            // There are so many: asserted.
+            None => Self::from_f64(f64::NAN),
+        }
+    }
+
+    /// Writes what [`load_quad`](Self::load_quad) reads.
+    #[inline(always)]
+    fn store_quad(self, quads: &mut [Quad<T>], index: usize) {
+        let first = index * Self::LANES;
+        self.store(&mut quads[first / 4].0[first % 4..]);
+    }
+
+    /// `self` + a b, rounded as [`mul_add`](Scalar::mul_add) does.
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        a.mul_add(b, self)
+    }
+
+    /// `self` − a b, rounded as [`mul_add`](Scalar::mul_add) does.
+    #[inline(always)]
+    fn minus_product(self, a: Self, b: Self) -> Self {
+        (-a).mul_add(b, self)
+    }
+
+    /// Its numbers where they lie in memory: an array of so many.
     type Chunk;
 
     /// Returns the last numbers of a slice, if it has enough.
-    fn last_chunk(numbers: &[T]) -> Option<&Self::Chunk>;
+    #[inline(always)]
+    fn last_chunk(numbers: &[T]) -> Option<&Self::Chunk> {
+        let first = numbers.len().checked_sub(Self::LANES)?;
+        let chunk = numbers.get(first..)?.as_ptr().cast::<Self::Chunk>();
+        // SAFETY: there are so many, of which a chunk is an array.
+        Some(unsafe { &*chunk })
+    }
 
     /// Reads numbers.
-    fn from_chunk(numbers: &Self::Chunk) -> Self;
+    #[inline(always)]
+    fn from_chunk(numbers: &Self::Chunk) -> Self {
+        // SAFETY: a chunk holds so many numbers.
+        unsafe { Self::read(core::ptr::from_ref(numbers).cast()) }
+    }
 
     /// Returns the numbers in their order.
-    fn to_chunk(self) -> Self::Chunk;
-
-    /// Writes the numbers to the end of a slice. A slice too short gets none.
-    fn store_last(self, numbers: &mut [T]);
-
-    /// Reads the numbers at `start`, wherever a `T` may lie.
-    ///
-    /// # Safety
-    /// So many numbers may be read there.
-    unsafe fn read(start: *const T) -> Self;
-
-    /// Writes the numbers to `start`.
-    ///
-    /// # Safety
-    /// So many numbers may be written there.
-    unsafe fn write(self, start: *mut T);
-
-    /// Writes its first `count` numbers to `start`, or all if these are fewer.
-    ///
-    /// # Safety
-    /// So many numbers may be written there.
-    unsafe fn write_some(self, start: *mut T, count: usize);
+    #[inline(always)]
+    fn to_chunk(self) -> Self::Chunk {
+        let mut chunk = MaybeUninit::<Self::Chunk>::uninit();
+        // SAFETY: a chunk has places for so many numbers.
+        unsafe { self.write(chunk.as_mut_ptr().cast()) };
+        // SAFETY: they are all it consists of.
+        unsafe { chunk.assume_init() }
+    }
 
     /// Returns the number in the first lane.
-    fn first(self) -> T;
-
-    /// Returns the numbers moved forward: lane `i` gets lane `first + i`; what has
-    /// none there is left open.
-    fn rotate_lanes(self, first: usize) -> Self;
-
-    /// Returns the first `count` lanes over and over.
-    fn tile_lanes(self, count: usize) -> Self;
+    #[inline(always)]
+    fn first(self) -> T
+    where
+        T: Copy,
+    {
+        let numbers = self.to_chunk();
+        // SAFETY: there is at least one lane.
+        unsafe { core::ptr::from_ref(&numbers).cast::<T>().read() }
+    }
 }
 
 /// Numbers in the widest register.
@@ -208,16 +289,10 @@ fn load_few<T: Scalar, V: Simd<T>>(few: &[T]) -> V {
 /// Returns memory of plain numbers as wide ones, from where the first one would lie;
 /// none of a type that is not its numbers alone.
 #[allow(unsafe_code)]
-pub(crate) fn wide_slice<R: Register>(numbers: &mut [R::Lane]) -> Option<&mut [R]> {
-    if size_of::<R>() != R::LANES * size_of::<R::Lane>() {
+pub(crate) fn wide_slice<T: Scalar, V: Simd<T>>(numbers: &mut [T]) -> Option<&mut [V]> {
+    if size_of::<V>() != V::LANES * size_of::<T>() {
         return None;
     }
-    // SAFETY: a register is its lanes without padding, and any numbers are such lanes.
+    // SAFETY: a wide number is its lanes without padding, and any numbers are such lanes.
     Some(unsafe { numbers.align_to_mut().1 })
-}
-
-/// A wide number of a plain one.
-pub trait Register: Simd<<Self as Register>::Lane> {
-    /// A number in it.
-    type Lane: Lane;
 }

@@ -1,10 +1,8 @@
 //! One number that fuses.
 
-#![allow(unsafe_code)]
-
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Register, Simd, dispatch};
+use super::{Kernel, Simd, dispatch};
 use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
 use crate::scalar::sincos::fused;
@@ -69,10 +67,6 @@ macro_rules! fused {
             }
         }
 
-        impl Register for Fused<$float> {
-            type Lane = $float;
-        }
-
         impl Simd<$float> for Fused<$float> {
             type One = Self;
             type Mask = bool;
@@ -81,8 +75,8 @@ macro_rules! fused {
             const LANES: usize = 1;
 
             #[inline(always)]
-            fn in_own_function<K: dispatch::Routine>(kernel: K) -> K::Output {
-                dispatch::outlined_avx2(kernel)
+            fn in_own_function<K: Kernel<$float>>(kernel: K) -> K::Output {
+                dispatch::outlined_avx2::<$float, Self, K>(kernel)
             }
 
             #[inline(always)]
@@ -106,66 +100,6 @@ macro_rules! fused {
             }
 
             #[inline(always)]
-            fn load(numbers: &[$float]) -> Option<Self> {
-                numbers.first().copied().map(Self)
-            }
-
-            #[inline(always)]
-            fn store(self, numbers: &mut [$float]) {
-                if let Some(front) = numbers.first_mut() {
-                    *front = self.0;
-                }
-            }
-
-            #[inline(always)]
-            fn last_chunk(numbers: &[$float]) -> Option<&$float> {
-                numbers.last()
-            }
-
-            #[inline(always)]
-            fn from_chunk(number: &$float) -> Self {
-                Self(*number)
-            }
-
-            #[inline(always)]
-            fn to_chunk(self) -> $float {
-                self.0
-            }
-
-            #[inline(always)]
-            fn store_last(self, numbers: &mut [$float]) {
-                if let Some(back) = numbers.last_mut() {
-                    *back = self.0;
-                }
-            }
-
-            #[inline(always)]
-            unsafe fn read(start: *const $float) -> Self {
-                // SAFETY: the caller's. The type is transparent, and a register is
-                // made of its lanes. They need not lie where registers would.
-                unsafe { start.cast::<Self>().read_unaligned() }
-            }
-
-            #[inline(always)]
-            unsafe fn write(self, start: *mut $float) {
-                // SAFETY: the caller's. The type is transparent, and may lie anywhere.
-                unsafe { start.cast::<Self>().write_unaligned(self) }
-            }
-
-            #[inline(always)]
-            unsafe fn write_some(self, start: *mut $float, count: usize) {
-                if count > 0 {
-                    // SAFETY: the caller's. The type is transparent, and may lie anywhere.
-                    unsafe { self.write(start) }
-                }
-            }
-
-            #[inline(always)]
-            fn first(self) -> $float {
-                self.0
-            }
-
-            #[inline(always)]
             fn rotate_lanes(self, _first: usize) -> Self {
                 self
             }
@@ -176,7 +110,8 @@ macro_rules! fused {
             }
         }
 
-        impl fused::Pack for Fused<$float> {
+        impl fused::FusingNumber for Fused<$float> {
+            type Lane = $float;
             type Array = [$float; 1];
 
             #[inline(always)]

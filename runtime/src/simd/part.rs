@@ -1,9 +1,8 @@
 //! Parts of functions that are too long to be one.
 
-use super::Simd;
-use super::dispatch::Routine;
+use super::{Kernel, Simd};
+use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
-use crate::scalar::{Lane, Scalar};
 
 /// A part of an emitted function that is too long to be one.
 #[doc(hidden)]
@@ -46,7 +45,7 @@ where
     }
 
     #[inline(always)]
-    fn of_wide<T: Lane>(self) -> M::Output
+    fn of_wide<T: Scalar>(self) -> M::Output
     where
         S: Simd<T>,
     {
@@ -54,11 +53,11 @@ where
     }
 }
 
-impl<const NUMBER: usize, A, M: Part<NUMBER, A>> Routine for PartOf<'_, NUMBER, M, A> {
+impl<T, const NUMBER: usize, A, M: Part<NUMBER, A>> Kernel<T> for PartOf<'_, NUMBER, M, A> {
     type Output = M::Output;
 
     #[inline(always)]
-    fn run(self) -> M::Output {
+    fn run<V: Simd<T>>(self) -> M::Output {
         self.model.part(self.arguments)
     }
 }

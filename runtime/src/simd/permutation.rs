@@ -14,7 +14,7 @@ pub(super) const fn rotated<const N: usize, const WORDS: usize>() -> [[u32; WORD
     table
 }
 
-/// The same for [`tile_lanes`](super::Simd::tile_lanes), for each count less one.
+/// Where they come from for [`tile_lanes`](super::Simd::tile_lanes), for each count less one.
 pub(super) const fn tiled<const N: usize, const WORDS: usize>() -> [[u32; WORDS]; N] {
     let mut table = [[0; WORDS]; N];
     let mut i = 0;

@@ -2,11 +2,9 @@
 
 #![allow(unsafe_code)]
 
-use core::slice::from_raw_parts_mut;
-
+use super::Simd;
 use super::permutation::{rotated, tiled};
-use super::{Register, Simd};
-use crate::scalar::{Lane, Lanes, Real, Scalar};
+use crate::scalar::{Lanes, Real, Scalar};
 
 /// Every number is a wide one of one lane.
 impl<T: Scalar> Simd<T> for T {
@@ -40,65 +38,6 @@ impl<T: Scalar> Simd<T> for T {
     }
 
     #[inline(always)]
-    fn load(numbers: &[T]) -> Option<Self> {
-        numbers.first().copied()
-    }
-
-    #[inline(always)]
-    fn store(self, numbers: &mut [T]) {
-        if let Some(front) = numbers.first_mut() {
-            *front = self;
-        }
-    }
-
-    #[inline(always)]
-    fn last_chunk(numbers: &[T]) -> Option<&T> {
-        numbers.last()
-    }
-
-    #[inline(always)]
-    fn from_chunk(number: &T) -> Self {
-        *number
-    }
-
-    #[inline(always)]
-    fn to_chunk(self) -> T {
-        self
-    }
-
-    #[inline(always)]
-    fn store_last(self, numbers: &mut [T]) {
-        if let Some(back) = numbers.last_mut() {
-            *back = self;
-        }
-    }
-
-    #[inline(always)]
-    unsafe fn read(start: *const T) -> Self {
-        // SAFETY: the caller's.
-        unsafe { start.read() }
-    }
-
-    #[inline(always)]
-    unsafe fn write(self, start: *mut T) {
-        // SAFETY: the caller's.
-        unsafe { start.write(self) }
-    }
-
-    #[inline(always)]
-    unsafe fn write_some(self, start: *mut T, count: usize) {
-        if count > 0 {
-            // SAFETY: the caller's.
-            unsafe { start.write(self) }
-        }
-    }
-
-    #[inline(always)]
-    fn first(self) -> T {
-        self
-    }
-
-    #[inline(always)]
     fn rotate_lanes(self, _first: usize) -> Self {
         self
     }
@@ -109,12 +48,8 @@ impl<T: Scalar> Simd<T> for T {
     }
 }
 
-impl<T: Lane, const N: usize> Register for Lanes<T, N> {
-    type Lane = T;
-}
-
 /// The registers of instruction sets that this crate has no type for.
-impl<T: Lane, const N: usize> Simd<T> for Lanes<T, N> {
+impl<T: Scalar, const N: usize> Simd<T> for Lanes<T, N> {
     type One = T;
     type Mask = [bool; N];
     type Chunk = [T; N];
@@ -138,10 +73,13 @@ impl<T: Lane, const N: usize> Simd<T> for Lanes<T, N> {
     }
 
     #[inline(always)]
-    fn larger_size(self, other: Self) -> Self {
+    fn larger_size(self, other: Self) -> Self
+    where
+        T: Real,
+    {
         let mut result = self;
         for (size, other) in result.0.iter_mut().zip(other.0) {
-            *size = size.abs().max(other.abs());
+            *size = Real::max(Real::abs(*size), Real::abs(other));
         }
         result
     }
@@ -149,40 +87,6 @@ impl<T: Lane, const N: usize> Simd<T> for Lanes<T, N> {
     #[inline(always)]
     fn splat(value: T) -> Self {
         Lanes::splat(value)
-    }
-
-    #[inline(always)]
-    fn load(numbers: &[T]) -> Option<Self> {
-        numbers.first_chunk().copied().map(Self)
-    }
-
-    #[inline(always)]
-    fn store(self, numbers: &mut [T]) {
-        if let Some(front) = numbers.first_chunk_mut() {
-            *front = self.0;
-        }
-    }
-
-    #[inline(always)]
-    fn last_chunk(numbers: &[T]) -> Option<&[T; N]> {
-        numbers.last_chunk()
-    }
-
-    #[inline(always)]
-    fn from_chunk(numbers: &[T; N]) -> Self {
-        Self(*numbers)
-    }
-
-    #[inline(always)]
-    fn to_chunk(self) -> [T; N] {
-        self.0
-    }
-
-    #[inline(always)]
-    fn store_last(self, numbers: &mut [T]) {
-        if let Some(back) = numbers.last_chunk_mut() {
-            *back = self.0;
-        }
     }
 
     #[inline(always)]
@@ -198,20 +102,6 @@ impl<T: Lane, const N: usize> Simd<T> for Lanes<T, N> {
     }
 
     #[inline(always)]
-    unsafe fn write_some(self, start: *mut T, count: usize) {
-        // SAFETY: the caller's.
-        let places = unsafe { from_raw_parts_mut(start, count.min(N)) };
-        for (place, number) in places.iter_mut().zip(self.0) {
-            *place = number;
-        }
-    }
-
-    #[inline(always)]
-    fn first(self) -> T {
-        self.0.first().copied().unwrap_or(T::NAN)
-    }
-
-    #[inline(always)]
     fn rotate_lanes(self, first: usize) -> Self {
         permuted(self, &const { rotated::<N, N>() }[first.min(N - 1)])
     }
@@ -223,7 +113,7 @@ impl<T: Lane, const N: usize> Simd<T> for Lanes<T, N> {
 }
 
 #[inline(always)]
-fn permuted<T: Lane, const N: usize>(numbers: Lanes<T, N>, lanes: &[u32; N]) -> Lanes<T, N> {
+fn permuted<T: Copy, const N: usize>(numbers: Lanes<T, N>, lanes: &[u32; N]) -> Lanes<T, N> {
     let mut result = numbers;
     for (number, &lane) in result.0.iter_mut().zip(lanes) {
         *number = numbers.0[lane as usize];

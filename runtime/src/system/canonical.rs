@@ -1,5 +1,6 @@
 //! Hamiltonian systems in canonical variables.
 
+use super::by_reference::by_reference;
 use super::{Cast, CastOde, LengthMismatch, Ode, State};
 use crate::scalar::Scalar;
 
@@ -55,14 +56,10 @@ pub trait Canonical<T> {
     fn canonical_rates(&self, time: T, q: &[T], p: &[T], q_rates: &mut [T], p_rates: &mut [T]);
 }
 
-impl<T, C: Canonical<T>> Canonical<T> for &C {
-    fn degrees_of_freedom(&self) -> usize {
-        (**self).degrees_of_freedom()
-    }
-
-    #[inline]
-    fn canonical_rates(&self, time: T, q: &[T], p: &[T], q_rates: &mut [T], p_rates: &mut [T]) {
-        (**self).canonical_rates(time, q, p, q_rates, p_rates);
+by_reference! {
+    impl<T> Canonical<T> for &P {
+        fn degrees_of_freedom(&self) -> usize;
+        fn canonical_rates(&self, time: T, q: &[T], p: &[T], q_rates: &mut [T], p_rates: &mut [T]);
     }
 }
 

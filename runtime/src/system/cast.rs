@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use crate::scalar::{Scalar, at};
 use crate::simd::dispatch::in_fused;
-use crate::simd::{Register, Simd, StateKernel};
+use crate::simd::{Simd, StateKernel};
 
 use super::{Ode, Pendulum};
 
@@ -117,7 +117,7 @@ pub trait Cast<T: Scalar>: Pendulum<T> {
     /// takes its numbers as they are needed.
     #[doc(hidden)]
     #[inline(always)]
-    fn in_registers<R: Register<Lane = T>>(&self, time: T, room: &mut [T]) -> impl InRegisters<R> {
+    fn in_registers<R: Simd<T>>(&self, time: T, room: &mut [T]) -> impl InRegisters<R> {
         let _ = room;
         CastPendulum {
             pendulum: self.cast(R::splat),
@@ -155,7 +155,7 @@ impl<T: Scalar, P: Cast<T>> Cast<T> for &P {
     }
 
     #[inline(always)]
-    fn in_registers<R: Register<Lane = T>>(&self, time: T, room: &mut [T]) -> impl InRegisters<R> {
+    fn in_registers<R: Simd<T>>(&self, time: T, room: &mut [T]) -> impl InRegisters<R> {
         (**self).in_registers(time, room)
     }
 }

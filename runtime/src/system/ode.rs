@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::Workspace;
+use super::by_reference::by_reference;
 
 /// A system of first-order ordinary differential equations y' = f(t, y).
 #[diagnostic::on_unimplemented(
@@ -32,19 +33,13 @@ pub trait Ode<T> {
     }
 }
 
-impl<T, O: Ode<T> + ?Sized> Ode<T> for &O {
-    fn dimension(&self) -> usize {
-        (**self).dimension()
-    }
-
-    #[inline]
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        (**self).rates(time, state, rates);
-    }
-
-    #[inline]
-    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
-        (**self).rates_with(workspace, time, state, rates);
+by_reference! {
+    impl<T> Ode<T> for &P where P: ?Sized {
+        fn dimension(&self) -> usize;
+        fn rates(&self, time: T, state: &[T], rates: &mut [T]);
+        fn rates_with(
+            &self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]
+        );
     }
 }
 

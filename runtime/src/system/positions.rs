@@ -1,6 +1,7 @@
 //! Where links are.
 
 use super::Pendulum;
+use super::by_reference::by_reference;
 use crate::scalar::Scalar;
 
 /// A point that every link has.
@@ -180,33 +181,16 @@ pub trait Positions<T: Scalar>: Pendulum<T> {
     );
 }
 
-impl<T: Scalar, P: Positions<T>> Positions<T> for &P {
-    fn properties_of(&self, link: usize) -> Option<LinkProperties<T>> {
-        (**self).properties_of(link)
-    }
-
-    fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]) {
-        (**self).points_into(point, theta, points);
-    }
-
-    fn point_velocities_into(
-        &self,
-        point: LinkPoint,
-        theta: &[T],
-        omega: &[T],
-        velocities: &mut [[T; 2]],
-    ) {
-        (**self).point_velocities_into(point, theta, omega, velocities);
-    }
-
-    fn point_torques_into(
-        &self,
-        point: LinkPoint,
-        theta: &[T],
-        forces: &[[T; 2]],
-        torques: &mut [T],
-    ) {
-        (**self).point_torques_into(point, theta, forces, torques);
+by_reference! {
+    impl<T: Scalar> Positions<T> for &P {
+        fn properties_of(&self, link: usize) -> Option<LinkProperties<T>>;
+        fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]);
+        fn point_velocities_into(
+            &self, point: LinkPoint, theta: &[T], omega: &[T], velocities: &mut [[T; 2]]
+        );
+        fn point_torques_into(
+            &self, point: LinkPoint, theta: &[T], forces: &[[T; 2]], torques: &mut [T]
+        );
     }
 }
 

@@ -1,5 +1,6 @@
 //! Systems that know the Taylor coefficients of their motion.
 
+use super::by_reference::by_reference;
 use super::{AbsoluteAngles, Cast, Ode, Workspace};
 use crate::scalar::Scalar;
 use crate::simd::Quad;
@@ -147,18 +148,11 @@ pub trait TaylorOde<T>: Ode<T> {
     fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], work: &mut [Quad<T>]);
 }
 
-impl<T, O: TaylorOde<T> + ?Sized> TaylorOde<T> for &O {
-    fn has_series(&self) -> bool {
-        (**self).has_series()
-    }
-
-    fn workspace(&self, order: usize) -> usize {
-        (**self).workspace(order)
-    }
-
-    #[inline]
-    fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], work: &mut [Quad<T>]) {
-        (**self).taylor(time, state, coefficients, work);
+by_reference! {
+    impl<T> TaylorOde<T> for &P where P: ?Sized {
+        fn has_series(&self) -> bool;
+        fn workspace(&self, order: usize) -> usize;
+        fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], work: &mut [Quad<T>]);
     }
 }
 

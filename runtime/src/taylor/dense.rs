@@ -10,22 +10,22 @@
 // One index into all arrays at once.
 #![allow(clippy::needless_range_loop)]
 
-use super::elimination::Column;
+use super::elimination::LinkColumn;
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::linear::LinearSystem;
 use crate::scalar::Scalar;
-use crate::simd::{Pack, Quad};
+use crate::simd::{Quad, Simd};
 
 /// The matrices of a start, by columns.
 pub(super) struct Matrices<T, const N: usize, const Q: usize> {
-    mass: [Column<T, Q>; N],
-    inverse: [Column<T, Q>; N],
-    turning: [Column<T, Q>; N],
+    mass: [LinkColumn<T, Q>; N],
+    inverse: [LinkColumn<T, Q>; N],
+    turning: [LinkColumn<T, Q>; N],
 }
 
 impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<T, N, Q> {
     #[inline(always)]
-    fn new<C: Connectivity<N>, P: Pack<T>>(
+    fn new<C: Connectivity<N>, P: Simd<T>>(
         start: &Start<'_, T, N>,
         constants: &LinkConstants<T, N>,
     ) -> Self {
@@ -62,19 +62,19 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<
             let mut diagonal = [zero; Q];
             diagonal[j / 4].0[j % 4] = constants.inertias[j];
             for m in 0..Q {
-                let (sines, cosines) = (P::load(&sines, m), P::load(&cosines, m));
-                let cos_between = cosines.times(cosine).plus_product(sines, sine);
-                let sin_between = sines.times(cosine).minus_product(cosines, sine);
-                let coupling = P::load(&along[j], m);
-                let mut entry = P::load(&diagonal, m).plus_product(coupling, cos_between);
-                let mut slope = coupling.times(sin_between);
+                let (sines, cosines) = (P::load_quad(&sines, m), P::load_quad(&cosines, m));
+                let cos_between = (cosines * cosine).plus_product(sines, sine);
+                let sin_between = (sines * cosine).minus_product(cosines, sine);
+                let coupling = P::load_quad(&along[j], m);
+                let mut entry = P::load_quad(&diagonal, m).plus_product(coupling, cos_between);
+                let mut slope = coupling * sin_between;
                 if C::LATERAL {
-                    let sideways = P::load(&across[j], m);
+                    let sideways = P::load_quad(&across[j], m);
                     entry = entry.plus_product(sideways, sin_between);
                     slope = slope.minus_product(sideways, cos_between);
                 }
-                entry.store(&mut mass[j], m);
-                slope.store(&mut turning[j], m);
+                entry.store_quad(&mut mass[j], m);
+                slope.store_quad(&mut turning[j], m);
             }
         }
         let mut inverse = mass;
@@ -87,7 +87,7 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<
     }
 
     #[inline(always)]
-    fn add_solution<C: Connectivity<N>, P: Pack<T>, const M: usize>(
+    fn add_solution<C: Connectivity<N>, P: Simd<T>, const M: usize>(
         &self,
         [base_s, base_y]: [[P; M]; 2],
         force: &[P; M],
@@ -99,7 +99,7 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<
         let y = add_product::<T, P, N, Q, M>(&y, &self.turning, &own_s);
         let mut s = base_s;
         for m in 0..M {
-            s[m] = s[m].plus(own_s[m]);
+            s[m] = s[m] + own_s[m];
         }
         [s, y]
     }
@@ -107,8 +107,8 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<
 
 /// The matrix with these N columns times x.
 #[inline(always)]
-fn product<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
-    columns: &[Column<T, Q>],
+fn product<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
+    columns: &[LinkColumn<T, Q>],
     x: &[P; M],
 ) -> [P; M] {
     let zero = [P::splat(T::from_f64(0.0)); M];
@@ -117,22 +117,19 @@ fn product<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize
 
 /// `base` + the matrix with these N columns times x.
 #[inline(always)]
-fn add_product<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
+fn add_product<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
     base: &[P; M],
-    columns: &[Column<T, Q>],
+    columns: &[LinkColumn<T, Q>],
     x: &[P; M],
 ) -> [P; M] {
     let mut sum = *base;
     for (columns, x) in columns[..N].chunks(4).zip(x) {
-        let lanes = [
-            x.broadcast::<0>(),
-            x.broadcast::<1>(),
-            x.broadcast::<2>(),
-            x.broadcast::<3>(),
-        ];
+        let mut lanes = [T::from_f64(0.0); 4];
+        x.store(&mut lanes);
+        let lanes = lanes.map(P::splat);
         for (column, lane) in columns.iter().zip(&lanes) {
             for (m, sum) in sum.iter_mut().enumerate() {
-                *sum = sum.plus_product(P::load(column, m), *lane);
+                *sum = sum.plus_product(P::load_quad(column, m), *lane);
             }
         }
     }
@@ -143,50 +140,51 @@ fn add_product<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: u
 /// Gauss and Jordan's elimination from the last unknown to the first, in the form
 /// that keeps the symmetry (sweeps), without an exchange of rows.
 #[inline(always)]
-fn invert<T: Scalar, P: Pack<T>, const N: usize, const Q: usize>(columns: &mut [Column<T, Q>]) {
+fn invert<T: Scalar, P: Simd<T>, const N: usize, const Q: usize>(columns: &mut [LinkColumn<T, Q>]) {
     let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
     for k in (0..N).rev() {
         let (pack, lane) = (k / 4, k % 4);
         let inverse = one / columns[k][pack].0[lane];
-        // Column k, with −1 in row k: subtracted from the others with their
+        // LinkColumn k, with −1 in row k: subtracted from the others with their
         // factors, it eliminates them and leaves the factor in row k.
         let mut eliminating = columns[k];
         eliminating[pack].0[lane] = -one;
         let mut column = [P::splat(zero); Q];
         for (m, value) in column.iter_mut().enumerate() {
-            *value = P::load(&eliminating, m);
+            *value = P::load_quad(&eliminating, m);
         }
         let mut others = [Quad::splat(one)];
         others[0].0[lane] = zero;
-        let others = P::load(&others, 0);
+        let others = P::load_quad(&others, 0);
         for (j, target) in columns[..N].iter_mut().enumerate() {
             if j == k {
                 continue;
             }
             let factor = P::splat(target[pack].0[lane] * inverse);
             for m in 0..Q {
-                let mut value = P::load(target, m);
+                let mut value = P::load_quad(target, m);
                 if m == pack {
-                    value = value.times(others);
+                    value = value * others;
                 }
-                value.minus_product(factor, column[m]).store(target, m);
+                value.minus_product(factor, column[m]).store_quad(target, m);
             }
         }
         let inverse = P::splat(inverse);
         for m in 0..Q {
-            column[m].times(inverse).store(&mut columns[k], m);
+            (column[m] * inverse).store_quad(&mut columns[k], m);
         }
     }
     // Sweeps leave the opposite.
     let entries = columns[..N].as_flattened_mut();
     for m in 0..N * Q {
-        P::splat(zero).minus(P::load(entries, m)).store(entries, m);
+        (P::splat(zero) - P::load_quad(entries, m)).store_quad(entries, m);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::{invert, product};
+    use crate::scalar::Lanes;
     use crate::simd::Quad;
 
     /// 1/(i + j + 1) + δ_ij, of which the inverse is checked by a product.
@@ -205,9 +203,10 @@ mod tests {
             })
         });
         let mut inverse = matrix;
-        invert::<f64, Quad<f64>, 6, 2>(&mut inverse);
+        invert::<f64, Lanes<f64, 4>, 6, 2>(&mut inverse);
         for (j, column) in matrix.iter().enumerate() {
-            let unit: [Quad<f64>; 2] = product::<f64, Quad<f64>, 6, 2, 2>(&inverse, column);
+            let column = column.map(|quad| Lanes(quad.0));
+            let unit = product::<f64, Lanes<f64, 4>, 6, 2, 2>(&inverse, &column);
             for i in 0..6 {
                 let expected = f64::from(u8::from(i == j));
                 assert!((unit[i / 4].0[i % 4] - expected).abs() < 1e-15, "{unit:?}");

@@ -1,7 +1,7 @@
 //! One link during the elimination along the tree.
 
 use crate::scalar::Scalar;
-use crate::simd::Pack;
+use crate::simd::Simd;
 
 /// A link during the elimination: what it feels of itself and of its children.
 #[derive(Clone, Copy)]
@@ -20,39 +20,30 @@ pub(super) struct EliminatedLink<P> {
     pub(super) deficit: [P; 3],
 }
 
-impl<P: Copy> EliminatedLink<P> {
+impl<P: Scalar> EliminatedLink<P> {
     #[inline(always)]
-    pub(super) fn none<T: Scalar>() -> Self
-    where
-        P: Pack<T>,
-    {
-        let zero = P::splat(T::from_f64(0.0));
+    pub(super) fn none() -> Self {
+        let zero = P::from_f64(0.0);
         Self::alone(zero, [zero; 2])
     }
 
     /// A link without children.
     #[inline(always)]
-    pub(super) fn alone<T: Scalar>(inertia: P, [m_x, m_y]: [P; 2]) -> Self
-    where
-        P: Pack<T>,
-    {
-        let zero = P::splat(T::from_f64(0.0));
+    pub(super) fn alone(inertia: P, [m_x, m_y]: [P; 2]) -> Self {
+        let zero = P::from_f64(0.0);
         Self {
             inertia,
             inertia_along: inertia,
             product: zero,
             moment: [m_x, m_y],
-            moment_along: [zero.minus(m_y), m_x],
+            moment_along: [zero - m_y, m_x],
             deficit: [zero; 3],
         }
     }
 
     /// Adds b bᵀ/J, where `response` is b/J.
     #[inline(always)]
-    pub(super) fn relieve<T: Scalar>(&mut self, [n_x, n_y]: [P; 2])
-    where
-        P: Pack<T>,
-    {
+    pub(super) fn relieve(&mut self, [n_x, n_y]: [P; 2]) {
         let ([b_x, b_y], [xx, xy, yy]) = (self.moment, self.deficit);
         self.deficit = [
             xx.plus_product(b_x, n_x),
@@ -63,18 +54,15 @@ impl<P: Copy> EliminatedLink<P> {
 
     /// Takes what a child with this N, at this r, does to it.
     #[inline(always)]
-    pub(super) fn carry<T: Scalar>(&mut self, [xx, xy, yy]: [P; 3], [r_x, r_y]: [P; 2])
-    where
-        P: Pack<T>,
-    {
+    pub(super) fn carry(&mut self, [xx, xy, yy]: [P; 3], [r_x, r_y]: [P; 2]) {
         // N r and N i r.
         let across = [
-            xx.times(r_x).plus_product(xy, r_y),
-            xy.times(r_x).plus_product(yy, r_y),
+            (xx * r_x).plus_product(xy, r_y),
+            (xy * r_x).plus_product(yy, r_y),
         ];
         let along = [
-            xy.times(r_x).minus_product(xx, r_y),
-            yy.times(r_x).minus_product(xy, r_y),
+            (xy * r_x).minus_product(xx, r_y),
+            (yy * r_x).minus_product(xy, r_y),
         ];
         self.inertia = self
             .inertia
@@ -89,11 +77,11 @@ impl<P: Copy> EliminatedLink<P> {
             .plus_product(r_x, across[1])
             .minus_product(r_y, across[0]);
         for x in 0..2 {
-            self.moment[x] = self.moment[x].minus(across[x]);
-            self.moment_along[x] = self.moment_along[x].minus(along[x]);
+            self.moment[x] = self.moment[x] - across[x];
+            self.moment_along[x] = self.moment_along[x] - along[x];
         }
         for (sum, own) in self.deficit.iter_mut().zip([xx, xy, yy]) {
-            *sum = sum.plus(own);
+            *sum = *sum + own;
         }
     }
 }

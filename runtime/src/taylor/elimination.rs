@@ -32,22 +32,22 @@ use super::eliminated_link::EliminatedLink;
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::linear::LinearSystem;
 use crate::scalar::Scalar;
-use crate::simd::{Pack, Quad};
+use crate::simd::{Quad, Simd};
 
 /// A number of each link.
-pub(super) type Column<T, const Q: usize> = [Quad<T>; Q];
+pub(super) type LinkColumn<T, const Q: usize> = [Quad<T>; Q];
 
 /// A vector of each link.
-type Vectors<T, const Q: usize> = [Column<T, Q>; 2];
+type Vectors<T, const Q: usize> = [LinkColumn<T, Q>; 2];
 
 /// The factors at a start.
 pub(super) struct TaylorElimination<T, const Q: usize> {
     /// 1/J
-    inverse_inertia: Column<T, Q>,
+    inverse_inertia: LinkColumn<T, Q>,
     /// K
-    inertia_along: Column<T, Q>,
+    inertia_along: LinkColumn<T, Q>,
     /// q
-    product: Column<T, Q>,
+    product: LinkColumn<T, Q>,
     /// n
     response: Vectors<T, Q>,
     /// g
@@ -65,7 +65,7 @@ pub(super) struct TaylorElimination<T, const Q: usize> {
 impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for TaylorElimination<T, Q> {
     /// Eliminates from the leaves to the root, link by link.
     #[inline(always)]
-    fn new<C: Connectivity<N>, W: Pack<T>>(
+    fn new<C: Connectivity<N>, W: Simd<T>>(
         start: &Start<'_, T, N>,
         constants: &LinkConstants<T, N>,
     ) -> Self {
@@ -81,51 +81,44 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for TaylorEli
             of_force: [empty; 2],
             of_cosine: [empty; 2],
         };
-        let mut links = [EliminatedLink::<W::Single>::none(); N];
+        let one = W::One::from_f64(1.0);
+        let mut links = [EliminatedLink::<W::One>::none(); N];
         for i in 0..N {
-            let inertia = W::Single::splat(constants.inertias[i]);
-            let turn = [start.cosines[i], start.sines[i]].map(W::Single::splat);
-            let moment = turned::<T, W::Single>(constants.moments[i], turn, C::LATERAL);
-            links[i] = EliminatedLink::alone::<T>(inertia, moment);
+            let inertia = W::One::splat(constants.inertias[i]);
+            let turn = [start.cosines[i], start.sines[i]].map(W::One::splat);
+            let moment = turned::<T, W::One>(constants.moments[i], turn, C::LATERAL);
+            links[i] = EliminatedLink::alone(inertia, moment);
         }
         for i in (0..N).rev() {
             let mut link = links[i];
-            let inverse = link.inertia.reciprocal();
-            let response = link.moment.map(|b| b.times(inverse));
+            let inverse = one / link.inertia;
+            let response = link.moment.map(|b| b * inverse);
             let mut reduced = link.moment_along;
             for x in 0..2 {
                 reduced[x] = reduced[x].plus_product(link.product, response[x]);
             }
-            inverse.store(&mut factors.inverse_inertia, i);
-            link.inertia_along.store(&mut factors.inertia_along, i);
-            link.product.store(&mut factors.product, i);
-            store::<T, W::Single, Q>(response, &mut factors.response, i);
-            store::<T, W::Single, Q>(link.moment_along, &mut factors.moment_along, i);
-            store::<T, W::Single, Q>(reduced, &mut factors.reduced_moment_along, i);
+            inverse.store_quad(&mut factors.inverse_inertia, i);
+            link.inertia_along.store_quad(&mut factors.inertia_along, i);
+            link.product.store_quad(&mut factors.product, i);
+            store::<T, W::One, Q>(response, &mut factors.response, i);
+            store::<T, W::One, Q>(link.moment_along, &mut factors.moment_along, i);
+            store::<T, W::One, Q>(reduced, &mut factors.reduced_moment_along, i);
             if i > 0 {
                 let parent = C::PARENTS[i];
-                let turn = [start.cosines[parent], start.sines[parent]].map(W::Single::splat);
-                let reach = turned::<T, W::Single>(constants.attachments[i], turn, C::LATERAL);
-                store::<T, W::Single, Q>(reach, &mut factors.reach, i);
-                store::<T, W::Single, Q>(
-                    products::<T, W::Single>(reach, response),
-                    &mut factors.of_force,
-                    i,
-                );
-                store::<T, W::Single, Q>(
-                    products::<T, W::Single>(reach, reduced),
-                    &mut factors.of_cosine,
-                    i,
-                );
-                link.relieve::<T>(response);
-                links[parent].carry::<T>(link.deficit, reach);
+                let turn = [start.cosines[parent], start.sines[parent]].map(W::One::splat);
+                let reach = turned::<T, W::One>(constants.attachments[i], turn, C::LATERAL);
+                store::<T, W::One, Q>(reach, &mut factors.reach, i);
+                store::<T, W::One, Q>(products(reach, response), &mut factors.of_force, i);
+                store::<T, W::One, Q>(products(reach, reduced), &mut factors.of_cosine, i);
+                link.relieve(response);
+                links[parent].carry(link.deficit, reach);
             }
         }
         factors
     }
 
     #[inline(always)]
-    fn add_solution<C: Connectivity<N>, P: Pack<T>, const M: usize>(
+    fn add_solution<C: Connectivity<N>, P: Simd<T>, const M: usize>(
         &self,
         [mut s, mut y]: [[P; M]; 2],
         force: &[P; M],
@@ -140,37 +133,33 @@ impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for TaylorEli
         let (mut share, mut cosines) = (empty, empty);
         for m in 0..M {
             let (x, c) = (force[m], cosine[m]);
-            let torque = x.minus_product(P::load(&self.product, m), c);
-            torque
-                .times(P::load(&self.inverse_inertia, m))
-                .store(&mut share, m);
-            c.store(&mut cosines, m);
+            let torque = x.minus_product(P::load_quad(&self.product, m), c);
+            (torque * P::load_quad(&self.inverse_inertia, m)).store_quad(&mut share, m);
+            c.store_quad(&mut cosines, m);
             for (side, handed) in [&mut own.torque, &mut own.along].into_iter().enumerate() {
-                P::load(&self.of_cosine[side], m)
-                    .times(c)
-                    .minus_product(P::load(&self.of_force[side], m), x)
-                    .store(handed, m);
-                P::load(&self.response[side], m)
-                    .times(torque)
-                    .minus_product(P::load(&self.moment_along[side], m), c)
-                    .store(&mut own.pull[side], m);
+                (P::load_quad(&self.of_cosine[side], m) * c)
+                    .minus_product(P::load_quad(&self.of_force[side], m), x)
+                    .store_quad(handed, m);
+                (P::load_quad(&self.response[side], m) * torque)
+                    .minus_product(P::load_quad(&self.moment_along[side], m), c)
+                    .store_quad(&mut own.pull[side], m);
             }
         }
-        let sums = self.to_root::<C, P::Single, N>(&own);
-        let fall = self.to_leaves::<C, P::Single, N>(&share, &sums.torque, &cosines);
+        let sums = self.to_root::<C, P::One, N>(&own);
+        let fall = self.to_leaves::<C, P::One, N>(&share, &sums.torque, &cosines);
 
         for m in 0..M {
-            let inverse = P::load(&self.inverse_inertia, m);
-            let share = P::load(&share, m).plus_product(P::load(&sums.torque, m), inverse);
+            let inverse = P::load_quad(&self.inverse_inertia, m);
+            let share =
+                P::load_quad(&share, m).plus_product(P::load_quad(&sums.torque, m), inverse);
             let [a_x, a_y] = load::<T, P, Q>(&fall, m);
             let [n_x, n_y] = load::<T, P, Q>(&self.response, m);
             let own_s = share.minus_product(n_x, a_x).minus_product(n_y, a_y);
-            s[m] = s[m].plus(own_s);
+            s[m] = s[m] + own_s;
             let [g_x, g_y] = load::<T, P, Q>(&self.reduced_moment_along, m);
-            y[m] = y[m]
-                .plus(P::load(&sums.along, m))
-                .plus_product(P::load(&self.inertia_along, m), cosine[m])
-                .plus_product(P::load(&self.product, m), share)
+            y[m] = (y[m] + P::load_quad(&sums.along, m))
+                .plus_product(P::load_quad(&self.inertia_along, m), cosine[m])
+                .plus_product(P::load_quad(&self.product, m), share)
                 .minus_product(g_x, a_x)
                 .minus_product(g_y, a_y);
         }
@@ -182,7 +171,7 @@ impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
     /// From the leaves to the root: the sums of what the children of each link hand up,
     /// from what each would hand up without children.
     #[inline(always)]
-    fn to_root<C: Connectivity<N>, P: Pack<T>, const N: usize>(
+    fn to_root<C: Connectivity<N>, P: Simd<T>, const N: usize>(
         &self,
         own: &Handed<T, Q>,
     ) -> Handed<T, Q> {
@@ -193,11 +182,11 @@ impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
             pull: [empty; 2],
         };
         for i in (1..N).rev() {
-            let mut torque = P::load(&own.torque, i);
-            let mut along = P::load(&own.along, i);
+            let mut torque = P::load_quad(&own.torque, i);
+            let mut along = P::load_quad(&own.along, i);
             let [mut f_x, mut f_y] = load::<T, P, Q>(&own.pull, i);
             if C::CARRIES[i] {
-                let sum = P::load(&sums.torque, i);
+                let sum = P::load_quad(&sums.torque, i);
                 let [sum_x, sum_y] = load::<T, P, Q>(&sums.pull, i);
                 let [r_x, r_y] = load::<T, P, Q>(&self.reach, i);
                 let [n_x, n_y] = load::<T, P, Q>(&self.response, i);
@@ -210,8 +199,8 @@ impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
                     .minus_product(r_x, sum_y)
                     .plus_product(r_y, sum_x)
                     .minus_product(turn, sum);
-                f_x = f_x.plus(sum_x).plus_product(n_x, sum);
-                f_y = f_y.plus(sum_y).plus_product(n_y, sum);
+                f_x = (f_x + sum_x).plus_product(n_x, sum);
+                f_y = (f_y + sum_y).plus_product(n_y, sum);
             }
             let parent = C::PARENTS[i];
             add::<T, P, Q>(&mut sums.torque, parent, torque);
@@ -224,11 +213,11 @@ impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
 
     /// From the root to the leaves: the accelerations a.
     #[inline(always)]
-    fn to_leaves<C: Connectivity<N>, P: Pack<T>, const N: usize>(
+    fn to_leaves<C: Connectivity<N>, P: Simd<T>, const N: usize>(
         &self,
-        share: &Column<T, Q>,
-        torque: &Column<T, Q>,
-        cosines: &Column<T, Q>,
+        share: &LinkColumn<T, Q>,
+        torque: &LinkColumn<T, Q>,
+        cosines: &LinkColumn<T, Q>,
     ) -> Vectors<T, Q> {
         let zero = P::splat(T::from_f64(0.0));
         let mut fall = [[Quad::splat(T::from_f64(0.0)); Q]; 2];
@@ -237,7 +226,7 @@ impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
         for i in 0..N {
             if i > 0 {
                 let parent = C::PARENTS[i];
-                let (s, c) = (sines[parent], P::load(cosines, parent));
+                let (s, c) = (sines[parent], P::load_quad(cosines, parent));
                 let [r_x, r_y] = load::<T, P, Q>(&self.reach, i);
                 let [a_x, a_y] = load::<T, P, Q>(&fall, parent);
                 let a_x = a_x.plus_product(r_y, c).plus_product(r_x, s);
@@ -245,8 +234,8 @@ impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
                 store::<T, P, Q>([a_x, a_y], &mut fall, i);
             }
             if C::CARRIES[i] {
-                let inverse = P::load(&self.inverse_inertia, i);
-                let share = P::load(share, i).plus_product(P::load(torque, i), inverse);
+                let inverse = P::load_quad(&self.inverse_inertia, i);
+                let share = P::load_quad(share, i).plus_product(P::load_quad(torque, i), inverse);
                 let [a_x, a_y] = load::<T, P, Q>(&fall, i);
                 let [n_x, n_y] = load::<T, P, Q>(&self.response, i);
                 sines[i] = share.minus_product(n_x, a_x).minus_product(n_y, a_y);
@@ -259,18 +248,18 @@ impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
 /// Numbers that links hand to their parents, or the sums of those that they get.
 struct Handed<T, const Q: usize> {
     /// t
-    torque: Column<T, Q>,
+    torque: LinkColumn<T, Q>,
     /// e
-    along: Column<T, Q>,
+    along: LinkColumn<T, Q>,
     /// f
     pull: Vectors<T, Q>,
 }
 
 /// (p + i q) e^(iθ) of a link in this direction.
 #[inline(always)]
-fn turned<T: Scalar, P: Pack<T>>([p, q]: [T; 2], [cos, sin]: [P; 2], lateral: bool) -> [P; 2] {
+fn turned<T: Scalar, P: Simd<T>>([p, q]: [T; 2], [cos, sin]: [P; 2], lateral: bool) -> [P; 2] {
     let p = P::splat(p);
-    let [x, y] = [p.times(cos), p.times(sin)];
+    let [x, y] = [p * cos, p * sin];
     if lateral {
         let q = P::splat(q);
         [x.minus_product(q, sin), y.plus_product(q, cos)]
@@ -281,30 +270,30 @@ fn turned<T: Scalar, P: Pack<T>>([p, q]: [T; 2], [cos, sin]: [P; 2], lateral: bo
 
 /// u·w and u × w.
 #[inline(always)]
-fn products<T: Scalar, P: Pack<T>>([u_x, u_y]: [P; 2], [w_x, w_y]: [P; 2]) -> [P; 2] {
+fn products<P: Scalar>([u_x, u_y]: [P; 2], [w_x, w_y]: [P; 2]) -> [P; 2] {
     [
-        u_x.times(w_x).plus_product(u_y, w_y),
-        u_x.times(w_y).minus_product(u_y, w_x),
+        (u_x * w_x).plus_product(u_y, w_y),
+        (u_x * w_y).minus_product(u_y, w_x),
     ]
 }
 
 /// Adds to the number of a link.
 #[inline(always)]
-fn add<T: Scalar, P: Pack<T>, const Q: usize>(column: &mut Column<T, Q>, i: usize, value: P) {
-    P::load(column, i).plus(value).store(column, i);
+fn add<T: Scalar, P: Simd<T>, const Q: usize>(column: &mut LinkColumn<T, Q>, i: usize, value: P) {
+    (P::load_quad(column, i) + value).store_quad(column, i);
 }
 
 #[inline(always)]
-fn load<T: Scalar, P: Pack<T>, const Q: usize>(vectors: &Vectors<T, Q>, i: usize) -> [P; 2] {
-    [P::load(&vectors[0], i), P::load(&vectors[1], i)]
+fn load<T: Scalar, P: Simd<T>, const Q: usize>(vectors: &Vectors<T, Q>, i: usize) -> [P; 2] {
+    [P::load_quad(&vectors[0], i), P::load_quad(&vectors[1], i)]
 }
 
 #[inline(always)]
-fn store<T: Scalar, P: Pack<T>, const Q: usize>(
+fn store<T: Scalar, P: Simd<T>, const Q: usize>(
     [x, y]: [P; 2],
     vectors: &mut Vectors<T, Q>,
     i: usize,
 ) {
-    x.store(&mut vectors[0], i);
-    y.store(&mut vectors[1], i);
+    x.store_quad(&mut vectors[0], i);
+    y.store_quad(&mut vectors[1], i);
 }

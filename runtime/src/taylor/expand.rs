@@ -21,10 +21,11 @@ use super::dense::Matrices;
 use super::elimination::TaylorElimination;
 use super::linear::LinearSystem;
 use super::orders::Orders;
-use super::series::{Row, SERIES};
+use super::series::{SERIES, SeriesRow};
+use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
-use crate::scalar::{Lane, Scalar};
-use crate::simd::{OneLink, Quad, Simd, run_packs};
+use crate::simd::dispatch::in_fours;
+use crate::simd::{Quad, Simd};
 use core::marker::PhantomData;
 
 /// Says which link of a tree hangs on which.
@@ -192,7 +193,7 @@ struct OrdersOf<'a, 's, T, C, B, const N: usize, const Q: usize> {
     start: &'a Start<'s, T, N>,
     constants: &'a LinkConstants<T, N>,
     coefficients: &'a mut [[[T; N]; 2]],
-    rows: &'a mut [Row<T, Q>],
+    rows: &'a mut [SeriesRow<T, Q>],
     bias: B,
     connectivity: PhantomData<C>,
 }
@@ -227,18 +228,17 @@ where
     #[inline(always)]
     fn of_any(self) {
         if N <= MATRICES {
-            run_packs::<T, _>(self.by::<Matrices<T, N, Q>, Q>());
+            in_fours::<T, _>(self.by::<Matrices<T, N, Q>, Q>());
         } else {
-            run_packs::<T, _>(self.by::<TaylorElimination<T, Q>, Q>());
+            in_fours::<T, _>(self.by::<TaylorElimination<T, Q>, Q>());
         }
     }
 
     #[inline(always)]
-    fn of_wide<L: Lane>(self)
+    fn of_wide<L: Scalar>(self)
     where
         T: Simd<L>,
     {
-        self.by::<TaylorElimination<T, Q>, N>()
-            .form::<OneLink<T>, true>();
+        self.by::<TaylorElimination<T, Q>, N>().form::<T, true>();
     }
 }

@@ -12,14 +12,14 @@
 //! apart, so that the sums are ready when that is.
 
 use super::bias::Bias;
-use super::elimination::Column;
+use super::elimination::LinkColumn;
 use super::expand::{Connectivity, KnownOrder, LinkConstants, Start};
 use super::linear::LinearSystem;
 use super::reciprocal::Reciprocal;
 use super::refine::residual;
-use super::series::{Row, SeriesSums};
+use super::series::{SeriesRow, SeriesSums};
 use crate::scalar::Scalar;
-use crate::simd::{Pack, PackKernel, Quad};
+use crate::simd::{Kernel, Quad, Simd};
 use core::marker::PhantomData;
 
 /// From this order on the accelerations at the start are refined: the order for
@@ -31,13 +31,13 @@ pub(super) struct Orders<'a, T, C, B, L, const N: usize, const Q: usize, const M
     start: &'a Start<'a, T, N>,
     constants: &'a LinkConstants<T, N>,
     coefficients: &'a mut [[[T; N]; 2]],
-    rows: &'a mut [Row<T, Q>],
+    rows: &'a mut [SeriesRow<T, Q>],
     bias: B,
     /// The tree's connectivity, and how its equations are solved.
     kind: PhantomData<(C, L)>,
 }
 
-impl<T, C, B, L, const N: usize, const Q: usize, const M: usize> PackKernel<T>
+impl<T, C, B, L, const N: usize, const Q: usize, const M: usize> Kernel<T>
     for Orders<'_, T, C, B, L, N, Q, M>
 where
     T: Scalar,
@@ -45,8 +45,10 @@ where
     B: Bias<T, N>,
     L: LinearSystem<T, N>,
 {
+    type Output = ();
+
     #[inline(always)]
-    fn run<P: Pack<T>>(self) {
+    fn run<P: Simd<T>>(self) {
         self.form::<P, false>();
     }
 }
@@ -63,7 +65,7 @@ where
         start: &'a Start<'a, T, N>,
         constants: &'a LinkConstants<T, N>,
         coefficients: &'a mut [[[T; N]; 2]],
-        rows: &'a mut [Row<T, Q>],
+        rows: &'a mut [SeriesRow<T, Q>],
         bias: B,
     ) -> Self {
         Self {
@@ -82,7 +84,7 @@ where
     // One index into all vectors at once.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    pub(super) fn form<P: Pack<T>, const SEVERAL: bool>(self) {
+    pub(super) fn form<P: Simd<T>, const SEVERAL: bool>(self) {
         let Self {
             start,
             constants,
@@ -103,12 +105,12 @@ where
         let mut force = [zero; M];
         for m in 0..M {
             // X with the weight in it.
-            x[m] = zero.minus(first_bias[m]);
-            force[m] = x[m].minus(weight.across[m]);
+            x[m] = zero - first_bias[m];
+            force[m] = x[m] - weight.across[m];
             c[m] = zero.minus_product(omega[m], omega[m]);
             let row = [omega[m], zero, omega[m], zero, zero];
             for (series, value) in rows[0].iter_mut().zip(row) {
-                value.store(series, m);
+                value.store_quad(series, m);
             }
         }
         let mut order = system.add_solution::<C, P, M>([[zero; M], weight.along], &force, &c);
@@ -118,16 +120,15 @@ where
         }
         let [mut s, mut y] = order;
 
-        let one = T::from_f64(1.0);
+        let one = P::from_f64(1.0);
         let mut number = one;
-        let mut over_next = Reciprocal::<P>::of(one);
-        let [mut sums, mut next_sums] = [[SeriesSums::<P>::none::<T>(); M]; 2];
+        let mut over_next = Reciprocal::of(one);
+        let [mut sums, mut next_sums] = [[SeriesSums::<P>::none(); M]; 2];
         for k in 1..last {
             let over_k = over_next;
-            let over_both = Reciprocal::<P>::of(number * (number + one));
+            let over_both = Reciprocal::of(number * (number + one));
             number = number + one;
             over_next = Reciprocal::of(number);
-            let factor = P::splat(number);
             let (lower, new) = rows.split_at_mut(k);
             let Some(row) = new.first_mut() else { return };
 
@@ -152,22 +153,21 @@ where
             for m in 0..M {
                 // ω/k, ω (k+1)/k, ω (k+2)/k
                 let rate = over_k.times(omega[m]);
-                let rate_1 = omega[m].plus(rate);
-                let slowing = rate_1.plus(rate);
-                s_rest_next[m] = factor.times(sums[m].omega_cos).plus_product(rate, c[m]);
-                c_next[m] = rate_1
-                    .times(s_rest[m])
-                    .minus_product(factor, sums[m].omega_sin)
+                let rate_1 = omega[m] + rate;
+                let slowing = rate_1 + rate;
+                s_rest_next[m] = (number * sums[m].omega_cos).plus_product(rate, c[m]);
+                c_next[m] = (rate_1 * s_rest[m])
+                    .minus_product(number, sums[m].omega_sin)
                     .minus_product(slowing, s[m]);
                 x_next[m] = sums[m].force().plus_product(omega[m], y[m]);
 
-                let alpha = s[m].minus(s_rest[m]);
+                let alpha = s[m] - s_rest[m];
                 let (cos, sin) = (over_both.times(c[m]), over_both.times(s[m]));
                 let new = [over_k.times(alpha), cos, sin, x[m], y[m]];
                 for (series, value) in row.iter_mut().zip(new) {
-                    value.store(series, m);
+                    value.store_quad(series, m);
                 }
-                over_both.times(alpha).store(&mut theta, m);
+                over_both.times(alpha).store_quad(&mut theta, m);
             }
             numbers(&row[0], &mut coefficients[k][1]);
             numbers(&theta, &mut coefficients[k + 1][0]);
@@ -175,7 +175,7 @@ where
                 let known = known::<T, P, N, Q, M>(k, start, &coefficients[k], &lower[k - 1]);
                 let others: [P; M] = packs::<T, P, N, Q, M>(&bias.at(&known));
                 for m in 0..M {
-                    x_next[m] = x_next[m].minus(others[m]);
+                    x_next[m] = x_next[m] - others[m];
                 }
             }
             [s, y] = system.add_solution::<C, P, M>([[zero; M]; 2], &x_next, &c_next);
@@ -184,8 +184,8 @@ where
         if last > 0 {
             let mut omega = [Quad::splat(T::from_f64(0.0)); Q];
             for m in 0..M {
-                let alpha = s[m].minus(s_rest[m]);
-                over_next.times(alpha).store(&mut omega, m);
+                let alpha = s[m] - s_rest[m];
+                over_next.times(alpha).store_quad(&mut omega, m);
             }
             numbers(&omega, &mut coefficients[last][1]);
         }
@@ -206,7 +206,7 @@ impl<P, const M: usize> Weight<P, M> {
         constants: &LinkConstants<T, N>,
     ) -> Self
     where
-        P: Pack<T>,
+        P: Simd<T>,
     {
         let cosines: [P; M] = packs::<T, P, N, Q, M>(&start.cosines);
         let sines: [P; M] = packs::<T, P, N, Q, M>(&start.sines);
@@ -214,12 +214,8 @@ impl<P, const M: usize> Weight<P, M> {
         let lateral: [P; M] = packs::<T, P, N, Q, M>(&constants.lateral_weights);
         let (mut across, mut along) = (cosines, sines);
         for m in 0..M {
-            across[m] = weights[m]
-                .times(sines[m])
-                .plus_product(lateral[m], cosines[m]);
-            along[m] = lateral[m]
-                .times(sines[m])
-                .minus_product(weights[m], cosines[m]);
+            across[m] = (weights[m] * sines[m]).plus_product(lateral[m], cosines[m]);
+            along[m] = (lateral[m] * sines[m]).minus_product(weights[m], cosines[m]);
         }
         Self { across, along }
     }
@@ -227,20 +223,20 @@ impl<P, const M: usize> Weight<P, M> {
 
 /// State that a torque may depend on, in order k; `row` has γ and σ of that order.
 #[inline(always)]
-fn known<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
+fn known<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
     k: usize,
     start: &Start<'_, T, N>,
     [theta, omega]: &[[T; N]; 2],
-    row: &Row<T, Q>,
+    row: &SeriesRow<T, Q>,
 ) -> KnownOrder<T, N> {
     let c0: [P; M] = packs::<T, P, N, Q, M>(&start.cosines);
     let s0: [P; M] = packs::<T, P, N, Q, M>(&start.sines);
     let (mut sine, mut cosine) = (row[2], row[1]);
     for m in 0..M {
-        let (cos, sin) = (P::load(&row[1], m), P::load(&row[2], m));
-        let (upright, level) = (c0[m].times(cos), c0[m].times(sin));
-        level.plus_product(s0[m], cos).store(&mut sine, m);
-        upright.minus_product(s0[m], sin).store(&mut cosine, m);
+        let (cos, sin) = (P::load_quad(&row[1], m), P::load_quad(&row[2], m));
+        let (upright, level) = (c0[m] * cos, c0[m] * sin);
+        level.plus_product(s0[m], cos).store_quad(&mut sine, m);
+        upright.minus_product(s0[m], sin).store_quad(&mut cosine, m);
     }
     let (mut sines, mut cosines) = (*theta, *theta);
     numbers(&sine, &mut sines);
@@ -256,7 +252,7 @@ fn known<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
 
 /// Numbers of all links as packs, zero where there is no link.
 #[inline(always)]
-pub(super) fn packs<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const M: usize>(
+pub(super) fn packs<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
     numbers: &[T; N],
 ) -> [P; M] {
     let mut column = [Quad::splat(T::from_f64(0.0)); Q];
@@ -265,14 +261,14 @@ pub(super) fn packs<T: Scalar, P: Pack<T>, const N: usize, const Q: usize, const
     }
     let mut packs = [P::splat(T::from_f64(0.0)); M];
     for (m, pack) in packs.iter_mut().enumerate() {
-        *pack = P::load(&column, m);
+        *pack = P::load_quad(&column, m);
     }
     packs
 }
 
 /// The numbers of all links.
 #[inline(always)]
-fn numbers<T: Scalar, const N: usize, const Q: usize>(column: &Column<T, Q>, out: &mut [T; N]) {
+fn numbers<T: Scalar, const N: usize, const Q: usize>(column: &LinkColumn<T, Q>, out: &mut [T; N]) {
     for (i, out) in out.iter_mut().enumerate() {
         *out = column[i / 4].0[i % 4];
     }

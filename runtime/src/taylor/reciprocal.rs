@@ -1,7 +1,7 @@
 //! Divisions by the order.
 
 use crate::scalar::Scalar;
-use crate::simd::Pack;
+use crate::simd::Simd;
 
 /// 1/n in two parts: a rounded reciprocal would be wrong by the same amount in
 /// every step of a run.
@@ -12,26 +12,20 @@ pub(super) struct Reciprocal<P> {
     low: P,
 }
 
-impl<P> Reciprocal<P> {
+impl<P: Scalar> Reciprocal<P> {
     #[inline(always)]
-    pub(super) fn of<T: Scalar>(number: T) -> Self
-    where
-        P: Pack<T>,
-    {
-        let one = T::from_f64(1.0);
-        let high = P::splat(one / number);
-        let rest = P::splat(one).minus_product(P::splat(number), high);
+    pub(super) fn of(number: P) -> Self {
+        let one = P::from_f64(1.0);
+        let high = one / number;
+        let rest = one.minus_product(number, high);
         Self {
             high,
-            low: rest.times(high),
+            low: rest * high,
         }
     }
 
     #[inline(always)]
-    pub(super) fn times<T: Scalar>(self, value: P) -> P
-    where
-        P: Pack<T>,
-    {
-        value.times(self.low).plus_product(value, self.high)
+    pub(super) fn times(self, value: P) -> P {
+        (value * self.low).plus_product(value, self.high)
     }
 }

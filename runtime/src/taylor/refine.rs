@@ -13,11 +13,11 @@
 //!
 //! −bias − M α − (F + D) cos θ − (G + E) sin θ
 
-use super::elimination::Column;
+use super::elimination::LinkColumn;
 use super::expand::{Connectivity, LinkConstants, Start};
 use super::orders::packs;
-use crate::scalar::Scalar;
-use crate::simd::{Pack, Quad, two_sum};
+use crate::scalar::{Scalar, two_sum};
+use crate::simd::{Quad, Simd};
 
 /// Returns what accelerations leave of the equation of motion, in the units of the
 /// tree's constants.
@@ -30,7 +30,7 @@ pub(super) fn residual<T, C, P, const N: usize, const Q: usize, const M: usize>(
 where
     T: Scalar,
     C: Connectivity<N>,
-    P: Pack<T>,
+    P: Simd<T>,
 {
     let zero = P::splat(T::from_f64(0.0));
     let [sines, cosines] = [&start.sines, &start.cosines].map(packs::<T, P, N, Q, M>);
@@ -39,37 +39,37 @@ where
     let mut turning = empty::<T, Q>();
     for m in 0..M {
         let (sin, cos, alpha) = (sines[m], cosines[m], accelerations[m]);
-        let square = Parts::product::<T>(omega[m], omega[m]);
-        let u = Parts::product::<T>(cos, alpha).plus_product::<T>(zero.minus(sin), square);
-        let v = Parts::product::<T>(sin, alpha).plus_product::<T>(cos, square);
+        let square = Parts::product(omega[m], omega[m]);
+        let u = Parts::product(cos, alpha).plus_product(zero - sin, square);
+        let v = Parts::product(sin, alpha).plus_product(cos, square);
         u.store::<T, Q>(&mut turning[0], m);
         v.store::<T, Q>(&mut turning[1], m);
     }
-    let lever = levers::<T, C, P::Single, N, Q>(constants, &turning);
+    let lever = levers::<T, C, P::One, N, Q>(constants, &turning);
     let bias = packs::<T, P, N, Q, M>(&start.bias);
     let inertias = packs::<T, P, N, Q, M>(&constants.inertias);
     let weights = packs::<T, P, N, Q, M>(&constants.weights);
     let lateral = packs::<T, P, N, Q, M>(&constants.lateral_weights);
     let mut rest = *accelerations;
     for m in 0..M {
-        let aside = Parts::load::<T, Q>(&lever[0], m).plus::<T>(Parts::whole::<T>(lateral[m]));
-        let down = Parts::load::<T, Q>(&lever[1], m).plus::<T>(Parts::whole::<T>(weights[m]));
-        let sum = Parts::whole::<T>(bias[m])
-            .plus_product::<T>(inertias[m], Parts::whole::<T>(accelerations[m]))
-            .plus_product::<T>(sines[m], down)
-            .plus_product::<T>(cosines[m], aside);
-        rest[m] = zero.minus(sum.high).minus(sum.low);
+        let aside = Parts::load::<T, Q>(&lever[0], m).plus(Parts::whole(lateral[m]));
+        let down = Parts::load::<T, Q>(&lever[1], m).plus(Parts::whole(weights[m]));
+        let sum = Parts::whole(bias[m])
+            .plus_product(inertias[m], Parts::whole(accelerations[m]))
+            .plus_product(sines[m], down)
+            .plus_product(cosines[m], aside);
+        rest[m] = zero - sum.high - sum.low;
     }
     rest
 }
 
 /// D + iE of all links, along the tree.
 #[inline(always)]
-fn levers<T: Scalar, C: Connectivity<N>, P: Pack<T>, const N: usize, const Q: usize>(
+fn levers<T: Scalar, C: Connectivity<N>, P: Simd<T>, const N: usize, const Q: usize>(
     constants: &LinkConstants<T, N>,
     turning: &[PartsColumn<T, Q>; 2],
 ) -> [PartsColumn<T, Q>; 2] {
-    let zero = Parts::whole::<T>(P::splat(T::from_f64(0.0)));
+    let zero = Parts::whole(P::splat(T::from_f64(0.0)));
     // a, Σ F_c and D + iE.
     let [mut fall, mut pull, mut lever] = [[[zero; 2]; N]; 3];
     for i in 1..N {
@@ -85,7 +85,7 @@ fn levers<T: Scalar, C: Connectivity<N>, P: Pack<T>, const N: usize, const Q: us
         let force = plus_turned::<T, C, P, N>(pull[i], [h, e], turning);
         lever[parent] = plus_turned::<T, C, P, N>(lever[parent], [l, -w], force);
         for x in 0..2 {
-            pull[parent][x] = pull[parent][x].plus::<T>(force[x]);
+            pull[parent][x] = pull[parent][x].plus(force[x]);
         }
     }
     let mut columns = empty::<T, Q>();
@@ -98,7 +98,7 @@ fn levers<T: Scalar, C: Connectivity<N>, P: Pack<T>, const N: usize, const Q: us
 }
 
 /// First and second parts of a number of each link.
-type PartsColumn<T, const Q: usize> = [Column<T, Q>; 2];
+type PartsColumn<T, const Q: usize> = [LinkColumn<T, Q>; 2];
 
 #[inline(always)]
 fn empty<T: Scalar, const Q: usize>() -> [PartsColumn<T, Q>; 2] {
@@ -107,22 +107,19 @@ fn empty<T: Scalar, const Q: usize>() -> [PartsColumn<T, Q>; 2] {
 
 /// `base` + (p + i q) x
 #[inline(always)]
-fn plus_turned<T: Scalar, C: Connectivity<N>, P: Pack<T>, const N: usize>(
+fn plus_turned<T: Scalar, C: Connectivity<N>, P: Simd<T>, const N: usize>(
     base: [Parts<P>; 2],
     [p, q]: [T; 2],
     x: [Parts<P>; 2],
 ) -> [Parts<P>; 2] {
     let p = P::splat(p);
-    let sum = [
-        base[0].plus_product::<T>(p, x[0]),
-        base[1].plus_product::<T>(p, x[1]),
-    ];
+    let sum = [base[0].plus_product(p, x[0]), base[1].plus_product(p, x[1])];
     if !C::LATERAL {
         return sum;
     }
     [
-        sum[0].plus_product::<T>(P::splat(-q), x[1]),
-        sum[1].plus_product::<T>(P::splat(q), x[0]),
+        sum[0].plus_product(P::splat(-q), x[1]),
+        sum[1].plus_product(P::splat(q), x[0]),
     ]
 }
 
@@ -135,67 +132,55 @@ struct Parts<P> {
     low: P,
 }
 
-impl<P: Copy> Parts<P> {
+impl<P: Scalar> Parts<P> {
     #[inline(always)]
-    fn whole<T: Scalar>(high: P) -> Self
-    where
-        P: Pack<T>,
-    {
-        let low = P::splat(T::from_f64(0.0));
+    fn whole(high: P) -> Self {
+        let low = P::from_f64(0.0);
         Self { high, low }
     }
 
     #[inline(always)]
     fn load<T: Scalar, const Q: usize>(column: &PartsColumn<T, Q>, i: usize) -> Self
     where
-        P: Pack<T>,
+        P: Simd<T>,
     {
         let [high, low] = column;
         Self {
-            high: P::load(high, i),
-            low: P::load(low, i),
+            high: P::load_quad(high, i),
+            low: P::load_quad(low, i),
         }
     }
 
     #[inline(always)]
     fn store<T: Scalar, const Q: usize>(self, column: &mut PartsColumn<T, Q>, i: usize)
     where
-        P: Pack<T>,
+        P: Simd<T>,
     {
         let [high, low] = column;
-        self.high.store(high, i);
-        self.low.store(low, i);
+        self.high.store_quad(high, i);
+        self.low.store_quad(low, i);
     }
 
     #[inline(always)]
-    fn plus<T: Scalar>(self, other: Self) -> Self
-    where
-        P: Pack<T>,
-    {
+    fn plus(self, other: Self) -> Self {
         let (high, rounding) = two_sum(self.high, other.high);
-        let low = self.low.plus(rounding).plus(other.low);
+        let low = self.low + rounding + other.low;
         Self { high, low }
     }
 
     /// a b
     #[inline(always)]
-    fn product<T: Scalar>(a: P, b: P) -> Self
-    where
-        P: Pack<T>,
-    {
-        let (high, zero) = (a.times(b), P::splat(T::from_f64(0.0)));
-        let low = zero.minus(high).plus_product(a, b);
+    fn product(a: P, b: P) -> Self {
+        let (high, zero) = (a * b, P::from_f64(0.0));
+        let low = (zero - high).plus_product(a, b);
         Self { high, low }
     }
 
     /// `self` + a x
     #[inline(always)]
-    fn plus_product<T: Scalar>(self, a: P, x: Self) -> Self
-    where
-        P: Pack<T>,
-    {
-        let Self { high, low } = Self::product::<T>(a, x.high);
+    fn plus_product(self, a: P, x: Self) -> Self {
+        let Self { high, low } = Self::product(a, x.high);
         let low = low.plus_product(a, x.low);
-        self.plus::<T>(Self { high, low })
+        self.plus(Self { high, low })
     }
 }

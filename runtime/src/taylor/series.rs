@@ -3,14 +3,14 @@
 //! Order k of a product of series is a sum over the rows j and k − j.
 
 use crate::scalar::Scalar;
-use crate::simd::{Pack, Quad};
+use crate::simd::{Quad, Simd};
 
-/// Series that are kept: ω, γ, σ, X, Y. Row r has order r of ω, r + 1 of γ and σ,
+/// Series that are kept: ω, γ, σ, X, Y. SeriesRow r has order r of ω, r + 1 of γ and σ,
 /// r − 1 of X and Y, so that all sums of order k run over rows j and k − j.
 pub(super) const SERIES: usize = 5;
 
 /// All series in one order.
-pub(super) type Row<T, const Q: usize> = [[Quad<T>; Q]; SERIES];
+pub(super) type SeriesRow<T, const Q: usize> = [[Quad<T>; Q]; SERIES];
 
 /// Sums of products in one order, over 0 < j < k.
 #[derive(Clone, Copy)]
@@ -25,13 +25,10 @@ pub(super) struct SeriesSums<P> {
     sin_y: P,
 }
 
-impl<P> SeriesSums<P> {
+impl<P: Scalar> SeriesSums<P> {
     #[inline(always)]
-    pub(super) fn none<T: Scalar>() -> Self
-    where
-        P: Pack<T>,
-    {
-        let zero = P::splat(T::from_f64(0.0));
+    pub(super) fn none() -> Self {
+        let zero = P::from_f64(0.0);
         Self {
             omega_cos: zero,
             omega_sin: zero,
@@ -42,11 +39,8 @@ impl<P> SeriesSums<P> {
 
     /// Σ σ Y − γ X
     #[inline(always)]
-    pub(super) fn force<T: Scalar>(self) -> P
-    where
-        P: Pack<T>,
-    {
-        self.sin_y.minus(self.cos_x)
+    pub(super) fn force(self) -> P {
+        self.sin_y - self.cos_x
     }
 
     /// Returns the sums over all `rows`, each with the one as far from the other end, from
@@ -54,13 +48,13 @@ impl<P> SeriesSums<P> {
     /// sums of each, so that none waits for the other: for a single state, which waits for
     /// results more than it computes.
     #[inline(always)]
-    pub(super) fn of<T: Scalar, const Q: usize>(rows: &[Row<T, Q>], m: usize) -> Self
+    pub(super) fn of<T: Scalar, const Q: usize>(rows: &[SeriesRow<T, Q>], m: usize) -> Self
     where
-        P: Pack<T>,
+        P: Simd<T>,
     {
         let (early, rest) = rows.split_at(rows.len() / 2);
         let (middle, late) = rest.split_at(rest.len() - early.len());
-        let [mut first, mut second] = [Self::none::<T>(); 2];
+        let [mut first, mut second] = [Self::none(); 2];
         for row in middle {
             first.add(moved(row, m), turned(row, m));
         }
@@ -69,10 +63,10 @@ impl<P> SeriesSums<P> {
             second.add(moved(opposite, m), turned(row, m));
         }
         Self {
-            omega_cos: first.omega_cos.plus(second.omega_cos),
-            omega_sin: first.omega_sin.plus(second.omega_sin),
-            cos_x: first.cos_x.plus(second.cos_x),
-            sin_y: first.sin_y.plus(second.sin_y),
+            omega_cos: first.omega_cos + second.omega_cos,
+            omega_sin: first.omega_sin + second.omega_sin,
+            cos_x: first.cos_x + second.cos_x,
+            sin_y: first.sin_y + second.sin_y,
         }
     }
 
@@ -80,15 +74,15 @@ impl<P> SeriesSums<P> {
     /// k + 1 but for their terms with the newest row. What is loaded serves both: for
     /// several states, which compute more than they wait.
     #[inline(always)]
-    pub(super) fn pair<T: Scalar, const Q: usize>(rows: &[Row<T, Q>], m: usize) -> [Self; 2]
+    pub(super) fn pair<T: Scalar, const Q: usize>(rows: &[SeriesRow<T, Q>], m: usize) -> [Self; 2]
     where
-        P: Pack<T>,
+        P: Simd<T>,
     {
-        let [mut now, mut next] = [Self::none::<T>(); 2];
+        let [mut now, mut next] = [Self::none(); 2];
         let Some((newest, old)) = rows.split_last() else {
             return [now, next];
         };
-        // Row 0 has its terms elsewhere.
+        // SeriesRow 0 has its terms elsewhere.
         let Some((_, [first, middle @ ..])) = old.split_first() else {
             return [now, next];
         };
@@ -111,9 +105,9 @@ impl<P> SeriesSums<P> {
 
     /// Adds the terms with the newest row.
     #[inline(always)]
-    pub(super) fn complete<T: Scalar, const Q: usize>(&mut self, rows: &[Row<T, Q>], m: usize)
+    pub(super) fn complete<T: Scalar, const Q: usize>(&mut self, rows: &[SeriesRow<T, Q>], m: usize)
     where
-        P: Pack<T>,
+        P: Simd<T>,
     {
         let [_, first, others @ ..] = rows else {
             return;
@@ -127,10 +121,7 @@ impl<P> SeriesSums<P> {
 
     /// Adds the products of ω, X, Y of one row with γ, σ of another.
     #[inline(always)]
-    fn add<T: Scalar>(&mut self, [omega, x, y]: [P; 3], [cos, sin]: [P; 2])
-    where
-        P: Pack<T>,
-    {
+    fn add(&mut self, [omega, x, y]: [P; 3], [cos, sin]: [P; 2]) {
         self.omega_cos = self.omega_cos.plus_product(omega, cos);
         self.omega_sin = self.omega_sin.plus_product(omega, sin);
         self.cos_x = self.cos_x.plus_product(cos, x);
@@ -140,14 +131,18 @@ impl<P> SeriesSums<P> {
 
 /// ω, X, Y
 #[inline(always)]
-fn moved<T: Scalar, P: Pack<T>, const Q: usize>(row: &Row<T, Q>, m: usize) -> [P; 3] {
+fn moved<T: Scalar, P: Simd<T>, const Q: usize>(row: &SeriesRow<T, Q>, m: usize) -> [P; 3] {
     let [omega, _, _, x, y] = row;
-    [P::load(omega, m), P::load(x, m), P::load(y, m)]
+    [
+        P::load_quad(omega, m),
+        P::load_quad(x, m),
+        P::load_quad(y, m),
+    ]
 }
 
 /// γ, σ
 #[inline(always)]
-fn turned<T: Scalar, P: Pack<T>, const Q: usize>(row: &Row<T, Q>, m: usize) -> [P; 2] {
+fn turned<T: Scalar, P: Simd<T>, const Q: usize>(row: &SeriesRow<T, Q>, m: usize) -> [P; 2] {
     let [_, cos, sin, _, _] = row;
-    [P::load(cos, m), P::load(sin, m)]
+    [P::load_quad(cos, m), P::load_quad(sin, m)]
 }

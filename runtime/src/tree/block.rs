@@ -103,14 +103,14 @@ pub(super) struct Block<'a> {
     pub(super) generations: &'a [Generation],
     /// How many generations have children.
     pub(super) inner: usize,
-    /// Whether there is one more, of leaves.
+    /// True if there is one more, of leaves.
     pub(super) has_leaves: bool,
     /// The first of the neighbours, counted in its generation.
     pub(super) start: usize,
     pub(super) width: usize,
     /// Numbers in the widest register that computes it.
     pub(super) widest: usize,
-    /// Whether its results are written once it has gone up.
+    /// True if its results are written once it has gone up.
     pub(super) ends: bool,
     /// Its links with children.
     pub(super) strips: &'a Strips,
@@ -151,7 +151,7 @@ impl<'a> Block<'a> {
         })
     }
 
-    /// Whether it takes all links of its generations.
+    /// Returns true if it takes all links of its generations.
     #[inline(always)]
     pub(super) fn is_whole(&self) -> bool {
         let first = self.generations.first();

@@ -8,7 +8,7 @@ use crate::scalar::Scalar;
 use crate::scalar::kind::{compiled, compiled_once};
 use crate::system::Workspace;
 
-/// What each link hangs from.
+/// Parents of the links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// The parent of each link, before it; the root's own is 0.
@@ -86,14 +86,14 @@ impl<T: Scalar> Bodies<T> {
         Self { shape, rows, rests }
     }
 
-    /// The same with the angles at which the springs of each link or of each generation
+    /// Returns these bodies with the angles at which the springs of each link or of each generation
     /// are at rest, rad.
     #[must_use]
     pub fn with_rests(self, rests: Vec<T>) -> Self {
         Self { rests, ..self }
     }
 
-    /// The same bodies on other scalars.
+    /// Returns these bodies on other scalars.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<S> {
         Bodies {

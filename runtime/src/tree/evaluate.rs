@@ -185,7 +185,7 @@ impl<T: Scalar> Evaluation<'_, T> {
     }
 
     /// Up through blocks.
-    fn blocks_up(&self, mut blocks: Blocks<'_, T>) {
+    fn blocks_up(&self, mut blocks: SomeBlocks<'_, T>) {
         let Level {
             partition,
             start,
@@ -202,7 +202,7 @@ impl<T: Scalar> Evaluation<'_, T> {
 
     /// Down through them. Where nothing was kept of the way up, it is taken again:
     /// that takes less time than writing what is formed to memory and reading it back.
-    fn blocks_down(&self, mut blocks: Blocks<'_, T>) {
+    fn blocks_down(&self, mut blocks: SomeBlocks<'_, T>) {
         let Level {
             partition,
             start,
@@ -224,7 +224,7 @@ impl<T: Scalar> Evaluation<'_, T> {
     fn next_block<'a>(
         &'a self,
         block: Block<'a>,
-        blocks: &'a mut Blocks<'_, T>,
+        blocks: &'a mut SomeBlocks<'_, T>,
     ) -> Sweep<'a, T, T> {
         let Level {
             partition, room, ..
@@ -242,7 +242,7 @@ impl<T: Scalar> Evaluation<'_, T> {
 struct Level<'a, T> {
     partition: &'a Partition,
     room: &'a Room,
-    /// What is told of the first generation, and of the one that comes behind.
+    /// Values handed over at the first generation, and at the one that comes behind.
     start: Interface<'a, T>,
     below: Option<Interface<'a, T>>,
     alpha: Shared<'a, T>,
@@ -262,14 +262,14 @@ impl<'a, T> Level<'a, T> {
         self,
         threads: usize,
         mut workers: &'b mut [T],
-    ) -> impl Iterator<Item = Blocks<'b, T>>
+    ) -> impl Iterator<Item = SomeBlocks<'b, T>>
     where
         'a: 'b,
     {
         self.partition.jobs(threads).map(move |links| {
             let room = layout::worker::<T>(self.partition, self.room, &links);
             let mut own = take(&mut workers, room);
-            Blocks {
+            SomeBlocks {
                 level: self,
                 links,
                 passing: take(&mut own, self.room.passing()),
@@ -280,7 +280,7 @@ impl<'a, T> Level<'a, T> {
 }
 
 /// The blocks of a thread.
-struct Blocks<'a, T> {
+struct SomeBlocks<'a, T> {
     level: Level<'a, T>,
     /// Those that start with these links.
     links: Range<usize>,

@@ -1,4 +1,4 @@
-//! What blocks tell each other.
+//! Values that blocks hand over to each other.
 
 use super::block::{Block, Generation};
 use super::memory::{Sizes, line, odd_lines};

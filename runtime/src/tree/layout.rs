@@ -12,14 +12,14 @@ use super::plan::Plan;
 
 /// The memory of an evaluation.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Layout {
+pub(super) struct EvaluationMemory {
     /// Of the tree or of what is above the blocks.
     pub(super) top: Room,
     /// Of a block of each partition.
     pub(super) blocks: Vec<Room>,
 }
 
-impl Layout {
+impl EvaluationMemory {
     pub(super) fn new<T>(plan: &Plan, sizes: Sizes) -> Self {
         let blocks = plan.partitions.iter();
         Self {

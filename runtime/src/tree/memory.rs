@@ -80,7 +80,7 @@ pub(super) const fn odd_lines(line: usize, numbers: usize) -> usize {
     (numbers.div_ceil(line) | 1) * line
 }
 
-/// What memory for a block takes.
+/// Sizes of the memory for a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Room {
     sizes: Sizes,
@@ -91,7 +91,7 @@ pub(super) struct Room {
     links: usize,
     /// The length of columns of links with children.
     slots: usize,
-    /// Whether velocities are read where they are given: in a whole tree, whose links
+    /// True if velocities are read where they are given: in a whole tree, whose links
     /// stand there as here, if registers do not reach beyond the last one's. In blocks
     /// they would compete for the same places of the cache, far as the strips are from
     /// each other.

@@ -62,8 +62,8 @@ pub use properties::PropertyTable;
 pub use root::RootDrive;
 
 use crate::scalar::kind::{compiled, compiled_once};
-use crate::scalar::{Register, Scalar, at};
-use crate::simd::wide_slice;
+use crate::scalar::{Scalar, at};
+use crate::simd::{Simd, wide_slice};
 use crate::system::cast::put;
 use crate::system::{InRegisters, Workspace};
 use evaluate::Given;
@@ -247,7 +247,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     /// Returns many states in registers, with so much room for each.
     #[doc(hidden)]
     #[inline(always)]
-    pub fn in_registers<V: Register<Lane = T>>(
+    pub fn in_registers<V: Simd<T>>(
         &self,
         drive: Option<RootDrive<T>>,
         room: &mut [T],
@@ -255,7 +255,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         WithRoom {
             tree: self,
             drive: drive.map(|drive| drive.map(V::splat)),
-            room: match wide_slice(room) {
+            room: match wide_slice::<T, V>(room) {
                 Some(values) => Room::Lent(values),
                 None => Room::Own(alloc::vec![V::from_f64(0.0); self.room()]),
             },
@@ -276,7 +276,7 @@ enum Room<'r, V> {
     Own(Vec<V>),
 }
 
-impl<E: LinkEquations, V: Register> InRegisters<V> for WithRoom<'_, '_, E, V::Lane, V> {
+impl<E: LinkEquations, T: Scalar, V: Simd<T>> InRegisters<V> for WithRoom<'_, '_, E, T, V> {
     #[inline(always)]
     fn evaluate(
         &mut self,
@@ -290,7 +290,7 @@ impl<E: LinkEquations, V: Register> InRegisters<V> for WithRoom<'_, '_, E, V::La
         };
         let tree = &self.tree.skeleton;
         let none = |_| V::from_f64(0.0);
-        states::accelerations::<E, V::Lane, V>(tree, self.drive, room, theta, omega, none, alpha);
+        states::accelerations::<E, T, V>(tree, self.drive, room, theta, omega, none, alpha);
     }
 }
 

@@ -1,4 +1,4 @@
-//! What equations read of the angles and velocities, formed before the recursion.
+//! Sines, cosines and joint motions that equations read, formed before the recursion.
 
 use super::block::{Block, Generation};
 use super::columns::Columns;
@@ -131,14 +131,14 @@ pub(super) fn joint_motions<T: Scalar>(
 
 /// Where a link of a block stands: there, in the tree and in its generation.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Link {
+pub(super) struct LinkPlace {
     pub(super) own: usize,
     pub(super) place: usize,
     number: usize,
     above: Option<(usize, usize)>,
 }
 
-impl Link {
+impl LinkPlace {
     /// Returns the place of the parent, but for the root; in a tree of any shape these
     /// are the parents of all.
     #[inline(always)]
@@ -171,12 +171,12 @@ impl<'a> Links<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn next(&mut self) -> Option<Link> {
+    pub(super) fn next(&mut self) -> Option<LinkPlace> {
         let generation = self.generations.first()?;
         let own = generation.own + self.span * generation.length + self.index;
         let within = self.span * generation.stride + self.index * generation.step;
         let number = self.start + within;
-        let link = Link {
+        let link = LinkPlace {
             own,
             place: generation.whole + number,
             number,

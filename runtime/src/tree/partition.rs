@@ -19,7 +19,7 @@ pub(super) struct Policy {
     pub(super) width: usize,
     /// Numbers in the widest register.
     pub(super) widest: usize,
-    /// What is above the blocks of leaves is one block, however large.
+    /// True if all above the blocks of leaves is one block, however large.
     pub(super) once: bool,
 }
 
@@ -68,9 +68,9 @@ pub(super) struct Partition {
     links: usize,
     /// How this was done.
     policy: Policy,
-    /// Whether blocks keep what is formed on the way up.
+    /// True if blocks keep what is formed on the way up.
     pub(super) keeps: bool,
-    /// Whether the last generation of the tree is among them. If not, the generations of
+    /// True if the last generation of the tree is among them. If not, the generations of
     /// a block end with the generation behind.
     pub(super) has_leaves: bool,
     /// The generations of a block, and of the last one, which has another width.

@@ -1,4 +1,4 @@
-//! What moves a tree in loops from outside: it enters at the root alone.
+//! Motion of a tree in loops from outside, which enters at the root alone.
 
 use crate::scalar::Scalar;
 

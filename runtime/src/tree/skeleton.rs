@@ -1,10 +1,10 @@
-//! What of a tree does not depend on its equations.
+//! The parts of a tree that do not depend on its equations.
 
 use alloc::vec::Vec;
 
 use super::block::WIDEST;
 use super::evaluate::{Given, SweepFn, accelerations};
-use super::layout::Layout;
+use super::layout::EvaluationMemory;
 use super::memory::{Sizes, line, odd_lines};
 use super::partition::Policy;
 use super::plan::Plan;
@@ -25,7 +25,7 @@ pub(super) struct Skeleton<T> {
     /// Acceleration of the root's pivot.
     pub(super) root: [T; 2],
     threads: usize,
-    pub(super) layout: Layout,
+    pub(super) layout: EvaluationMemory,
     /// How many numbers an evaluation of one state needs room for.
     pub(super) room: usize,
 }
@@ -72,7 +72,7 @@ impl<T: Scalar> Skeleton<T> {
         root: [T; 2],
         threads: usize,
     ) -> Self {
-        let layout = Layout::new::<T>(&plan, sizes);
+        let layout = EvaluationMemory::new::<T>(&plan, sizes);
         Self {
             room: layout.room::<T>(&plan, sizes, threads),
             layout,
@@ -94,7 +94,7 @@ impl<T: Scalar> Skeleton<T> {
         self.room = self.layout.room::<T>(&self.plan, self.sizes, threads);
     }
 
-    /// The same tree on other scalars.
+    /// Returns this tree on other scalars.
     pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Skeleton<S> {
         Skeleton::new(
             self.plan.clone(),

@@ -22,7 +22,7 @@ pub(super) struct Strip {
     pub(super) whole_apart: usize,
     /// From one link to the next in arrays of the whole tree.
     pub(super) step: usize,
-    /// Whether the children are leaves.
+    /// True if the children are leaves.
     pub(super) leaves: bool,
     /// A register with at least so many lanes holds all children, one by one behind
     /// each other, and the next strip is theirs.

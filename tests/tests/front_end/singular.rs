@@ -1,6 +1,6 @@
 //! The rule for singular mass matrices against the matrices themselves.
 
-use branched_pendulum_codegen::report::Message;
+use branched_pendulum_codegen::report::{Message, TreeMessage};
 
 use crate::support::{Outcome, Random, run_source};
 
@@ -65,10 +65,12 @@ fn source(links: &[Link]) -> String {
 fn is_refused(links: &[Link]) -> bool {
     let source = source(links);
     let Outcome { scene, report, .. } = run_source(&source);
-    let all_singular = report
-        .diagnostics()
-        .iter()
-        .all(|diagnostic| matches!(diagnostic.message, Message::Singular { .. }));
+    let all_singular = report.diagnostics().iter().all(|diagnostic| {
+        matches!(
+            diagnostic.message,
+            Message::Tree(TreeMessage::Singular { .. })
+        )
+    });
     assert!(all_singular, "{}", report.render(&source));
     scene.is_none()
 }
@@ -142,7 +144,7 @@ fn all_angles(count: usize, mut visit: impl FnMut(&[usize])) {
 /// with all links in line.
 #[test]
 fn rule_agrees_with_straight_trees() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let mut counts = [0, 0];
     for _ in 0..4_000 {
         let size = 1 + random.below(6);
@@ -158,7 +160,7 @@ fn rule_agrees_with_straight_trees() {
 /// 45°.
 #[test]
 fn rule_agrees_with_bent_trees() {
-    let mut random = Random(12);
+    let mut random = Random::new(12);
     let mut counts = [0, 0];
     for _ in 0..1_500 {
         let size = 1 + random.below(4);

@@ -19,6 +19,7 @@ use branched_pendulum_tests::scenes::{
     simple::Simple,
     sweep::{Sweep, SweepParameters},
     triplet::Triplet,
+    unequal::Unequal,
 };
 use branched_pendulum_tests::source::scene;
 
@@ -175,6 +176,17 @@ fn triplet() {
               transfer_exact_from_rates_d1, transfer_exact_from_rates_d2,
               antiphase_friction_power_d1, antiphase_friction_power_d2],
         one: [to_symmetric, from_symmetric]);
+}
+
+#[test]
+fn unequal() {
+    agree!("unequal", Unequal::new(), [], 3,
+        two: [accelerations, kinetic_energy, momenta, velocities, canonical_rates, symmetric_accelerations,
+              symmetric_momenta, symmetric_velocities, hamiltonian, antiphase_energy,
+              transfer_exact, transfer_exact_from_rates, transfer_growth,
+              transfer_growth_from_rates, transfer_forcing, transfer_forcing_from_rates,
+              antiphase_friction_power],
+        one: [potential_energy, mass_matrix, stiffness_matrix, to_symmetric, from_symmetric]);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the compiler says where a model is used for something that its description
+//! Messages of the compiler where a model is used for something that its description
 //! does not ask for, or without coordinates: what to write.
 
 use super::toolchain::{runtime, rustc};

@@ -4,6 +4,16 @@
 use super::strips::Strips;
 use crate::program::Argument;
 
+/// Fields of the runtime's `LinkMotion`, in the order of the elements of an argument.
+pub const LINK_MOTION: [&str; 6] = [
+    "sine",
+    "cosine",
+    "omega",
+    "joint_angle",
+    "joint_rate",
+    "outside_torque",
+];
+
 /// A constant in the equations of one link, in reduced units: m and l are those of the
 /// commonest leaf for the whole tree, L is the link's own unit of length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -115,16 +125,6 @@ impl Column {
 }
 
 impl Strips {
-    /// Names of the elements of a link's motion: the fields of the runtime's type.
-    pub const MOTION: [&str; 6] = [
-        "sine",
-        "cosine",
-        "omega",
-        "joint_angle",
-        "joint_rate",
-        "outside_torque",
-    ];
-
     /// Number of elements of an argument of the link functions.
     pub fn length(&self, argument: Argument) -> usize {
         let torque = usize::from(self.has_joint_torques);
@@ -172,7 +172,7 @@ impl Strips {
         ];
         let names: &[&str] = match argument {
             Argument::Constants => return self.columns[index].name(),
-            Argument::Motion => &Self::MOTION,
+            Argument::Motion => &LINK_MOTION,
             Argument::Response => &RESPONSE,
             Argument::Sums if self.has_several_places => &ATTACHED,
             Argument::Sums => &SUMS,

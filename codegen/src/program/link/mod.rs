@@ -19,7 +19,7 @@ mod strips;
 mod torques;
 mod tree;
 
-pub use columns::Column;
+pub use columns::{Column, LINK_MOTION};
 pub use strips::{Strip, Strips};
 
 use crate::scene::{LinkId, Scene};

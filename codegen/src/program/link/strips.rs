@@ -289,6 +289,8 @@ impl Lowering<'_> {
                 let value = table.rows[orbit][column as usize];
                 match self.builder.as_constant(value) {
                     Some(constant) => constant,
+                    // There are too many values.
+                    None if self.builder.is_exceeded() => ConstantId(0),
                     None => unreachable!("rows hold constants"),
                 }
             });

@@ -18,19 +18,19 @@ use crate::integrate::lanes::registers::{
 use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
 use crate::integrate::options::Options;
 use crate::integrate::steps::StepLimits;
-use crate::scalar::register::Register;
 use crate::scalar::{Lane, Real};
+use crate::simd::Simd;
 use crate::simd::{Part, outlined};
 use crate::system::{LaneOde, State};
 
 impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRungeKutta<M, T> {
-    type Steps<'a, R: Register<Lane = T>> = PairInLanes<'a, M, O, R>;
+    type Steps<'a, R: Simd<T>> = PairInLanes<'a, M, O, T, R>;
 
     fn options(&self) -> &Options<T> {
         &self.options
     }
 
-    fn steps<'a, R: Register<Lane = T>>(&'a self, system: &O) -> PairInLanes<'a, M, O, R> {
+    fn steps<'a, R: Simd<T>>(&'a self, system: &O) -> PairInLanes<'a, M, O, T, R> {
         let zero = R::from_f64(0.0);
         let start = vec![zero; system.dimension()];
         let control = StepControl::new(M::CONTROL, &self.options);
@@ -51,8 +51,8 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRunge
 }
 
 /// The systems in the lanes, and what their evaluations have left.
-struct Systems<O: LaneOde<R::Lane>, R: Register> {
-    models: Models<O, R>,
+struct Systems<O: LaneOde<T>, T: Lane, R: Simd<T>> {
+    models: Models<O, T, R>,
     /// A divisor for what may be zero over zero.
     smallest: R,
     /// Zero after a stage, NaN from the first stage on whose rates are not finite.
@@ -63,7 +63,9 @@ struct Systems<O: LaneOde<R::Lane>, R: Register> {
 ///
 /// In a function of its own, which all stages call: equations of large trees
 /// are long.
-impl<'a, O: LaneOde<R::Lane>, R: Register> Part<0, (R, &'a [R], &'a mut [R])> for Models<O, R> {
+impl<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
+    for Models<O, T, R>
+{
     type Output = ();
 
     #[inline(always)]
@@ -74,7 +76,7 @@ impl<'a, O: LaneOde<R::Lane>, R: Register> Part<0, (R, &'a [R], &'a mut [R])> fo
 
 /// Zero where all these numbers are finite and `check` is zero, NaN elsewhere.
 #[inline(always)]
-fn check_finite<R: Register>(mut check: R, values: &[R]) -> R {
+fn check_finite<T: Real, R: Simd<T>>(mut check: R, values: &[R]) -> R {
     for value in values {
         // Infinity times zero is NaN.
         check = value.mul_add(R::from_f64(0.0), check);
@@ -82,7 +84,7 @@ fn check_finite<R: Register>(mut check: R, values: &[R]) -> R {
     check
 }
 
-impl<O: LaneOde<R::Lane>, R: Register> RightHandSide<R> for Systems<O, R> {
+impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Systems<O, T, R> {
     type Failure = Infallible;
     type Accepted = R::Mask;
 
@@ -130,32 +132,34 @@ impl<O: LaneOde<R::Lane>, R: Register> RightHandSide<R> for Systems<O, R> {
 }
 
 /// The method at work.
-pub struct PairInLanes<'a, M, O: LaneOde<R::Lane>, R: Register> {
-    system: Systems<O, R>,
-    options: &'a Options<R::Lane>,
+pub struct PairInLanes<'a, M, O: LaneOde<T>, T: Lane, R: Simd<T>> {
+    system: Systems<O, T, R>,
+    options: &'a Options<T>,
     stages: StepStages<R>,
-    controls: [StepControl<R::Lane>; WIDEST],
+    controls: [StepControl<T>; WIDEST],
     /// Scaled errors of the step.
-    errors: Numbers<R::Lane>,
+    errors: Numbers<T>,
     /// Zero where the state at the end is finite, NaN elsewhere.
-    finite_end: Numbers<R::Lane>,
+    finite_end: Numbers<T>,
     pair: PhantomData<M>,
 }
 
-impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> LaneSteps<R> for PairInLanes<'_, M, O, R> {
+impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
+    for PairInLanes<'_, M, O, T, R>
+{
     type System = O;
 
-    fn models(&mut self) -> &mut Models<O, R> {
+    fn models(&mut self) -> &mut Models<O, T, R> {
         &mut self.system.models
     }
 
-    fn set(&mut self, lane: usize, values: Option<&[R::Lane]>) {
+    fn set(&mut self, lane: usize, values: Option<&[T]>) {
         let stages = &mut self.stages;
         for i in 0..stages.start.len() {
-            let value = values.map_or(R::Lane::ZERO, |values| values[i]);
+            let value = values.map_or(T::ZERO, |values| values[i]);
             set_lane(&mut stages.start[i], lane, value);
-            set_lane(&mut stages.start_residue[i], lane, R::Lane::ZERO);
-            set_lane(&mut stages.rates[i], lane, R::Lane::ZERO);
+            set_lane(&mut stages.start_residue[i], lane, T::ZERO);
+            set_lane(&mut stages.rates[i], lane, T::ZERO);
         }
         self.controls[lane] = StepControl::new(M::CONTROL, self.options);
     }
@@ -169,7 +173,7 @@ impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> LaneSteps<R> for PairInL
     }
 
     #[inline(always)]
-    fn prepare(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags) {
+    fn prepare(&mut self, runs: &mut Runs<T>, fresh: &Flags) {
         if fresh.contains(&true) {
             self.first_steps(runs, fresh);
         }
@@ -186,7 +190,7 @@ impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> LaneSteps<R> for PairInL
     }
 
     #[inline(always)]
-    fn judge(&mut self, runs: &mut Runs<R::Lane>) -> Flags {
+    fn judge(&mut self, runs: &mut Runs<T>) -> Flags {
         let mut accepted = [false; WIDEST];
         let checks = [M::STAGES, M::STAGES + 1].map(|stage| numbers(self.system.checks[stage - 1]));
         for (lane, accepted) in accepted.iter_mut().enumerate().take(R::LANES) {
@@ -203,11 +207,7 @@ impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> LaneSteps<R> for PairInL
         let Ok(()) = self.stages.prepare_dense::<M, _>(&mut self.system, span);
     }
 
-    fn judge_dense(
-        &self,
-        runs: &mut Runs<R::Lane>,
-        lane: usize,
-    ) -> Result<(), (R::Lane, Vec<R::Lane>)> {
+    fn judge_dense(&self, runs: &mut Runs<T>, lane: usize) -> Result<(), (T, Vec<T>)> {
         let stages = M::NODES.len();
         if numbers(self.system.checks[stages - 1])[lane].is_finite() {
             runs.evaluations[lane] += (stages - M::STAGES - 1) as u64;
@@ -225,20 +225,15 @@ impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> LaneSteps<R> for PairInL
     #[inline(always)]
     fn advance(&mut self, accepted: R::Mask) {
         self.stages
-            .advance::<M, Systems<O, R>>(self.system.dimension(), accepted);
+            .advance::<M, Systems<O, T, R>>(self.system.dimension(), accepted);
     }
 }
 
-impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> PairInLanes<'_, M, O, R> {
+impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<'_, M, O, T, R> {
     /// Judges the step of a lane, as the driver of the plain method does, and
     /// chooses the next one. Returns true if it is accepted.
     #[inline(always)]
-    fn judge_lane(
-        &mut self,
-        runs: &mut Runs<R::Lane>,
-        lane: usize,
-        [stages, end_rates]: [R::Lane; 2],
-    ) -> bool {
+    fn judge_lane(&mut self, runs: &mut Runs<T>, lane: usize, [stages, end_rates]: [T; 2]) -> bool {
         let span = runs.span(lane);
         runs.next_step[lane] = runs.step[lane];
         if !stages.is_finite() {
@@ -252,11 +247,7 @@ impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> PairInLanes<'_, M, O, R>
         if M::ERROR_USES_END && finite && !self.judge_end(runs, lane, end_rates) {
             return false;
         }
-        let error = if finite {
-            self.errors[lane]
-        } else {
-            R::Lane::NAN
-        };
+        let error = if finite { self.errors[lane] } else { T::NAN };
         let planned = (runs.step[lane], runs.last[lane]);
         let next = match self.controls[lane].judge(error, span.step.abs(), planned) {
             Verdict::Accepted(next) => next,
@@ -276,7 +267,7 @@ impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> PairInLanes<'_, M, O, R>
     /// Counts the rates at the end of a lane's step. Ends the trajectory and returns
     /// false if they are not finite.
     #[inline(always)]
-    fn judge_end(&self, runs: &mut Runs<R::Lane>, lane: usize, check: R::Lane) -> bool {
+    fn judge_end(&self, runs: &mut Runs<T>, lane: usize, check: T) -> bool {
         runs.evaluations[lane] += 1;
         if !check.is_finite() {
             let place = (runs.end_time[lane], numbers_in(&self.stages.end, lane));
@@ -287,7 +278,7 @@ impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> PairInLanes<'_, M, O, R>
 
     /// Ends the trajectory of a lane at a place where something is not finite.
     #[cold]
-    fn fail(&self, runs: &mut Runs<R::Lane>, lane: usize, place: (R::Lane, Vec<R::Lane>)) {
+    fn fail(&self, runs: &mut Runs<T>, lane: usize, place: (T, Vec<T>)) {
         let last = State {
             time: runs.time[lane],
             values: numbers_in(&self.stages.start, lane),
@@ -304,7 +295,7 @@ impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> PairInLanes<'_, M, O, R>
 
     /// Time and state of a stage in a lane.
     #[cold]
-    fn place(&self, lane: usize, span: StepSpan<R::Lane>, stage: usize) -> (R::Lane, Vec<R::Lane>) {
+    fn place(&self, lane: usize, span: StepSpan<T>, stage: usize) -> (T, Vec<T>) {
         let (stages, n) = (&self.stages, self.system.dimension());
         // Operations as in the step, for equal bits.
         let span = StepSpan {
@@ -322,7 +313,7 @@ impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> PairInLanes<'_, M, O, R>
     /// The first stage and the first step of fresh trajectories. The other lanes
     /// go through it too, and keep what they have.
     #[inline(always)]
-    fn first_steps(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags) {
+    fn first_steps(&mut self, runs: &mut Runs<T>, fresh: &Flags) {
         let (system, stages) = (&mut self.system, &mut self.stages);
         let others = stages.start_rates().to_vec();
         let Ok(()) = stages.evaluate_start(system, register(&runs.time));
@@ -334,13 +325,13 @@ impl<M: EmbeddedPair, O: LaneOde<R::Lane>, R: Register> PairInLanes<'_, M, O, R>
         let state = numbers(stages.norm(system, &stages.start));
         let rates = numbers(stages.norm(system, stages.start_rates()));
         let limits = StepLimits::new(self.options);
-        let first = |lane: usize, runs: &Runs<R::Lane>| FirstStep {
+        let first = |lane: usize, runs: &Runs<T>| FirstStep {
             state: state[lane],
             rates: rates[lane],
             longest: limits.limit((runs.end[lane] - runs.time[lane]).abs()),
         };
         let fresh = || (0..R::LANES).filter(|&lane| fresh[lane]);
-        let mut euler = [R::Lane::ZERO; WIDEST];
+        let mut euler = [T::ZERO; WIDEST];
         for lane in fresh() {
             runs.evaluations[lane] += 1;
             if !finite[lane].is_finite() {

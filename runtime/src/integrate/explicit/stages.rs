@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 
 use super::pair::EmbeddedPair;
 use crate::integrate::options::{Options, Tolerance};
-use crate::integrate::sum::two_sum;
+use crate::scalar::two_sum;
 use crate::scalar::{Real, Scalar};
 
 /// Stages of the pair that has most.

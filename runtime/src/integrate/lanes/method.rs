@@ -11,7 +11,7 @@ use crate::integrate::error::InputError;
 use crate::integrate::explicit::StepSpan;
 use crate::integrate::options::Options;
 use crate::scalar::Lane;
-use crate::scalar::register::Register;
+use crate::simd::Simd;
 use crate::system::LaneOde;
 
 /// A method that integrates systems of the type `O` in the lanes of vector
@@ -28,7 +28,7 @@ use crate::system::LaneOde;
 pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
     /// The method at work.
     #[doc(hidden)]
-    type Steps<'a, R: Register<Lane = T>>: LaneSteps<R, System = O>
+    type Steps<'a, R: Simd<T>>: LaneSteps<T, R, System = O>
     where
         Self: 'a;
 
@@ -44,20 +44,20 @@ pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
 
     /// Its memory, with this system in every lane.
     #[doc(hidden)]
-    fn steps<'a, R: Register<Lane = T>>(&'a self, system: &O) -> Self::Steps<'a, R>;
+    fn steps<'a, R: Simd<T>>(&'a self, system: &O) -> Self::Steps<'a, R>;
 }
 
 /// A method at work, with a state in each lane.
-pub trait LaneSteps<R: Register> {
+pub trait LaneSteps<T: Lane, R: Simd<T>> {
     /// Whose motion it steps along.
-    type System: LaneOde<R::Lane>;
+    type System: LaneOde<T>;
 
     /// The systems in the lanes.
-    fn models(&mut self) -> &mut Models<Self::System, R>;
+    fn models(&mut self) -> &mut Models<Self::System, T, R>;
 
     /// Puts a state into a lane. Without one the lane gets zeros, of which
     /// sines and cosines are sooner done than of what is not finite.
-    fn set(&mut self, lane: usize, values: Option<&[R::Lane]>);
+    fn set(&mut self, lane: usize, values: Option<&[T]>);
 
     /// The states at the start of the step.
     fn start(&self) -> &[R];
@@ -67,14 +67,14 @@ pub trait LaneSteps<R: Register> {
 
     /// Chooses steps as far as the step before has not; `fresh` lanes have not
     /// made one.
-    fn prepare(&mut self, runs: &mut Runs<R::Lane>, fresh: &Flags);
+    fn prepare(&mut self, runs: &mut Runs<T>, fresh: &Flags);
 
     /// Makes a step in all lanes; `size` is its length.
     fn attempt(&mut self, span: StepSpan<R>, size: R);
 
     /// Judges the steps that were made: counts them, chooses the next ones where
     /// these follow from them, and returns which are accepted.
-    fn judge(&mut self, runs: &mut Runs<R::Lane>) -> Flags;
+    fn judge(&mut self, runs: &mut Runs<T>) -> Flags;
 
     /// Computes what values inside the step need.
     fn prepare_dense(&mut self, span: StepSpan<R>);
@@ -83,11 +83,7 @@ pub trait LaneSteps<R: Register> {
     ///
     /// # Errors
     /// Time and state where the rates are not finite.
-    fn judge_dense(
-        &self,
-        runs: &mut Runs<R::Lane>,
-        lane: usize,
-    ) -> Result<(), (R::Lane, Vec<R::Lane>)>;
+    fn judge_dense(&self, runs: &mut Runs<T>, lane: usize) -> Result<(), (T, Vec<T>)>;
 
     /// Writes the solutions at these fractions of the steps.
     fn value(&self, fraction: R, out: &mut [R]);

@@ -29,9 +29,8 @@ use self::samples::LaneSamples;
 use super::error::InputError;
 use super::explicit::StepSpan;
 use super::request::{check_start, check_times};
-use crate::scalar::dispatch::{self, RegisterKernel};
-use crate::scalar::register::Register;
 use crate::scalar::{InstructionSet, Lane};
+use crate::simd::{Kernel, Simd, dispatch};
 use crate::system::{LaneOde, State};
 
 /// A request for all trajectories.
@@ -69,7 +68,7 @@ struct LaneDriver<'a, M, O, T, N, D> {
     done: D,
 }
 
-impl<M, O, T, N, D> RegisterKernel<T> for LaneDriver<'_, M, O, T, N, D>
+impl<M, O, T, N, D> Kernel<T> for LaneDriver<'_, M, O, T, N, D>
 where
     M: LaneMethod<O, T>,
     O: LaneOde<T>,
@@ -80,7 +79,7 @@ where
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Register<Lane = T>>(mut self) {
+    fn run<R: Simd<T>>(mut self) {
         // Without any there is nothing to do.
         let Some((first, _)) = self.task.cases.get(0) else {
             return;
@@ -147,9 +146,9 @@ where
 
     /// Gives a case to every lane without a trajectory, as long as there are any.
     /// Returns which have got one.
-    fn fill<R: Register<Lane = T>>(
+    fn fill<R: Simd<T>>(
         &mut self,
-        steps: &mut impl LaneSteps<R, System = O>,
+        steps: &mut impl LaneSteps<T, R, System = O>,
         runs: &mut Runs<T>,
     ) -> Flags {
         let mut fresh = [false; WIDEST];
@@ -184,9 +183,9 @@ where
     /// Time and step of every lane, and the lengths of the steps. Trajectories
     /// that may not go on leave their lanes.
     #[inline(always)]
-    fn plan<R: Register<Lane = T>>(
+    fn plan<R: Simd<T>>(
         &mut self,
-        steps: &mut impl LaneSteps<R, System = O>,
+        steps: &mut impl LaneSteps<T, R, System = O>,
         runs: &mut Runs<T>,
     ) -> (StepSpan<R>, R) {
         let options = self.task.method.options();
@@ -214,9 +213,9 @@ where
 
     /// Hands over the trajectories that have failed.
     #[inline(always)]
-    fn hand_over_failed<R: Register<Lane = T>>(
+    fn hand_over_failed<R: Simd<T>>(
         &mut self,
-        steps: &mut impl LaneSteps<R, System = O>,
+        steps: &mut impl LaneSteps<T, R, System = O>,
         runs: &mut Runs<T>,
     ) {
         while let Some((lane, index, outcome)) = runs.take_failed() {
@@ -230,9 +229,9 @@ where
     /// One that failed in motion might fail at rest too, and slow down the other
     /// lanes.
     #[cold]
-    fn replace_model<R: Register<Lane = T>>(
+    fn replace_model<R: Simd<T>>(
         &self,
-        steps: &mut impl LaneSteps<R, System = O>,
+        steps: &mut impl LaneSteps<T, R, System = O>,
         runs: &Runs<T>,
         lane: usize,
     ) {
@@ -246,7 +245,7 @@ where
     }
 
     /// Hands over the trajectories that have reached the end.
-    fn finish<R: Register<Lane = T>>(&mut self, steps: &mut impl LaneSteps<R>, runs: &mut Runs<T>) {
+    fn finish<R: Simd<T>>(&mut self, steps: &mut impl LaneSteps<T, R>, runs: &mut Runs<T>) {
         for lane in 0..R::LANES {
             if runs.active[lane] && runs.time[lane] == runs.end[lane] {
                 let values = registers::numbers_in(steps.start(), lane);

@@ -9,8 +9,8 @@ use core::cell::Cell;
 
 use super::registers::set_lane;
 use crate::integrate::error::InputError;
-use crate::scalar::Scalar;
-use crate::scalar::register::Register;
+use crate::scalar::{Lane, Scalar};
+use crate::simd::Simd;
 use crate::system::LaneOde;
 
 /// The systems of all lanes, as one system whose constants are registers.
@@ -18,7 +18,7 @@ use crate::system::LaneOde;
 /// Constants are known by their place in the order in which
 /// [`LaneOde::on_scalar`] converts them: that of one model goes into its lane of
 /// the register at the same place.
-pub struct Models<O: LaneOde<R::Lane>, R: Register> {
+pub struct Models<O: LaneOde<T>, T: Lane, R: Simd<T>> {
     /// All of them at once.
     pub(crate) registers: O::Of<R>,
     /// Its constants in their order.
@@ -27,7 +27,7 @@ pub struct Models<O: LaneOde<R::Lane>, R: Register> {
     shape: usize,
 }
 
-impl<O: LaneOde<R::Lane>, R: Register> Models<O, R> {
+impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
     /// Puts one system into every lane.
     pub(crate) fn splat(system: &O) -> Self {
         let mut constants = vec![R::from_f64(0.0); count(system)];
@@ -53,7 +53,7 @@ impl<O: LaneOde<R::Lane>, R: Register> Models<O, R> {
     ///
     /// # Errors
     /// It differs from the first one in more than constants.
-    pub(crate) fn set(&mut self, lane: usize, system: &O) -> Result<(), InputError<R::Lane>> {
+    pub(crate) fn set(&mut self, lane: usize, system: &O) -> Result<(), InputError<T>> {
         let (expected, found) = (self.dimension, system.dimension());
         if expected != found {
             return Err(InputError::Dimension { expected, found });
@@ -85,10 +85,10 @@ fn count<T: Scalar, O: LaneOde<T>>(system: &O) -> usize {
 
 /// Changes every register by the constant that belongs there, and makes a
 /// system of them.
-fn convert<O: LaneOde<R::Lane>, R: Register>(
+fn convert<O: LaneOde<T>, T: Lane, R: Simd<T>>(
     system: &O,
     constants: &mut [R],
-    change: impl Fn(R, R::Lane) -> R,
+    change: impl Fn(R, T) -> R,
 ) -> O::Of<R> {
     let constants = Cell::from_mut(constants).as_slice_of_cells();
     let next = Cell::new(0);

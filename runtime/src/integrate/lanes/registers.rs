@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::integrate::options::Options;
 use crate::scalar::Real;
-use crate::scalar::register::Register;
+use crate::simd::Simd;
 
 /// Numbers in the widest register.
 pub(crate) const WIDEST: usize = 16;
@@ -14,16 +14,16 @@ pub(crate) type Numbers<T> = [T; WIDEST];
 
 /// The numbers of a register.
 #[inline(always)]
-pub(crate) fn numbers<R: Register>(register: R) -> Numbers<R::Lane> {
+pub(crate) fn numbers<T: Real, R: Simd<T>>(register: R) -> Numbers<T> {
     const { assert!(R::LANES <= WIDEST) }
-    let mut numbers = [R::Lane::ZERO; WIDEST];
+    let mut numbers = [T::ZERO; WIDEST];
     register.store(&mut numbers);
     numbers
 }
 
 /// The register of these numbers.
 #[inline(always)]
-pub(crate) fn register<R: Register>(numbers: &Numbers<R::Lane>) -> R {
+pub(crate) fn register<T: Real, R: Simd<T>>(numbers: &Numbers<T>) -> R {
     const { assert!(R::LANES <= WIDEST) }
     match R::load(numbers) {
         Some(register) => register,
@@ -33,19 +33,19 @@ pub(crate) fn register<R: Register>(numbers: &Numbers<R::Lane>) -> R {
 }
 
 /// The numbers that these registers have in a lane.
-pub(crate) fn numbers_in<R: Register>(registers: &[R], lane: usize) -> Vec<R::Lane> {
+pub(crate) fn numbers_in<T: Real, R: Simd<T>>(registers: &[R], lane: usize) -> Vec<T> {
     registers.iter().map(|&r| numbers(r)[lane]).collect()
 }
 
 /// Writes them to `out`.
-pub(crate) fn copy_lane<R: Register>(registers: &[R], lane: usize, out: &mut [R::Lane]) {
+pub(crate) fn copy_lane<T: Real, R: Simd<T>>(registers: &[R], lane: usize, out: &mut [T]) {
     for (out, &register) in out.iter_mut().zip(registers) {
         *out = numbers(register)[lane];
     }
 }
 
 /// Changes one of the numbers.
-pub(crate) fn set_lane<R: Register>(target: &mut R, lane: usize, value: R::Lane) {
+pub(crate) fn set_lane<T: Real, R: Simd<T>>(target: &mut R, lane: usize, value: T) {
     let mut changed = numbers(*target);
     changed[lane] = value;
     *target = register(&changed);
@@ -64,8 +64,8 @@ pub(crate) fn smallest_divisor<T: Real>() -> T {
 /// Tolerances of each component in every lane: relative ones, and absolute ones
 /// that are not zero. Where a component is exactly zero by symmetry, its error is
 /// too: zero over the smallest number, not over zero.
-pub(crate) fn tolerances<R: Register>(
-    options: &Options<R::Lane>,
+pub(crate) fn tolerances<T: Real, R: Simd<T>>(
+    options: &Options<T>,
     dimension: usize,
 ) -> (Vec<R>, Vec<R>) {
     let smallest = smallest_divisor();

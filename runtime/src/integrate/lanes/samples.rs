@@ -7,21 +7,21 @@ use super::method::LaneSteps;
 use super::registers::{Numbers, WIDEST, copy_lane, numbers_in, register};
 use super::runs::{Flags, Runs};
 use crate::integrate::explicit::StepSpan;
-use crate::scalar::Real;
-use crate::scalar::register::Register;
+use crate::scalar::Lane;
+use crate::simd::Simd;
 use crate::system::State;
 
 /// Room for one state in each lane.
-pub(super) struct LaneSamples<R: Register> {
+pub(super) struct LaneSamples<T, R> {
     values: Vec<R>,
-    one: Vec<R::Lane>,
+    one: Vec<T>,
 }
 
-impl<R: Register> LaneSamples<R> {
+impl<T: Lane, R: Simd<T>> LaneSamples<T, R> {
     pub(super) fn new(dimension: usize) -> Self {
         Self {
             values: vec![R::from_f64(0.0); dimension],
-            one: vec![R::Lane::ZERO; dimension],
+            one: vec![T::ZERO; dimension],
         }
     }
 
@@ -30,15 +30,15 @@ impl<R: Register> LaneSamples<R> {
     #[inline(always)]
     pub(super) fn take(
         &mut self,
-        steps: &mut impl LaneSteps<R>,
-        runs: &mut Runs<R::Lane>,
-        times: &[R::Lane],
+        steps: &mut impl LaneSteps<T, R>,
+        runs: &mut Runs<T>,
+        times: &[T],
         accepted: &Flags,
         span: StepSpan<R>,
     ) {
         let (mut prepared, mut judged) = (false, [false; WIDEST]);
         loop {
-            let mut fraction: Numbers<R::Lane> = [R::Lane::ZERO; WIDEST];
+            let mut fraction: Numbers<T> = [T::ZERO; WIDEST];
             let mut inside = [false; WIDEST];
             for lane in (0..R::LANES).filter(|&lane| accepted[lane]) {
                 while runs.active[lane]

@@ -15,14 +15,14 @@ use crate::integrate::lanes::registers::{
 };
 use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
 use crate::integrate::options::Options;
-use crate::integrate::sum::two_sum;
-use crate::scalar::register::Register;
-use crate::scalar::{Lane, Real};
+use crate::scalar::Lane;
+use crate::scalar::two_sum;
+use crate::simd::Simd;
 use crate::simd::{Part, Quad, outlined};
 use crate::system::{AbsoluteAngles, Cast, State, TaylorPendulum};
 
 impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<T> {
-    type Steps<'a, R: Register<Lane = T>> = TaylorInLanes<'a, P, R>;
+    type Steps<'a, R: Simd<T>> = TaylorInLanes<'a, P, T, R>;
 
     fn options(&self) -> &Options<T> {
         &self.options
@@ -32,10 +32,7 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<
         self.check_options()
     }
 
-    fn steps<'a, R: Register<Lane = T>>(
-        &'a self,
-        system: &AbsoluteAngles<P>,
-    ) -> TaylorInLanes<'a, P, R> {
+    fn steps<'a, R: Simd<T>>(&'a self, system: &AbsoluteAngles<P>) -> TaylorInLanes<'a, P, T, R> {
         let (n, order) = (2 * P::LINKS, self.order());
         let zero = R::from_f64(0.0);
         let (relative, absolute) = tolerances(&self.options, n);
@@ -62,8 +59,8 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<
 type Expansion<'a, R> = (R, &'a [R], &'a mut [R], &'a mut [Quad<R>]);
 
 /// In a function of its own, with registers of its own.
-impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>>
-    for Models<AbsoluteAngles<P>, R>
+impl<'a, P: TaylorPendulum<T>, T: Lane, R: Simd<T>> Part<0, Expansion<'a, R>>
+    for Models<AbsoluteAngles<P>, T, R>
 {
     type Output = ();
 
@@ -77,11 +74,11 @@ impl<'a, P: TaylorPendulum<R::Lane>, R: Register> Part<0, Expansion<'a, R>>
 }
 
 /// The method at work: its polynomials, and what it works on.
-pub struct TaylorInLanes<'a, P: Cast<R::Lane>, R: Register> {
-    models: Models<AbsoluteAngles<P>, R>,
-    options: &'a Options<R::Lane>,
+pub struct TaylorInLanes<'a, P: Cast<T>, T: Lane, R: Simd<T>> {
+    models: Models<AbsoluteAngles<P>, T, R>,
+    options: &'a Options<T>,
     order: usize,
-    safety: R::Lane,
+    safety: T,
     relative: Vec<R>,
     absolute: Vec<R>,
     start: Vec<R>,
@@ -96,10 +93,10 @@ pub struct TaylorInLanes<'a, P: Cast<R::Lane>, R: Register> {
     /// Lengths of the steps, with their signs.
     step: R,
     /// Zero where the end is finite, NaN elsewhere.
-    finite: Numbers<R::Lane>,
+    finite: Numbers<T>,
 }
 
-impl<P: Cast<R::Lane>, R: Register> TaylorInLanes<'_, P, R> {
+impl<P: Cast<T>, T: Lane, R: Simd<T>> TaylorInLanes<'_, P, T, R> {
     /// Zero where all these numbers are finite, NaN elsewhere.
     #[inline(always)]
     fn check(values: &[R]) -> R {
@@ -153,7 +150,7 @@ impl<P: Cast<R::Lane>, R: Register> TaylorInLanes<'_, P, R> {
 
     /// Ends the trajectory of a lane whose end is not finite.
     #[cold]
-    fn fail(&self, runs: &mut Runs<R::Lane>, lane: usize) {
+    fn fail(&self, runs: &mut Runs<T>, lane: usize) {
         let start = self.state(lane, runs.time[lane]);
         // What is not finite further down shows in the end of the step.
         let place = if numbers(Self::check(&self.coefficients))[lane].is_finite() {
@@ -164,7 +161,7 @@ impl<P: Cast<R::Lane>, R: Register> TaylorInLanes<'_, P, R> {
         runs.non_finite(lane, place, start);
     }
 
-    fn state(&self, lane: usize, time: R::Lane) -> State<R::Lane> {
+    fn state(&self, lane: usize, time: T) -> State<T> {
         State {
             time,
             values: numbers_in(&self.start, lane),
@@ -172,18 +169,18 @@ impl<P: Cast<R::Lane>, R: Register> TaylorInLanes<'_, P, R> {
     }
 }
 
-impl<P: TaylorPendulum<R::Lane>, R: Register> LaneSteps<R> for TaylorInLanes<'_, P, R> {
+impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLanes<'_, P, T, R> {
     type System = AbsoluteAngles<P>;
 
-    fn models(&mut self) -> &mut Models<AbsoluteAngles<P>, R> {
+    fn models(&mut self) -> &mut Models<AbsoluteAngles<P>, T, R> {
         &mut self.models
     }
 
-    fn set(&mut self, lane: usize, values: Option<&[R::Lane]>) {
+    fn set(&mut self, lane: usize, values: Option<&[T]>) {
         for i in 0..self.start.len() {
-            let value = values.map_or(R::Lane::ZERO, |values| values[i]);
+            let value = values.map_or(T::ZERO, |values| values[i]);
             set_lane(&mut self.start[i], lane, value);
-            set_lane(&mut self.start_residue[i], lane, R::Lane::ZERO);
+            set_lane(&mut self.start_residue[i], lane, T::ZERO);
         }
     }
 
@@ -196,7 +193,7 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> LaneSteps<R> for TaylorInLanes<'_,
     }
 
     #[inline(always)]
-    fn prepare(&mut self, runs: &mut Runs<R::Lane>, _fresh: &Flags) {
+    fn prepare(&mut self, runs: &mut Runs<T>, _fresh: &Flags) {
         outlined::<0, R, _, _>(
             &self.models,
             (
@@ -209,15 +206,12 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> LaneSteps<R> for TaylorInLanes<'_,
         let n = 2 * P::LINKS;
         let finite = numbers(Self::check(&self.coefficients[(self.order - 1) * n..]));
         let [before, last] = self.last_two().map(numbers);
-        let roots = least_inverse_roots::<R::Lane, WIDEST>(
+        let roots = least_inverse_roots::<T, WIDEST>(
             R::LANES,
             (&before, self.order - 1),
             (&last, self.order),
         );
-        let longest = self
-            .options
-            .max_step
-            .unwrap_or(R::Lane::ONE / R::Lane::ZERO);
+        let longest = self.options.max_step.unwrap_or(T::ONE / T::ZERO);
         let first = self
             .options
             .initial_step
@@ -268,7 +262,7 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> LaneSteps<R> for TaylorInLanes<'_,
     }
 
     #[inline(always)]
-    fn judge(&mut self, runs: &mut Runs<R::Lane>) -> Flags {
+    fn judge(&mut self, runs: &mut Runs<T>) -> Flags {
         let mut accepted = [false; WIDEST];
         for lane in 0..R::LANES {
             accepted[lane] = runs.active[lane] & self.finite[lane].is_finite();
@@ -286,11 +280,7 @@ impl<P: TaylorPendulum<R::Lane>, R: Register> LaneSteps<R> for TaylorInLanes<'_,
 
     fn prepare_dense(&mut self, _span: StepSpan<R>) {}
 
-    fn judge_dense(
-        &self,
-        _runs: &mut Runs<R::Lane>,
-        _lane: usize,
-    ) -> Result<(), (R::Lane, Vec<R::Lane>)> {
+    fn judge_dense(&self, _runs: &mut Runs<T>, _lane: usize) -> Result<(), (T, Vec<T>)> {
         Ok(())
     }
 

@@ -1,8 +1,8 @@
 //! Sums of the polynomial, and the size of its last terms, in the vector
 //! instructions that the machine has for the numbers.
 
-use crate::scalar::Real;
-use crate::simd::{Pack, PackKernel, Quad, two_sum};
+use crate::scalar::{Real, two_sum};
+use crate::simd::{Kernel, Quad, Simd};
 
 /// Writes `start` + Σ y\[k\] τᵏ over k ≥ 1.
 pub(in crate::integrate) struct Ahead<'a, T> {
@@ -15,9 +15,11 @@ pub(in crate::integrate) struct Ahead<'a, T> {
     pub(in crate::integrate) residues: Option<(&'a [T], &'a mut [T])>,
 }
 
-impl<T: Real> PackKernel<T> for Ahead<'_, T> {
+impl<T: Real> Kernel<T> for Ahead<'_, T> {
+    type Output = ();
+
     #[inline(always)]
-    fn run<P: Pack<T>>(mut self) {
+    fn run<P: Simd<T>>(mut self) {
         let n = self.start.len();
         let mut first = 0;
         while first + 4 <= n {
@@ -40,7 +42,7 @@ impl<T: Real> Ahead<'_, T> {
     /// and odd k > 1 apart. With residues, the rounding errors of the sum with
     /// y\[1\] and of the product with τ are kept as well.
     #[inline(always)]
-    fn block<P: Pack<T>, const W: usize>(&mut self, first: usize) {
+    fn block<P: Simd<T>, const W: usize>(&mut self, first: usize) {
         let n = self.start.len();
         let zero = P::splat(T::ZERO);
         let (tau, square) = (P::splat(self.tau), P::splat(self.tau * self.tau));
@@ -57,24 +59,22 @@ impl<T: Real> Ahead<'_, T> {
             odd = load::<T, P, W>(pair, n + first).plus_product(odd, square);
         }
         // Σ y[k] τᵏ⁻¹ over k ≥ 2
-        let rest = even.plus_product(odd, tau).times(tau);
+        let rest = even.plus_product(odd, tau) * tau;
         let start = load::<T, P, W>(self.start, first);
         let end = match &mut self.residues {
             Some((residue, rounding)) => {
                 let (slope, slope_error) = two_sum(linear, rest);
-                let increment = slope.times(tau);
+                let increment = slope * tau;
                 let (sum, sum_error) = two_sum(start, increment);
-                let error = zero
-                    .minus(increment)
+                let error = (zero - increment)
                     .plus_product(slope, tau)
-                    .plus_product(slope_error, tau)
-                    .plus(load::<T, P, W>(residue, first))
-                    .plus(sum_error);
-                let end = sum.plus(error);
-                store::<T, P, W>(error.minus(end.minus(sum)), rounding, first);
+                    .plus_product(slope_error, tau);
+                let error = error + load::<T, P, W>(residue, first) + sum_error;
+                let end = sum + error;
+                store::<T, P, W>(error - (end - sum), rounding, first);
                 end
             }
-            None => start.plus(linear.plus(rest).times(tau)),
+            None => start + (linear + rest) * tau,
         };
         store::<T, P, W>(end, self.end, first);
     }
@@ -91,9 +91,11 @@ pub(super) struct LastTerms<'a, T> {
     pub(super) ratios: &'a mut [T; 2],
 }
 
-impl<T: Real> PackKernel<T> for LastTerms<'_, T> {
+impl<T: Real> Kernel<T> for LastTerms<'_, T> {
+    type Output = ();
+
     #[inline(always)]
-    fn run<P: Pack<T>>(self) {
+    fn run<P: Simd<T>>(self) {
         let mut largest = [[T::ZERO; 4]; 2];
         let n = self.start.len();
         let mut first = 0;
@@ -144,17 +146,17 @@ fn window<T: Real, const W: usize>(values: &[T], first: usize) -> [T; W] {
 }
 
 #[inline(always)]
-fn load<T: Real, P: Pack<T>, const W: usize>(values: &[T], first: usize) -> P {
+fn load<T: Real, P: Simd<T>, const W: usize>(values: &[T], first: usize) -> P {
     let values = window::<T, W>(values, first);
     let mut quad = [Quad([T::ZERO; 4])];
     quad[0].0[..W].copy_from_slice(&values);
-    P::load(&quad, 0)
+    P::load_quad(&quad, 0)
 }
 
 #[inline(always)]
-fn store<T: Real, P: Pack<T>, const W: usize>(pack: P, values: &mut [T], first: usize) {
+fn store<T: Real, P: Simd<T>, const W: usize>(pack: P, values: &mut [T], first: usize) {
     let mut quad = [Quad([T::ZERO; 4])];
-    pack.store(&mut quad, 0);
+    pack.store_quad(&mut quad, 0);
     if let Some(place) = values
         .get_mut(first..)
         .and_then(<[T]>::first_chunk_mut::<W>)

@@ -14,7 +14,8 @@ use crate::integrate::piece::{Form, Piece};
 use crate::integrate::request::all_finite;
 use crate::integrate::steps::{Failure, Goal, StepLimits, Steps};
 use crate::scalar::Real;
-use crate::simd::{Quad, run_packs};
+use crate::simd::Quad;
+use crate::simd::dispatch::in_fours;
 use crate::system::TaylorOde;
 
 /// The method at work on states of one dimension, with polynomials of one order.
@@ -72,7 +73,7 @@ impl<T: Real> TaylorSteps<T> {
     fn step_length(&self) -> T {
         let n = self.start.len();
         let mut ratios = [T::ZERO; 2];
-        run_packs::<T, _>(LastTerms {
+        in_fours::<T, _>(LastTerms {
             coefficients: &self.coefficients[(self.order - 1) * n..],
             start: &self.start,
             relative: &self.relative,
@@ -95,7 +96,7 @@ impl<T: Real> TaylorSteps<T> {
     fn make(&mut self, step: T) {
         self.step = step;
         let residues = (&self.start_residue[..], &mut self.end_residue[..]);
-        run_packs::<T, _>(Ahead {
+        in_fours::<T, _>(Ahead {
             coefficients: &self.coefficients,
             tau: step,
             start: &self.start,

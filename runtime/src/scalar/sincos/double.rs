@@ -41,12 +41,12 @@ pub(super) const COSINE: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// What one written order of operations computes with: a number, or several in
-/// one register.
-pub(crate) trait Pack:
+/// A number, or several in one register, that sines are computed with in one written
+/// order of operations.
+pub(crate) trait UnfusedNumber:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
-    /// The same number everywhere.
+    /// Returns one number everywhere.
     fn splat(value: f64) -> Self;
 
     /// The results of a turn by a number of quarters, which stands in the lowest
@@ -55,7 +55,7 @@ pub(crate) trait Pack:
     fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self);
 }
 
-impl Pack for f64 {
+impl UnfusedNumber for f64 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         value
@@ -102,7 +102,7 @@ pub(crate) fn sin_cos_f64<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; 
     (sines, cosines)
 }
 
-/// The same, with angles outside the common range among them.
+/// Sines and cosines with angles outside the common range among them.
 #[inline(always)]
 pub(crate) fn far<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
     // Copies for this block alone: were angles and results themselves lent out,
@@ -134,7 +134,7 @@ fn beyond<const N: usize>(angles: [f64; N], sines: &mut [f64; N], cosines: &mut 
 
 /// Cody and Waite's reduction, for the common range.
 #[inline(always)]
-pub(crate) fn reduce<P: Pack>(angle: P) -> Reduced<P> {
+pub(crate) fn reduce<P: UnfusedNumber>(angle: P) -> Reduced<P> {
     let quarter = angle * P::splat(FRAC_2_PI) + P::splat(ROUND);
     let n = quarter - P::splat(ROUND);
     // Both products and the first difference are exact.
@@ -151,7 +151,7 @@ pub(crate) fn reduce<P: Pack>(angle: P) -> Reduced<P> {
 
 /// Sine and cosine of quarter turns plus a small angle.
 #[inline(always)]
-pub(crate) fn turn<P: Pack>(angle: Reduced<P>) -> (P, P) {
+pub(crate) fn turn<P: UnfusedNumber>(angle: Reduced<P>) -> (P, P) {
     let Reduced { quarter, high, low } = angle;
     let square = high * high;
     let fourth = square * square;

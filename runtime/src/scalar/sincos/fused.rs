@@ -14,10 +14,12 @@ use super::super::turns::Turned;
 use super::super::{Lane, Scalar};
 use super::reduction;
 use super::tail::{self, Tail, for_each};
-use crate::simd::{Fused, Register, Simd};
+use crate::simd::{Fused, Simd};
 
-/// What one order of operations computes with.
-pub trait Pack: Register<Lane: Float> {
+/// A number, or several in one register, that sines are computed with.
+pub trait FusingNumber: Simd<Self::Lane> {
+    /// A number in it.
+    type Lane: Float;
     /// As many numbers as it has lanes.
     type Array: Copy + AsRef<[Self::Lane]> + AsMut<[Self::Lane]>;
 
@@ -30,10 +32,10 @@ pub trait Pack: Register<Lane: Float> {
     /// The bits of `self`, and those in which two others differ.
     fn or_differing(self, one: Self, other: Self) -> Self;
 
-    /// Whether none of the bits [`Float::ABOVE`] is set.
+    /// Returns true if none of the bits [`Float::ABOVE`] is set.
     fn only_low_bits(self) -> bool;
 
-    /// Whether all numbers are below `limit`.
+    /// Returns true if all numbers are below `limit`.
     fn all_below(self, limit: Self::Lane) -> bool;
 
     /// From numbers in their order.
@@ -46,9 +48,9 @@ pub trait Pack: Register<Lane: Float> {
 /// The constants of one precision.
 pub trait Float: Lane {
     /// One that fuses.
-    type One: Pack<Lane = Self>;
+    type One: FusingNumber<Lane = Self>;
     /// As many as a register of AVX2 holds.
-    type Several: Pack<Lane = Self>;
+    type Several: FusingNumber<Lane = Self>;
     /// A little less than the common range, which has as many quarter turns as have
     /// been examined for how close an angle comes to them.
     const LIMIT: Self;
@@ -168,7 +170,7 @@ const GROUP: usize = 4;
 /// Sines and cosines in the common range. Bits above the lowest are set in `seen`
 /// where an angle is outside.
 #[inline(always)]
-fn common<P: Pack, const G: usize>(angles: [P; G], seen: &mut P) -> ([P; G], [P; G]) {
+fn common<P: FusingNumber, const G: usize>(angles: [P; G], seen: &mut P) -> ([P; G], [P; G]) {
     let [part_1, part_2, part_3] = P::Lane::HALF_PI;
     let (part_1, part_2, part_3) = (P::splat(part_1), P::splat(part_2), P::splat(part_3));
     let round = P::splat(P::Lane::ROUND);
@@ -192,7 +194,11 @@ fn common<P: Pack, const G: usize>(angles: [P; G], seen: &mut P) -> ([P; G], [P;
 /// Sines and cosines of quarter turns plus `high − low`. What is awaited longest
 /// needs `high` alone; `low` comes in late.
 #[inline(always)]
-fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) -> ([P; G], [P; G]) {
+fn turn<P: FusingNumber, const G: usize>(
+    quarters: [P; G],
+    high: [P; G],
+    low: [P; G],
+) -> ([P; G], [P; G]) {
     let one = P::from_f64(1.0);
     let half = P::from_f64(-0.5);
     let square = for_each!(one; i => high[i] * high[i]);
@@ -214,7 +220,7 @@ fn turn<P: Pack, const G: usize>(quarters: [P; G], high: [P; G], low: [P; G]) ->
 
 /// Sines and cosines of angles in registers.
 #[inline(always)]
-pub(crate) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
+pub(crate) fn each<P: FusingNumber, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N]) {
     let zero = [P::from_f64(0.0); N];
     let (mut sines, mut cosines) = (zero, zero);
     if !groups(angles, &mut sines, &mut cosines) {
@@ -228,9 +234,9 @@ pub(crate) fn each<P: Pack, const N: usize>(angles: &[P; N]) -> ([P; N], [P; N])
     (sines, cosines)
 }
 
-/// Whether all angles are in the common range.
+/// Returns true if all angles are in the common range.
 #[inline(always)]
-fn all_near<P: Pack>(angles: &[P]) -> bool {
+fn all_near<P: FusingNumber>(angles: &[P]) -> bool {
     // What is no number may get lost here: its sine is none in either way.
     let mut largest = P::from_f64(0.0);
     for &angle in angles {
@@ -241,7 +247,7 @@ fn all_near<P: Pack>(angles: &[P]) -> bool {
 
 /// Those of all angles, if one of them is outside the common range.
 #[inline(always)]
-pub(crate) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Option<Turned<P, N>> {
+pub(crate) fn ahead<P: FusingNumber, const N: usize>(angles: &[P; N]) -> Option<Turned<P, N>> {
     if all_near(angles) {
         return None;
     }
@@ -255,13 +261,13 @@ pub(crate) fn ahead<P: Pack, const N: usize>(angles: &[P; N]) -> Option<Turned<P
 
 /// Those of angles in the common range, computed together.
 #[inline(always)]
-pub(crate) fn near<P: Pack, const N: usize>(angles: &[P; N]) -> Turned<P, N> {
+pub(crate) fn near<P: FusingNumber, const N: usize>(angles: &[P; N]) -> Turned<P, N> {
     common(*angles, &mut P::from_f64(0.0))
 }
 
 /// Sines and cosines, if all angles are in the common range.
 #[inline(always)]
-fn groups<P: Pack>(angles: &[P], sines: &mut [P], cosines: &mut [P]) -> bool {
+fn groups<P: FusingNumber>(angles: &[P], sines: &mut [P], cosines: &mut [P]) -> bool {
     let mut seen = P::from_f64(0.0);
     let mut start = 0;
     while start + GROUP <= angles.len() {
@@ -279,7 +285,7 @@ fn groups<P: Pack>(angles: &[P], sines: &mut [P], cosines: &mut [P]) -> bool {
 
 /// The `G` angles from `start` on.
 #[inline(always)]
-fn group<P: Pack, const G: usize>(
+fn group<P: FusingNumber, const G: usize>(
     angles: &[P],
     sines: &mut [P],
     cosines: &mut [P],
@@ -293,10 +299,14 @@ fn group<P: Pack, const G: usize>(
     }
 }
 
-/// The same one by one, with angles outside the common range among them.
+/// Sines and cosines one by one, with angles outside the common range among them.
 #[cold]
 #[inline(never)]
-fn beyond<P: Pack, const N: usize>(angles: &[P; N], sines: &mut [P; N], cosines: &mut [P; N]) {
+fn beyond<P: FusingNumber, const N: usize>(
+    angles: &[P; N],
+    sines: &mut [P; N],
+    cosines: &mut [P; N],
+) {
     for i in 0..N {
         let angles = angles[i].to_numbers();
         let (mut all_sines, mut all_cosines) = (angles, angles);
@@ -338,7 +348,7 @@ pub(crate) fn several<T: Float, const N: usize>(
     angles: &[Fused<T>; N],
 ) -> ([Fused<T>; N], [Fused<T>; N])
 where
-    Fused<T>: Pack<Lane = T>,
+    Fused<T>: FusingNumber<Lane = T>,
 {
     let zero = Fused::splat(T::from_f64(0.0));
     let (mut sines, mut cosines) = ([zero; N], [zero; N]);

@@ -5,7 +5,7 @@
 
 use super::super::Scalar;
 use super::double::{LIMIT, far, reduce, turn};
-use super::fused::Pack;
+use super::fused::FusingNumber;
 use crate::simd::{F64x4, Simd};
 
 /// Sines and cosines of four angles.

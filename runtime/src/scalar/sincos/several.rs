@@ -6,7 +6,8 @@
 //! same place: angles are therefore read where they lie, never gathered first.
 
 use super::{sin_cos_f32, sin_cos_f64};
-use crate::simd::dispatch::{Routine, run_widest};
+use crate::simd::dispatch::run_wide;
+use crate::simd::{InstructionSet, Kernel, Simd};
 
 /// Sines and cosines of `N` angles.
 #[inline(always)]
@@ -15,7 +16,7 @@ pub(crate) fn several_f64<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64;
         // A call costs more than it saves.
         0..3 => sin_cos_f64(*angles),
         3..8 => few::sin_cos(angles),
-        _ => run_widest(Many(angles)),
+        _ => run_wide(InstructionSet::widest(), Many(angles)),
     }
 }
 
@@ -25,7 +26,7 @@ pub(crate) fn several_f32<const N: usize>(angles: &[f32; N]) -> ([f32; N], [f32;
     if N < 8 {
         sin_cos_f32(*angles)
     } else {
-        run_widest(Many(angles))
+        run_wide(InstructionSet::widest(), Many(angles))
     }
 }
 
@@ -34,13 +35,13 @@ struct Many<'a, T, const N: usize>(&'a [T; N]);
 
 macro_rules! eight_at_a_time {
     ($float:ident, $sin_cos:ident) => {
-        impl<const N: usize> Routine for Many<'_, $float, N> {
+        impl<const N: usize> Kernel<$float> for Many<'_, $float, N> {
             type Output = ([$float; N], [$float; N]);
 
             /// Where blocks of eight do not divide, the last one overlaps the
             /// one before.
             #[inline(always)]
-            fn run(self) -> Self::Output {
+            fn run<V: Simd<$float>>(self) -> Self::Output {
                 let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
                 let mut start = 0;
                 while start < N {
@@ -67,8 +68,8 @@ eight_at_a_time!(f32, sin_cos_f32);
 #[allow(unsafe_code)]
 mod few {
     use super::super::quad::sin_cos_quad;
+    use super::InstructionSet;
     use super::sin_cos_f64;
-    use crate::scalar::dispatch::InstructionSet;
 
     #[inline(always)]
     pub(super) fn sin_cos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {

@@ -62,7 +62,7 @@ pub(crate) fn sin_cos_f32<const N: usize>(angles: [f32; N]) -> ([f32; N], [f32; 
     (sines, cosines)
 }
 
-/// The same, with angles outside the common range among them.
+/// Sines and cosines with angles outside the common range among them.
 #[cold]
 #[inline(never)]
 fn beyond<const N: usize>(angles: [f32; N], sines: &mut [f32; N], cosines: &mut [f32; N]) {

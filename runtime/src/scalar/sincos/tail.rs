@@ -1,5 +1,5 @@
-//! What sines and cosines have beside their first terms: polynomials in the square
-//! of the angle.
+//! Terms of sines and cosines behind the first ones: polynomials in the square of the
+//! angle.
 //!
 //! Horner's scheme takes five products for degree five, one after the other. With
 //! adapted coefficients (D. E. Knuth, The Art of Computer Programming 2, 3rd ed.
@@ -10,7 +10,7 @@
 // As for the registers.
 #![allow(unreachable_pub)]
 
-use super::fused::Pack;
+use super::fused::FusingNumber;
 
 /// An array of what the expression gives for each index: a plain loop, because
 /// closures are not sure to be compiled for the surrounding instructions.
@@ -59,7 +59,7 @@ pub(super) const COSINE: Tail<f64> = Tail::Nested(Nested {
 
 /// The values for some squares of angles.
 #[inline(always)]
-pub(super) fn evaluate<P: Pack, const G: usize>(x: [P; G], tail: Tail<P::Lane>) -> [P; G] {
+pub(super) fn evaluate<P: FusingNumber, const G: usize>(x: [P; G], tail: Tail<P::Lane>) -> [P; G] {
     match tail {
         Tail::Short([a, b, c]) => {
             let (a, b, c) = (P::splat(a), P::splat(b), P::splat(c));

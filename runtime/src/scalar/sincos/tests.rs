@@ -2,11 +2,11 @@ use core::array::from_fn;
 use std::vec::Vec;
 
 use super::{sin_cos_f32, sin_cos_f64};
-use crate::scalar::dispatch::{RegisterKernel, Routine, run, run_fused, run_in_registers};
 use crate::scalar::reference::{Reference, Signed, angles, parts};
-use crate::scalar::register::{Fused, Register};
 use crate::scalar::{InstructionSet, Lane, Lanes, Scalar};
 use crate::simd::dispatch::{or_skip, skip_missing};
+use crate::simd::dispatch::{run_fused, run_in_registers, run_wide};
+use crate::simd::{Fused, Kernel, Simd};
 
 /// Error of `value` in units in the last place of a type of `digits` bits,
 /// counted at the reference.
@@ -56,14 +56,14 @@ fn f32_is_nearly_always_rounded_correctly() {
 /// Angles of one state and of lanes in fused arithmetic.
 struct InFused<T, const N: usize>([T; N]);
 
-impl<T: Lane, const N: usize> Routine for InFused<T, N>
+impl<T: Lane, const N: usize> Kernel<T> for InFused<T, N>
 where
     Fused<T>: Scalar,
 {
     type Output = ([T; N], [T; N]);
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run<V: Simd<T>>(self) -> Self::Output {
         let (sines, cosines) = Fused::sin_cos_each(&self.0.map(Fused));
         (sines.map(|x| x.0), cosines.map(|x| x.0))
     }
@@ -72,11 +72,11 @@ where
 /// The first angles that fill a register.
 struct InRegister<'a, T>(&'a [T]);
 
-impl<T: Lane> RegisterKernel<T> for InRegister<'_, T> {
+impl<T: Lane> Kernel<T> for InRegister<'_, T> {
     type Output = Vec<(T, T)>;
 
     #[inline(always)]
-    fn run<R: Register<Lane = T>>(self) -> Self::Output {
+    fn run<R: Simd<T>>(self) -> Self::Output {
         let (sines, cosines) = R::load(self.0).unwrap().sin_cos();
         let mut all = [
             std::vec![self.0[0]; R::LANES],
@@ -296,11 +296,11 @@ fn the_functions_are_odd_and_even() {
 
 struct InLanes<const N: usize>([f64; N]);
 
-impl<const N: usize> Routine for InLanes<N> {
+impl<const N: usize> Kernel<f64> for InLanes<N> {
     type Output = (Lanes<f64, N>, Lanes<f64, N>);
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run<V: Simd<f64>>(self) -> Self::Output {
         Lanes(self.0).sin_cos()
     }
 }
@@ -314,7 +314,7 @@ fn agrees<const N: usize>() {
         let (sines, cosines) = f64::sin_cos_each(&angles);
         assert_eq!(from_fn(|i| bits((sines[i], cosines[i]))), alone);
         for set in InstructionSet::ALL {
-            let (sines, cosines) = run(set, InLanes(angles));
+            let (sines, cosines) = run_wide(set, InLanes(angles));
             assert_eq!(
                 from_fn(|i| bits((sines.0[i], cosines.0[i]))),
                 alone,

@@ -40,13 +40,13 @@ pub struct Double {
 
 /// a + b and what the rounded sum lacks (Knuth).
 #[inline(always)]
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub(crate) fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     let other = sum - a;
     (sum, (a - (sum - other)) + (b - other))
 }
 
-/// The same for |a| ≥ |b| or a = 0 (Dekker).
+/// As [`two_sum`], for |a| ≥ |b| or a = 0 (Dekker).
 #[inline(always)]
 fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -86,7 +86,7 @@ impl Double {
         self.high
     }
 
-    /// What [`high`](Self::high) lacks.
+    /// The part of it that [`high`](Self::high) lacks.
     #[must_use]
     pub const fn low(self) -> f64 {
         self.low

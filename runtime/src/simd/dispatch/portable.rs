@@ -1,9 +1,7 @@
 //! Where there is nothing to choose from.
 
-use core::marker::PhantomData;
-
-use super::super::{Fused, Kernel, Simd};
-use super::{Chosen, InstructionSet, RegisterKernel, Routine, Sealed, StateKernel, Wide};
+use super::super::{Kernel, Simd};
+use super::{InstructionSet, StateKernel};
 use crate::scalar::Lane;
 
 #[inline(always)]
@@ -12,8 +10,16 @@ pub(super) fn widest() -> InstructionSet {
 }
 
 #[inline(always)]
-pub(super) fn run<K: Routine>(_set: InstructionSet, kernel: K) -> K::Output {
-    kernel.run()
+pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
+    _set: InstructionSet,
+    kernel: K,
+) -> K::Output {
+    kernel.run::<B>()
+}
+
+#[inline(always)]
+pub(super) fn run_wide<T: Lane, K: Kernel<T>>(_set: InstructionSet, kernel: K) -> K::Output {
+    kernel.run::<T::Build>()
 }
 
 #[inline(always)]
@@ -23,33 +29,17 @@ pub(super) fn run_state<T, K: StateKernel<T>>(
     _theta: &[T],
     _omega: &[T],
     _out: &mut [T],
-) -> bool
-where
-    Fused<T>: Simd<T>,
-{
+) -> bool {
     false
 }
 
 #[inline(always)]
-pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
-    _set: InstructionSet,
-    kernel: K,
-) -> K::Output {
-    Chosen::<K, T::Build>(kernel, PhantomData).run()
-}
-
-#[inline(always)]
-pub(super) fn run_wide<T: Lane, K: Kernel<T>>(_set: InstructionSet, kernel: K) -> K::Output {
-    Chosen::<Wide<K>, T::Build>(Wide(kernel), PhantomData).run()
-}
-
-#[inline(always)]
-pub(super) fn outlined_avx2<K: Routine>(kernel: K) -> K::Output {
-    kernel.run()
+pub(super) fn outlined_avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<V>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub(super) fn outlined_avx512<K: Routine>(kernel: K) -> K::Output {
-    kernel.run()
+pub(super) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<V>()
 }

@@ -2,12 +2,11 @@
 
 #![allow(unsafe_code)]
 
-use core::marker::PhantomData;
 use core::slice;
 use core::sync::atomic::{AtomicU8, Ordering};
 
-use super::super::{Fused, Kernel, Simd};
-use super::{Chosen, InstructionSet, RegisterKernel, Routine, Sealed, StateKernel, Wide};
+use super::super::{Kernel, Simd};
+use super::{InstructionSet, StateKernel};
 use crate::scalar::Lane;
 
 /// 0 before the first question, then 1 + the answer.
@@ -50,32 +49,45 @@ fn has_avx512() -> bool {
         && std::is_x86_feature_detected!("avx512bw")
 }
 
-/// `set` must have come from `widest`, or be narrower: this module is
-/// private, and the two functions above see to it.
+/// Runs `kernel` with the instructions of `set`, in numbers `B` for those of the build,
+/// `A` for AVX2 and `W` for AVX-512.
+///
+/// `set` must have come from `widest`, or be narrower, and the numbers need no more
+/// than their instructions: this module is private, and the one above sees to it.
 #[inline(always)]
-pub(super) fn run<K: Routine>(set: InstructionSet, kernel: K) -> K::Output {
+pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
+    set: InstructionSet,
+    kernel: K,
+) -> K::Output {
     match set {
-        InstructionSet::Build => build(kernel),
+        InstructionSet::Build => build::<T, B, K>(kernel),
         // SAFETY: the call is sound on machines that have the features
         // which the function enables. `widest` has asked for each of them,
         // and `set` is not wider.
-        InstructionSet::Avx2 => unsafe { avx2(kernel) },
+        InstructionSet::Avx2 => unsafe { avx2::<T, A, K>(kernel) },
         // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx512 => unsafe { avx512(kernel) },
+        InstructionSet::Avx512 => unsafe { avx512::<T, W, K>(kernel) },
     }
 }
 
+/// With SSE2 in single numbers: every model would be compiled once more for registers of
+/// two, and hardly a machine runs them.
 #[inline(always)]
-pub(super) fn run_state<T, K: StateKernel<T>>(
+pub(super) fn run_wide<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
+    run::<T, T, T::Avx2, T::Avx512, K>(set, kernel)
+}
+
+/// Runs `K` with the widest instructions that fuse: 512 bits have twice as many
+/// registers, which single numbers gain by too. False, and nothing done, if the machine
+/// has none that do, or if a slice has another length.
+#[inline(always)]
+pub(super) fn run_state<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
     time: T,
     theta: &[T],
     omega: &[T],
     out: &mut [T],
-) -> bool
-where
-    Fused<T>: Simd<T>,
-{
+) -> bool {
     if theta.len() != K::LINKS || omega.len() != K::LINKS || out.len() != K::LINKS {
         return false;
     }
@@ -103,30 +115,26 @@ where
 
 /// As `state`.
 #[target_feature(enable = "avx2,fma")]
-unsafe fn state_avx2<T, K: StateKernel<T>>(
+unsafe fn state_avx2<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
     time: T,
     theta: *const T,
     omega: *const T,
     out: *mut T,
-) where
-    Fused<T>: Simd<T>,
-{
+) {
     // SAFETY: the caller's.
     unsafe { state::<T, K>(model, time, theta, omega, out) }
 }
 
 /// As `state`.
 #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
-unsafe fn state_avx512<T, K: StateKernel<T>>(
+unsafe fn state_avx512<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
     time: T,
     theta: *const T,
     omega: *const T,
     out: *mut T,
-) where
-    Fused<T>: Simd<T>,
-{
+) {
     // SAFETY: the caller's.
     unsafe { state::<T, K>(model, time, theta, omega, out) }
 }
@@ -138,15 +146,13 @@ unsafe fn state_avx512<T, K: StateKernel<T>>(
 /// The pointers must be those of slices of `K::LINKS` numbers, of which the last
 /// one is borrowed mutably, and outlives the call like the others.
 #[inline(always)]
-unsafe fn state<T, K: StateKernel<T>>(
+unsafe fn state<T: Lane, K: StateKernel<T>>(
     model: &K::Model,
     time: T,
     theta: *const T,
     omega: *const T,
     out: *mut T,
-) where
-    Fused<T>: Simd<T>,
-{
+) {
     // SAFETY: the caller's.
     let (theta, omega, out) = unsafe {
         (
@@ -155,68 +161,33 @@ unsafe fn state<T, K: StateKernel<T>>(
             slice::from_raw_parts_mut(out, K::LINKS),
         )
     };
-    K::run::<Fused<T>>(model, time, theta, omega, out);
+    K::run::<T::Fused>(model, time, theta, omega, out);
 }
 
 #[inline(always)]
-pub(super) fn outlined_avx2<K: Routine>(kernel: K) -> K::Output {
+pub(super) fn outlined_avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
     // SAFETY: asked for by types that exist in computations alone which
-    // `run_state` or `run_in_registers` has started, where the machine has
-    // these instructions.
-    unsafe { avx2(kernel) }
+    // `run_state` or `run` has started, where the machine has these instructions.
+    unsafe { avx2::<T, V, K>(kernel) }
 }
 
 #[inline(always)]
-pub(super) fn outlined_avx512<K: Routine>(kernel: K) -> K::Output {
-    // SAFETY: asked for by types that exist where `run_in_registers` has found AVX-512.
-    unsafe { avx512(kernel) }
-}
-
-/// As for `run`.
-#[inline(always)]
-pub(super) fn run_in_registers<T: Sealed, K: RegisterKernel<T>>(
-    set: InstructionSet,
-    kernel: K,
-) -> K::Output {
-    match set {
-        InstructionSet::Build => build(Chosen::<K, T::Build>(kernel, PhantomData)),
-        // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx2 => unsafe { avx2(Chosen::<K, T::Avx2>(kernel, PhantomData)) },
-        // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx512 => unsafe { avx512(Chosen::<K, T::Avx512>(kernel, PhantomData)) },
-    }
-}
-
-#[inline(always)]
-pub(super) fn run_wide<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
-    match set {
-        InstructionSet::Build => one_by_one(kernel),
-        // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx2 => unsafe { avx2(Chosen::<_, T::Avx2>(Wide(kernel), PhantomData)) },
-        // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx512 => unsafe {
-            avx512(Chosen::<_, T::Avx512>(Wide(kernel), PhantomData))
-        },
-    }
-}
-
-/// In single numbers.
-#[inline(never)]
-fn one_by_one<T: Lane, K: Kernel<T>>(kernel: K) -> K::Output {
-    kernel.run::<T>()
+pub(super) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    // SAFETY: asked for by types that exist where `run` has found AVX-512.
+    unsafe { avx512::<T, V, K>(kernel) }
 }
 
 #[inline(never)]
-fn build<K: Routine>(kernel: K) -> K::Output {
-    kernel.run()
+fn build<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<V>()
 }
 
 #[target_feature(enable = "avx2,fma")]
-fn avx2<K: Routine>(kernel: K) -> K::Output {
-    kernel.run()
+fn avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<V>()
 }
 
 #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
-fn avx512<K: Routine>(kernel: K) -> K::Output {
-    kernel.run()
+fn avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
+    kernel.run::<V>()
 }

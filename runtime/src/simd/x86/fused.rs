@@ -53,7 +53,7 @@ fused!(F64x8: f64, _mm512_fmadd_pd);
 fused!(F32x16: f32, _mm512_fmadd_ps);
 
 /// For plain numbers, which do not fuse.
-impl double::Pack for F64x4 {
+impl double::UnfusedNumber for F64x4 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         <Self as Simd<f64>>::splat(value)
@@ -83,14 +83,15 @@ impl double::Pack for F64x4 {
     }
 }
 
-/// Those of AVX2 as [`fused::Pack`].
+/// Those of AVX2 as [`fused::FusingNumber`].
 macro_rules! avx2 {
     (
         $name:ident = $lanes:literal of $lane:ident, $splat:ident,
         $integers:ident, $numbers:ident, $shift:ident by $parity:literal and $sign:literal,
         $and:ident, $or:ident, $xor:ident, $blend:ident, $compare:ident, $mask:ident
     ) => {
-        impl fused::Pack for $name {
+        impl fused::FusingNumber for $name {
+            type Lane = $lane;
             type Array = [$lane; $lanes];
 
             #[inline(always)]
@@ -168,7 +169,8 @@ macro_rules! avx512 {
         $integers:ident, $numbers:ident, $shift:ident by $sign:literal, $test:ident,
         $ternary:ident, $or:ident, $xor:ident, $choose:ident, $compare:ident
     ) => {
-        impl fused::Pack for $name {
+        impl fused::FusingNumber for $name {
+            type Lane = $lane;
             type Array = [$lane; $lanes];
 
             #[inline(always)]

@@ -11,12 +11,11 @@ mod words;
 
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
-use core::slice::from_raw_parts_mut;
 
 use super::permutation::{first_lanes, rotated, tiled};
-use super::{Fused, Register, Simd, dispatch};
+use super::{Fused, Kernel, Simd, dispatch};
 use crate::scalar::sincos::fused as fused_sines;
-use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, words_of_sse2};
+use words::{masked_f32, masked_f64, words_of_avx2, words_of_avx512, words_of_sse2};
 
 // Of all calls of instructions here and in the two files: those of SSE2 belong to every
 // x86-64 machine. Values of the wider types arise in computations started by
@@ -29,7 +28,7 @@ use words::{masked_f32, masked_f64, one_by_one, words_of_avx2, words_of_avx512, 
 /// fuse; as by default for others.
 macro_rules! ahead {
     () => {};
-    ($own:ident) => {
+    ($lane:ident, $own:ident) => {
         const AHEAD: bool = true;
 
         #[inline(always)]
@@ -43,8 +42,8 @@ macro_rules! ahead {
         }
 
         #[inline(always)]
-        fn in_own_function<K: dispatch::Routine>(kernel: K) -> K::Output {
-            dispatch::$own(kernel)
+        fn in_own_function<K: Kernel<$lane>>(kernel: K) -> K::Output {
+            dispatch::$own::<$lane, Self, K>(kernel)
         }
     };
 }
@@ -67,7 +66,7 @@ macro_rules! larger {
     }};
 }
 
-/// What `range` is to choose: the operand of larger size, without its sign.
+/// Choice of `range`: the operand of larger size, without its sign.
 const LARGER_SIZE: i32 = 0b1011;
 
 macro_rules! register {
@@ -76,7 +75,7 @@ macro_rules! register {
         $name:ident: $vector:ident = $lanes:literal of $lane:ident, one: $one:ty,
         $splat:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident,
         $and:ident, $andnot:ident, $or:ident, larger: $larger:ident,
-        words: $words:ident = $count:literal, some: $some:ident $(, fused: $own:ident)?
+        words: $words:ident = $count:literal $(, some: $some:ident)? $(, fused: $own:ident)?
     ) => {
         $(#[$docs])*
         #[derive(Clone, Copy, Debug)]
@@ -118,21 +117,11 @@ macro_rules! register {
                 Self(unsafe { $words(self.0, words) })
             }
 
-            /// Writes as many numbers as there are places.
-            #[inline(always)]
-            pub(crate) fn store_some(self, places: &mut [$lane]) {
-                $some(self.0, self.to_array(), places);
-            }
-
             #[inline(always)]
             fn root(self) -> Self {
                 // SAFETY: a register exists where the machine has its instructions alone.
                 Self(unsafe { $sqrt(self.0) })
             }
-        }
-
-        impl Register for $name {
-            type Lane = $lane;
         }
 
         impl Simd<$lane> for $name {
@@ -143,7 +132,7 @@ macro_rules! register {
 
             const LANES: usize = $lanes;
 
-            ahead!($($own)?);
+            ahead!($($lane, $own)?);
 
             #[inline(always)]
             fn mask(meant: impl Fn(usize) -> bool) -> Self {
@@ -184,63 +173,13 @@ macro_rules! register {
                 Self(unsafe { $splat(value) })
             }
 
-            #[inline(always)]
-            fn load(numbers: &[$lane]) -> Option<Self> {
-                numbers.first_chunk().copied().map(Self::from_array)
-            }
-
-            #[inline(always)]
-            fn store(self, numbers: &mut [$lane]) {
-                if let Some(front) = numbers.first_chunk_mut() {
-                    *front = self.to_array();
+            $(
+                #[inline(always)]
+                unsafe fn write_some(self, start: *mut $lane, count: usize) {
+                    // SAFETY: the caller's.
+                    unsafe { $some(self.0, start, count) }
                 }
-            }
-
-            #[inline(always)]
-            fn last_chunk(numbers: &[$lane]) -> Option<&[$lane; $lanes]> {
-                numbers.last_chunk()
-            }
-
-            #[inline(always)]
-            fn from_chunk(numbers: &[$lane; $lanes]) -> Self {
-                Self::from_array(*numbers)
-            }
-
-            #[inline(always)]
-            fn to_chunk(self) -> [$lane; $lanes] {
-                self.to_array()
-            }
-
-            #[inline(always)]
-            fn store_last(self, numbers: &mut [$lane]) {
-                if let Some(back) = numbers.last_chunk_mut() {
-                    *back = self.to_array();
-                }
-            }
-
-            #[inline(always)]
-            unsafe fn read(start: *const $lane) -> Self {
-                // SAFETY: the caller's. The type is transparent, and a register is
-                // made of its lanes. They need not lie where registers would.
-                unsafe { start.cast::<Self>().read_unaligned() }
-            }
-
-            #[inline(always)]
-            unsafe fn write(self, start: *mut $lane) {
-                // SAFETY: the caller's. The type is transparent, and may lie anywhere.
-                unsafe { start.cast::<Self>().write_unaligned(self) }
-            }
-
-            #[inline(always)]
-            unsafe fn write_some(self, start: *mut $lane, count: usize) {
-                // SAFETY: the caller's.
-                self.store_some(unsafe { from_raw_parts_mut(start, count.min($lanes)) });
-            }
-
-            #[inline(always)]
-            fn first(self) -> $lane {
-                self.to_array()[0]
-            }
+            )?
 
             #[inline(always)]
             fn rotate_lanes(self, first: usize) -> Self {
@@ -273,7 +212,7 @@ register! {
     F64x2: __m128d = 2 of f64, one: f64,
     _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd,
     _mm_and_pd, _mm_andnot_pd, _mm_or_pd, larger: _mm_max_pd,
-    words: words_of_sse2 = 4, some: one_by_one
+    words: words_of_sse2 = 4
 }
 
 register! {
@@ -281,7 +220,7 @@ register! {
     F32x4: __m128 = 4 of f32, one: f32,
     _mm_set1_ps, _mm_add_ps, _mm_sub_ps, _mm_mul_ps, _mm_div_ps, _mm_sqrt_ps,
     _mm_and_ps, _mm_andnot_ps, _mm_or_ps, larger: _mm_max_ps,
-    words: words_of_sse2 = 4, some: one_by_one
+    words: words_of_sse2 = 4
 }
 
 register! {
@@ -289,7 +228,7 @@ register! {
     F64x4: __m256d = 4 of f64, one: Fused<f64>,
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
     _mm256_and_pd, _mm256_andnot_pd, _mm256_or_pd, larger: _mm256_max_pd,
-    words: words_of_avx2 = 8, some: one_by_one, fused: outlined_avx2
+    words: words_of_avx2 = 8, fused: outlined_avx2
 }
 
 register! {
@@ -297,7 +236,7 @@ register! {
     F32x8: __m256 = 8 of f32, one: Fused<f32>,
     _mm256_set1_ps, _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps,
     _mm256_and_ps, _mm256_andnot_ps, _mm256_or_ps, larger: _mm256_max_ps,
-    words: words_of_avx2 = 8, some: one_by_one, fused: outlined_avx2
+    words: words_of_avx2 = 8, fused: outlined_avx2
 }
 
 register! {

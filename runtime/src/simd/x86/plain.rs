@@ -62,7 +62,7 @@ impl Scalar for F32x4 {
     }
 }
 
-impl double::Pack for F64x2 {
+impl double::UnfusedNumber for F64x2 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         <Self as Simd<f64>>::splat(value)

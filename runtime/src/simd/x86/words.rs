@@ -1,5 +1,5 @@
-//! What the standard library has no function of one name for: permutations of a
-//! register's words, and writing its first numbers alone.
+//! Permutations of a register's words, and writing its first numbers alone, for which
+//! the standard library has no functions of one name.
 
 use core::arch::x86_64::*;
 
@@ -33,27 +33,24 @@ pub(super) unsafe fn words_of_avx512<V>(vector: V, words: &[u32; 16]) -> V {
     }
 }
 
+/// Writes the first `count` numbers to `start`.
+///
+/// # Safety
+/// So many numbers may be written there.
 #[inline(always)]
-pub(super) fn one_by_one<V, T: Copy, const N: usize>(
-    _vector: V,
-    numbers: [T; N],
-    places: &mut [T],
-) {
-    for (place, number) in places.iter_mut().zip(numbers) {
-        *place = number;
-    }
+pub(super) unsafe fn masked_f64(vector: __m512d, start: *mut f64, count: usize) {
+    let mask = !((0xff_u32 << count.min(8)) as u8);
+    // SAFETY: the caller's: the numbers of the mask alone are written.
+    unsafe { _mm512_mask_storeu_pd(start, mask, vector) }
 }
 
+/// Writes the first `count` numbers to `start`.
+///
+/// # Safety
+/// So many numbers may be written there.
 #[inline(always)]
-pub(super) fn masked_f64(vector: __m512d, _numbers: [f64; 8], places: &mut [f64]) {
-    let mask = !((0xff_u32 << places.len().min(8)) as u8);
-    // SAFETY: writes the numbers of the mask alone, and there are as many places.
-    unsafe { _mm512_mask_storeu_pd(places.as_mut_ptr(), mask, vector) }
-}
-
-#[inline(always)]
-pub(super) fn masked_f32(vector: __m512, _numbers: [f32; 16], places: &mut [f32]) {
-    let mask = !((0xffff_u32 << places.len().min(16)) as u16);
-    // SAFETY: writes the numbers of the mask alone, and there are as many places.
-    unsafe { _mm512_mask_storeu_ps(places.as_mut_ptr(), mask, vector) }
+pub(super) unsafe fn masked_f32(vector: __m512, start: *mut f32, count: usize) {
+    let mask = !((0xffff_u32 << count.min(16)) as u16);
+    // SAFETY: the caller's: the numbers of the mask alone are written.
+    unsafe { _mm512_mask_storeu_ps(start, mask, vector) }
 }

@@ -77,7 +77,7 @@ where
         }
     }
 
-    /// The same down.
+    /// Goes back down as `one_by_one_up` went up.
     #[inline(always)]
     fn one_by_one_down(&self, strip: &Strip, out: &mut impl Output<T>) {
         if let (0, Some([x, y])) = (strip.first.own, &self.view.root) {
@@ -150,7 +150,7 @@ where
         }
     }
 
-    /// The same down; the accelerations of pivots are in memory.
+    /// Goes back down as `links_up` went up; the accelerations of pivots are in memory.
     #[inline(always)]
     fn links_down(&self, strip: &Strip, out: &mut impl Output<T>) {
         let mut places = Places::of::<T, V>(strip.length);

@@ -52,7 +52,7 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for SweepKernel<'_, E, T> {
     }
 }
 
-/// What a block has, in vectors `V` of numbers `T`, for one set of equations.
+/// The passes through a block, in vectors `V` of numbers `T`, for one set of equations.
 pub(in crate::tree) struct Passes<'a, E, N, T, V> {
     pub(super) view: &'a View<'a, N, T>,
     /// None if the block is not one of these equations.
@@ -245,7 +245,7 @@ where
         E::attach(constants, link, sums)
     }
 
-    /// The same where they are in registers, one child behind the other.
+    /// Adds them up where they are in registers, one child behind the other.
     #[inline(always)]
     fn neighbours(
         responses: &E::Response<V>,

@@ -1,4 +1,4 @@
-//! What the equations of a block read and write, as pointers that were checked.
+//! Places that the equations of a block read and write, as pointers that were checked.
 
 #![allow(unsafe_code)]
 

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::equations::{Body, SHAPES, any, by_generation, by_link, links};
+use super::equations::{SHAPES, SampleBody, any, by_generation, by_link, links};
 use super::{accelerations, drive, motion};
 
 type Vector = [f64; 2];
@@ -12,7 +12,7 @@ fn dot([x, y]: Vector, [u, v]: Vector) -> f64 {
 }
 
 /// Solves Σ_k (∂r_k/∂θ_i)·m_k (r̈_k + g) + I_i θ̈_i = Q_i for the accelerations.
-fn dense(parents: &[u32], bodies: &[Body]) -> Vec<f64> {
+fn dense(parents: &[u32], bodies: &[SampleBody]) -> Vec<f64> {
     let count = bodies.len();
     let [theta, omega, torques] = motion::<f64>(count);
     let drive = drive::<f64>();

@@ -28,7 +28,7 @@ pub(super) const SHAPES: [&[usize]; 12] = [
 
 /// A body and its joint.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Body {
+pub(super) struct SampleBody {
     pub(super) mass: f64,
     /// About the pivot.
     pub(super) inertia: f64,
@@ -40,7 +40,7 @@ pub(super) struct Body {
     pub(super) spring: f64,
 }
 
-impl Body {
+impl SampleBody {
     pub(super) fn new(kind: usize) -> Self {
         let size = 1.0 + 0.1 * (kind % 7) as f64;
         Self {
@@ -80,7 +80,7 @@ fn place<V: Scalar>(link: LinkMotion<V>, [along, across]: [V; 2]) -> [[V; 2]; 2]
     ]
 }
 
-/// What the children of a link do to it: articulated inertia Φ, Φ w, w Φ w, bias
+/// Sums over the children of a link: articulated inertia Φ, Φ w, w Φ w, bias
 /// force, w · bias force, torque; w the derivatives of their pivots.
 type Sums<V> = [V; 10];
 
@@ -151,9 +151,9 @@ fn accelerated<V: Scalar>([g_x, g_y, kappa]: [V; 3], pivot: [V; 2]) -> V {
 /// Links whose children share one pivot; its place is among the constants of the
 /// link.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Shared<const SHAPE: usize>;
+pub(super) struct CommonPivot<const SHAPE: usize>;
 
-impl<const SHAPE: usize> LinkEquations for Shared<SHAPE> {
+impl<const SHAPE: usize> LinkEquations for CommonPivot<SHAPE> {
     type Constants<V: Scalar> = Constants<V>;
     type Response<V: Scalar> = [V; 6];
     type Sums<V: Scalar> = [V; 6];
@@ -210,9 +210,9 @@ impl<const SHAPE: usize> LinkEquations for Shared<SHAPE> {
 
 /// Links that carry each child at a place of its own, in trees of any shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Attached;
+pub(super) struct OwnPivots;
 
-impl LinkEquations for Attached {
+impl LinkEquations for OwnPivots {
     type Constants<V: Scalar> = Constants<V>;
     type Response<V: Scalar> = [V; 6];
     type Sums<V: Scalar> = Sums<V>;
@@ -265,7 +265,7 @@ impl LinkEquations for Attached {
     }
 }
 
-fn row<T: Scalar>(body: Body, place: [f64; 2]) -> Constants<T> {
+fn row<T: Scalar>(body: SampleBody, place: [f64; 2]) -> Constants<T> {
     let [along, across] = place;
     [
         body.mass,
@@ -283,15 +283,19 @@ fn row<T: Scalar>(body: Body, place: [f64; 2]) -> Constants<T> {
 const GRAVITY: [f64; 2] = [0.0, 9.81];
 
 /// A tree by generations.
-pub(super) fn by_generation<T: Scalar, const SHAPE: usize>() -> Tree<Shared<SHAPE>, T> {
+pub(super) fn by_generation<T: Scalar, const SHAPE: usize>() -> Tree<CommonPivot<SHAPE>, T> {
     // The children's place is a constant of the link.
-    let rows = (0..SHAPES[SHAPE].len())
-        .flat_map(|generation| row(Body::new(generation), Body::new(generation + 1).place));
+    let rows = (0..SHAPES[SHAPE].len()).flat_map(|generation| {
+        row(
+            SampleBody::new(generation),
+            SampleBody::new(generation + 1).place,
+        )
+    });
     Tree::new(rows.collect(), GRAVITY.map(T::from_f64))
 }
 
-/// The same links one by one: their parents and bodies.
-pub(super) fn links(copies: &[usize]) -> (Vec<u32>, Vec<Body>) {
+/// The links of a rule one by one: their parents and bodies.
+pub(super) fn links(copies: &[usize]) -> (Vec<u32>, Vec<SampleBody>) {
     let (mut parents, mut bodies) = (Vec::new(), Vec::new());
     let (mut above, mut count) = (0, 1);
     for (generation, &copies) in copies.iter().enumerate() {
@@ -299,7 +303,7 @@ pub(super) fn links(copies: &[usize]) -> (Vec<u32>, Vec<Body>) {
         for _ in 0..copies {
             for i in 0..count {
                 parents.push(if generation == 0 { 0 } else { above + i });
-                bodies.push(Body::new(generation));
+                bodies.push(SampleBody::new(generation));
             }
         }
         (above, count) = (start as u32, count * copies as u32);
@@ -308,18 +312,20 @@ pub(super) fn links(copies: &[usize]) -> (Vec<u32>, Vec<Body>) {
 }
 
 /// A tree of any shape of these links.
-pub(super) fn by_link<T: Scalar>(parents: &[u32], bodies: &[Body]) -> Tree<Attached, T> {
+pub(super) fn by_link<T: Scalar>(parents: &[u32], bodies: &[SampleBody]) -> Tree<OwnPivots, T> {
     let rows = bodies.iter().flat_map(|&body| row(body, body.place));
     Tree::with_parents(parents, &rows.collect::<Vec<T>>(), GRAVITY.map(T::from_f64))
 }
 
 /// Links that hang anywhere on links before them.
-pub(super) fn any(count: usize, seed: usize) -> (Vec<u32>, Vec<Body>) {
+pub(super) fn any(count: usize, seed: usize) -> (Vec<u32>, Vec<SampleBody>) {
     let places = numbers(count, seed, 0.5);
     let parent = |(link, place): (usize, &f64)| ((place + 0.5) * link as f64) as u32;
     let parents: Vec<u32> = places.iter().enumerate().map(parent).collect();
     (
         parents,
-        (0..count).map(|link| Body::new(link + seed)).collect(),
+        (0..count)
+            .map(|link| SampleBody::new(link + seed))
+            .collect(),
     )
 }

@@ -143,6 +143,26 @@ pub(super) const CASES: &[Case] = &[
     a: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1),
     emit(transfer(exact)))] struct Pendulum;",
     ),
+    // Copies that differ.
+    (
+        "each",
+        "#[branched_pendulum(gravity = each(9.8, 9.7), drive(x = each(t, 2 * t)),
+    a: rod(mass = each(1, 2), length = 1) [
+        b: rod(mass = each(0.1, 0.2, 0.3), length = 2 * each(1, 2)) * 2,
+        c: rod(mass = each(0.1, -0.1), length = each(m, (1, 2))) * 2,
+        d: generations(count = 2, shape = rod, mass = each(1, 2), length = 1) * 2,
+        e: rod(mass = each() + 1, length = each(1, 2) * 2) * 2,
+    ])] struct Pendulum;",
+    ),
+    (
+        "unequal_copies",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1) [
+        b: rod(mass = each(0.1, 0.2), length = 0.3) * 2, c: rod(mass = 1, length = 1),
+    ],
+    emit(transfer(exact, angle = 1, amplitude = 2), budget),
+    in_phase(b), locked(c, 0.1))] struct Pendulum;",
+    ),
     // Observables.
     (
         "observables",

@@ -15,8 +15,8 @@ use crate::integrate::fixed::projected::Corrected;
 use crate::integrate::piece::{Form, Piece};
 use crate::integrate::request::all_finite;
 use crate::integrate::steps::Failure;
-use crate::integrate::sum::two_sum;
 use crate::scalar::Real;
+use crate::scalar::two_sum;
 use crate::system::Ode;
 
 /// A Gauss method at work.
