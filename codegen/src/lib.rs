@@ -32,7 +32,7 @@ use mechanics::{AlgebraError, Mechanics};
 use proc_macro2::{Span, TokenStream};
 use program::{Pass, Program};
 use quote::quote;
-use report::{Diagnostic, Message, Report};
+use report::{Diagnostic, Report, SizeMessage, ValueMessage};
 use scene::Scene;
 
 /// Everything that the stages produce for one attribute.
@@ -87,12 +87,12 @@ pub fn stages_without(
     };
     let Ok(program) = program::lower(off, &scene, &mechanics) else {
         let limit = program::MOST_VALUES;
-        report.error(Span::call_site(), Message::TooManyValues { limit });
+        report.error(Span::call_site(), SizeMessage::TooManyValues { limit });
         return Err(refuse(&description, report));
     };
     if let Some(name) = program.unrepresentable_constant() {
         let name = name.to_owned();
-        report.error(Span::call_site(), Message::ConstantRange { name });
+        report.error(Span::call_site(), ValueMessage::ConstantRange { name });
         return Err(refuse(&description, report));
     }
     // After this line nothing fails: a broken invariant is a bug.
@@ -125,13 +125,13 @@ fn underivable(description: &Description, error: &AlgebraError) -> Diagnostic {
             .iter()
             .find(|written| written.name == observable)
     {
-        return Diagnostic::new(found.value.span, Message::DivisionByZero);
+        return Diagnostic::new(found.value.span, ValueMessage::DivisionByZero);
     }
     let message = match error {
-        AlgebraError::TooManyTerms => Message::TooManyTerms {
+        AlgebraError::TooManyTerms => SizeMessage::TooManyTerms {
             limit: mechanics::MOST_TERMS,
         },
-        _ => Message::Algebra(error.to_string()),
+        _ => SizeMessage::Algebra(error.to_string()),
     };
     Diagnostic::new(Span::call_site(), message)
 }

@@ -6,16 +6,17 @@
 
 mod message;
 mod nearest;
-mod wording;
 
 use std::fmt::Write as _;
 
 use proc_macro2::{Span, TokenStream};
 use quote::quote_spanned;
 
-pub use message::{Lookalike, Message, UnequalUse};
+pub use message::{
+    Lookalike, Message, OutputMessage, Problem, SizeMessage, SyntaxMessage, TreeMessage,
+    UnequalUse, ValueMessage,
+};
 pub use nearest::nearest;
-pub use wording::Problem;
 
 /// One error and its place.
 #[derive(Debug, Clone)]
@@ -28,7 +29,8 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// An error at `span`.
-    pub fn new(span: Span, message: Message) -> Self {
+    pub fn new(span: Span, message: impl Into<Message>) -> Self {
+        let message = message.into();
         Self { span, message }
     }
 }
@@ -46,7 +48,7 @@ impl Report {
     }
 
     /// Adds an error.
-    pub fn error(&mut self, span: Span, message: Message) {
+    pub fn error(&mut self, span: Span, message: impl Into<Message>) {
         self.push(Diagnostic::new(span, message));
     }
 

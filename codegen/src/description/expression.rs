@@ -5,9 +5,10 @@ use syn::ext::IdentExt as _;
 use syn::parse::ParseStream;
 use syn::{Token, token};
 
+use super::Multiplicity;
 use super::list::{ListFault, expected, next_name, parse_all};
 use crate::exact::{ExactError, Rational};
-use crate::report::{Diagnostic, Message};
+use crate::report::{Diagnostic, SyntaxMessage, ValueMessage};
 
 /// Highest total power of parameters under a `^`: masses and lengths have no
 /// use for more, and the emitted code writes every factor out.
@@ -144,12 +145,12 @@ impl Expression {
         let start = input.span();
         let exponent = if input.peek(token::Paren) {
             parse_all(parenthesised(input)?, exponent)
-                .map_err(|_| Diagnostic::new(start, Message::Exponent))?
+                .map_err(|_| Diagnostic::new(start, ValueMessage::Exponent))?
         } else {
             exponent(input)?
         };
         if input.peek(Token![^]) {
-            return Err(Diagnostic::new(input.span(), Message::ChainedPower).into());
+            return Err(Diagnostic::new(input.span(), ValueMessage::ChainedPower).into());
         }
         let power = Self {
             span: base.span.join(start).unwrap_or(base.span),
@@ -157,7 +158,7 @@ impl Expression {
         };
         if power.degree() > MAX_DEGREE {
             let limit = MAX_DEGREE;
-            return Err(Diagnostic::new(start, Message::Degree { limit }).into());
+            return Err(Diagnostic::new(start, ValueMessage::Degree { limit }).into());
         }
         Ok(power)
     }
@@ -201,7 +202,7 @@ impl Expression {
                 && !input.peek2(Token![=])
                 && !input.peek2(Token![:])
             {
-                return Err(Diagnostic::new(input.span(), Message::Unit { unit }).into());
+                return Err(Diagnostic::new(input.span(), SyntaxMessage::Unit { unit }).into());
             }
             let kind = ExpressionKind::Number(value);
             return Ok(Self { span, kind });
@@ -209,7 +210,7 @@ impl Expression {
         if input.peek(syn::Ident::peek_any) {
             let name = Ident::parse_any(input).map_err(|_| expected(input, Self::WHAT))?;
             if input.peek(token::Paren) && name == "each" {
-                let message = Message::Expected { what: EACH_WHOLE };
+                let message = SyntaxMessage::Expected { what: EACH_WHOLE };
                 return Err(Diagnostic::new(name.span(), message).into());
             }
             if input.peek(token::Paren) {
@@ -299,9 +300,9 @@ pub(super) fn number(input: ParseStream<'_>) -> Result<Rational, ListFault> {
     let text = literal(input, Expression::WHAT)?;
     Rational::parse_decimal(&text).map_err(|error| {
         let message = match error {
-            ExactError::Exponent => Message::NumberRange,
-            ExactError::TooLong => Message::NumberLength,
-            ExactError::Malformed | ExactError::DivisionByZero => Message::NotDecimal {
+            ExactError::Exponent => ValueMessage::NumberRange,
+            ExactError::TooLong => ValueMessage::NumberLength,
+            ExactError::Malformed | ExactError::DivisionByZero => ValueMessage::NotDecimal {
                 text: shortened(text),
             },
         };
@@ -331,8 +332,23 @@ pub(super) fn literal(input: ParseStream<'_>, what: &'static str) -> Result<Stri
 fn exponent(input: ParseStream<'_>) -> Result<i32, ListFault> {
     let span = input.span();
     let negative = minus(input);
-    let fault = || ListFault::from(Diagnostic::new(span, Message::Exponent));
+    let fault = || ListFault::from(Diagnostic::new(span, ValueMessage::Exponent));
     let text = literal(input, "a whole number").map_err(|_| fault())?;
     let magnitude: i32 = text.replace('_', "").parse().map_err(|_| fault())?;
     Ok(if negative { -magnitude } else { magnitude })
+}
+
+/// A whole number; all beyond `u32` count as `u32::MAX`.
+pub(super) fn whole_number(
+    input: ParseStream<'_>,
+    what: &'static str,
+) -> Result<Multiplicity, ListFault> {
+    let span = input.span();
+    let fault = || Diagnostic::new(span, SyntaxMessage::Expected { what }).into();
+    let digits = literal(input, what)?.replace('_', "");
+    if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Err(fault());
+    }
+    let count = digits.parse().unwrap_or(u32::MAX);
+    Ok(Multiplicity { count, span })
 }

@@ -5,7 +5,7 @@ use syn::ext::IdentExt as _;
 use syn::parse::{ParseStream, Parser as _};
 use syn::{Token, token};
 
-use crate::report::{Diagnostic, Message, Report};
+use crate::report::{Diagnostic, Report, SyntaxMessage};
 
 /// The readable members of a list.
 pub(super) struct List<T> {
@@ -38,7 +38,7 @@ pub(super) fn list<T>(
                 if input.is_empty() || input.peek(Token![,]) {
                     Ok(member)
                 } else if let Some(before) = next_name(input) {
-                    let message = Message::MissingComma { before };
+                    let message = SyntaxMessage::MissingComma { before };
                     Err(Diagnostic::new(input.span(), message).into())
                 } else {
                     Err(expected(input, "`,`"))
@@ -62,7 +62,7 @@ pub(super) fn list<T>(
     };
     if let Err(error) = read.parse2(tokens) {
         found.damaged = true;
-        report.error(error.span(), Message::Expected { what: "`,`" });
+        report.error(error.span(), SyntaxMessage::Expected { what: "`,`" });
     }
     found
 }
@@ -133,7 +133,7 @@ pub(super) fn colon(name: &Ident, input: ParseStream<'_>) -> Result<(), ListFaul
         return Ok(());
     }
     let name = name.to_string();
-    Err(Diagnostic::new(input.span(), Message::Colon { name }).into())
+    Err(Diagnostic::new(input.span(), SyntaxMessage::Colon { name }).into())
 }
 
 /// Refuses other brackets than those that should come.
@@ -151,7 +151,7 @@ pub(super) fn brackets(
     if !wrong && !input.peek(token::Brace) {
         return Ok(());
     }
-    Err(Diagnostic::new(input.span(), Message::Brackets { what, wanted }).into())
+    Err(Diagnostic::new(input.span(), SyntaxMessage::Brackets { what, wanted }).into())
 }
 
 /// The next token is not `what` it should be.
@@ -159,7 +159,7 @@ pub(super) fn expected(input: ParseStream<'_>, what: &'static str) -> ListFault 
     if input.is_empty() {
         ListFault::AtEnd(what)
     } else {
-        Diagnostic::new(input.span(), Message::Expected { what }).into()
+        Diagnostic::new(input.span(), SyntaxMessage::Expected { what }).into()
     }
 }
 
@@ -176,7 +176,7 @@ impl ListFault {
     /// The error, where the list ends at `end`.
     fn placed(self, end: Span) -> Diagnostic {
         match self {
-            Self::AtEnd(what) => Diagnostic::new(end, Message::Ended { what }),
+            Self::AtEnd(what) => Diagnostic::new(end, SyntaxMessage::Ended { what }),
             Self::Found(diagnostic) => diagnostic,
         }
     }

@@ -44,8 +44,10 @@
 //! business of [`scene`](crate::scene); this module knows their shape only.
 
 mod expression;
+mod item;
 mod list;
 mod parse;
+mod requests;
 mod text;
 
 use proc_macro2::{Ident, Span, TokenStream};

@@ -7,20 +7,17 @@ use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 use syn::parse::ParseStream;
 use syn::{Token, token};
 
-use super::expression::{EACH_WHOLE, literal};
+use super::expression::{EACH_WHOLE, whole_number};
+use super::item::{MAX_NESTING, deepest, parse_item};
 use super::list::{
     List, ListFault, brackets, colon, expected, group, identifier, list, parse_all, take,
 };
+use super::requests::{observable, request};
 use super::{
-    Description, DriveClause, Expression, LockedClause, Multiplicity, Node, ObservableClause,
-    ParameterClause, PrescribedClause, Property, Reductions, Request, RequestForm, StructItem,
-    Value,
+    Description, DriveClause, Expression, LockedClause, Node, ObservableClause, ParameterClause,
+    PrescribedClause, Property, Reductions, Request, Value,
 };
-use crate::report::{Diagnostic, Message, Report};
-
-/// Deepest nesting of brackets and parentheses. A chain of more links is what
-/// `generations` is for.
-const MAX_NESTING: usize = 64;
+use crate::report::{Diagnostic, Report, SyntaxMessage};
 
 /// Reads an attribute and the struct that it stands on.
 ///
@@ -34,7 +31,7 @@ pub fn parse(
     report: &mut Report,
 ) -> Option<Description> {
     let entries = if let Some(span) = deepest(&attribute) {
-        report.error(span, Message::Nesting { limit: MAX_NESTING });
+        report.error(span, SyntaxMessage::Nesting { limit: MAX_NESTING });
         List {
             members: Vec::new(),
             damaged: true,
@@ -60,41 +57,32 @@ pub fn parse(
         prescribed: Vec::new(),
         damaged: entries.damaged,
     };
+    gather(entries.members, &mut description, report);
+    Some(description)
+}
+
+/// Puts the members of an attribute in their places.
+fn gather(members: Vec<Member>, description: &mut Description, report: &mut Report) {
     let (mut emits, mut observes) = (0, 0);
-    for entry in entries.members {
-        match entry {
-            Member::Crate(name, path) => {
-                if description.crate_path.replace(path).is_some() {
-                    report.error(name.span(), Message::duplicate_property(&name));
-                }
-            }
+    for member in members {
+        match member {
+            Member::Crate(name, path) => once(&mut description.crate_path, path, &name, report),
             Member::Gravity(property) => {
-                let span = property.name.span();
-                let message = Message::duplicate_property(&property.name);
-                if description.gravity.replace(property).is_some() {
-                    report.error(span, message);
-                }
+                let name = property.name.clone();
+                once(&mut description.gravity, property, &name, report);
             }
             Member::Solve(name, value) => {
-                let (span, message) = (name.span(), Message::duplicate_property(&name));
-                if description.solve.replace((name, value)).is_some() {
-                    report.error(span, message);
-                }
+                once(&mut description.solve, (name.clone(), value), &name, report);
             }
             Member::Code(name, value) => {
-                let (span, message) = (name.span(), Message::duplicate_property(&name));
-                if description.code.replace((name, value)).is_some() {
-                    report.error(span, message);
-                }
+                once(&mut description.code, (name.clone(), value), &name, report);
             }
             Member::Parameters(name, clause) => {
-                if description.parameters.replace(clause).is_some() {
-                    report.error(name.span(), Message::duplicate_property(&name));
-                }
+                once(&mut description.parameters, clause, &name, report);
             }
             Member::Drive(drive) => {
                 let span = drive.name.span();
-                let message = Message::duplicate_property(&drive.name);
+                let message = SyntaxMessage::duplicate_property(&drive.name);
                 match &mut description.drive {
                     None => description.drive = Some(drive),
                     Some(first) => {
@@ -107,14 +95,14 @@ pub fn parse(
             Member::Emit(name, requests) => {
                 emits += 1;
                 if emits > 1 {
-                    report.error(name.span(), Message::duplicate_property(&name));
+                    report.error(name.span(), SyntaxMessage::duplicate_property(&name));
                 }
                 description.requests.extend(requests);
             }
             Member::Observe(name, observables) => {
                 observes += 1;
                 if observes > 1 {
-                    report.error(name.span(), Message::duplicate_property(&name));
+                    report.error(name.span(), SyntaxMessage::duplicate_property(&name));
                 }
                 description.observables.extend(observables);
             }
@@ -124,70 +112,13 @@ pub fn parse(
             Member::Link(node) => description.roots.push(node),
         }
     }
-    Some(description)
 }
 
-/// A token below [`MAX_NESTING`] groups, if there is one. Looks without
-/// recursion, so that parsing afterwards may recurse.
-fn deepest(tokens: &TokenStream) -> Option<Span> {
-    let mut open = vec![tokens.clone().into_iter()];
-    while let Some(level) = open.last_mut() {
-        match level.next() {
-            Some(TokenTree::Group(group)) if open.len() > MAX_NESTING => return Some(group.span()),
-            Some(TokenTree::Group(group)) => open.push(group.stream().into_iter()),
-            Some(_) => {}
-            None => {
-                open.pop();
-            }
-        }
+/// Keeps a setting, the last of several, which are a mistake.
+fn once<T>(place: &mut Option<T>, value: T, name: &Ident, report: &mut Report) {
+    if place.replace(value).is_some() {
+        report.error(name.span(), SyntaxMessage::duplicate_property(name));
     }
-    None
-}
-
-/// Types that emitted models name without a path: their type parameter, and
-/// primitive ones.
-const RESERVED_TYPES: [&str; 5] = ["T", "f64", "usize", "bool", "str"];
-
-impl StructItem {
-    /// Returns true if the struct is called as a type that the code of a model names.
-    pub fn is_reserved(&self) -> bool {
-        RESERVED_TYPES.iter().any(|name| self.ident == name)
-    }
-}
-
-/// Reads the struct.
-fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
-    if deepest(&tokens).is_some() {
-        report.error(Span::call_site(), Message::NotAStruct);
-        return None;
-    }
-    let first = tokens.clone().into_iter().next();
-    let Ok(item) = syn::parse2::<syn::ItemStruct>(tokens.clone()) else {
-        let span = first.map_or_else(Span::call_site, |token| token.span());
-        report.error(span, Message::NotAStruct);
-        return None;
-    };
-    let name = item.ident.to_string();
-    if !item.fields.is_empty() {
-        report.error(
-            item.ident.span(),
-            Message::StructFields { name: name.clone() },
-        );
-    }
-    if !item.generics.params.is_empty() || item.generics.where_clause.is_some() {
-        let name = name.clone();
-        report.error(item.ident.span(), Message::StructGenerics { name });
-    }
-    let item = StructItem {
-        attrs: item.attrs,
-        vis: item.vis,
-        ident: item.ident,
-        tokens,
-    };
-    if item.is_reserved() {
-        report.error(item.ident.span(), Message::ReservedName { name });
-    }
-    Some(item)
 }
 
 /// A member of the attribute.
@@ -317,7 +248,7 @@ fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Member, ListFault> 
         let value = identifier(input, "`loops` or `unrolled`")?;
         return Ok(Member::Code(name, value));
     }
-    let message = Message::unknown_entry(name.to_string());
+    let message = SyntaxMessage::unknown_entry(name.to_string());
     Err(Diagnostic::new(name.span(), message).into())
 }
 
@@ -433,60 +364,4 @@ fn pair(input: ParseStream<'_>) -> Option<(TokenStream, Span)> {
             _ => Err(cursor.error("")),
         })
         .ok()
-}
-
-fn request(input: ParseStream<'_>, report: &mut Report) -> Result<Request, ListFault> {
-    let name = identifier(input, "an output, as in `energies`")?;
-    let forms = if input.peek(token::Paren) {
-        let forms = group(input, Delimiter::Parenthesis, "`(`")?;
-        Some(list(forms, report, form))
-    } else {
-        None
-    };
-    Ok(Request {
-        name,
-        damaged: forms.as_ref().is_some_and(|forms| forms.damaged),
-        forms: forms.map(|forms| forms.members),
-    })
-}
-
-fn observable(input: ParseStream<'_>, _: &mut Report) -> Result<ObservableClause, ListFault> {
-    let name = identifier(input, "an observable, as in `height = cos(theta_bob)`")?;
-    take::<Token![=]>(input, "`=` and an expression")?;
-    let value = Expression::parse(input)?;
-    Ok(ObservableClause { name, value })
-}
-
-fn form(input: ParseStream<'_>, report: &mut Report) -> Result<RequestForm, ListFault> {
-    let name = identifier(input, "`angle = 1`, `amplitude = 2` or `exact`")?;
-    let value = if input.peek(Token![=]) {
-        take::<Token![=]>(input, "`=`")?;
-        Some(whole_number(input, "a whole number, the order")?)
-    } else {
-        None
-    };
-    let members = if value.is_none() && input.peek(token::Paren) {
-        let names = group(input, Delimiter::Parenthesis, "`(`")?;
-        let member = |input: ParseStream<'_>, _: &mut Report| identifier(input, "a sector");
-        Some(list(names, report, member).members)
-    } else {
-        None
-    };
-    Ok(RequestForm {
-        name,
-        value,
-        members,
-    })
-}
-
-/// A whole number; all beyond `u32` count as `u32::MAX`.
-fn whole_number(input: ParseStream<'_>, what: &'static str) -> Result<Multiplicity, ListFault> {
-    let span = input.span();
-    let fault = || Diagnostic::new(span, Message::Expected { what }).into();
-    let digits = literal(input, what)?.replace('_', "");
-    if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
-        return Err(fault());
-    }
-    let count = digits.parse().unwrap_or(u32::MAX);
-    Ok(Multiplicity { count, span })
 }

@@ -16,6 +16,7 @@ mod parts;
 mod positions;
 mod prescribed;
 mod quantities;
+mod shapes;
 mod shown;
 mod sink;
 mod strip_docs;

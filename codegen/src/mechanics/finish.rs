@@ -9,8 +9,8 @@ use super::mismatch::Mismatch;
 use super::series::VelocitySeries;
 use super::transfer::{self, SubHamiltonian};
 use super::{
-    Articulation, Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics,
-    Observables, TransferFormulas, TransferParts, Truncated, WrittenOut,
+    Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics, Observables,
+    TransferFormulas, TransferParts, Truncated, WrittenOut,
 };
 use crate::scene::coordinates::{self, Coordinate};
 use crate::scene::{OrbitId, TransferRequest};
@@ -112,37 +112,6 @@ impl Derivation<'_> {
         mechanics.combinations = self.combinations;
         mechanics.symbols = self.symbols;
         Ok(mechanics)
-    }
-
-    /// A tree in loops: one link for all, and the drive.
-    fn finish_loops(mut self) -> Mechanics {
-        self.drive_signals();
-        let link = self.link_balance();
-        let gravity = self.quantity(&self.scene.gravity);
-        Mechanics {
-            parameters: self.parameters.clone(),
-            drive: self.plain_drive(None),
-            friction_power: None,
-            absolute: Frame::default(),
-            articulation: Articulation {
-                gravity: self.expr(&gravity.expand()),
-                joints: Vec::new(),
-            },
-            positions: None,
-            link: Some(link),
-            combinations: Vec::new(),
-            constants: Vec::new(),
-            coordinates: Vec::new(),
-            symmetric: None,
-            sectors: None,
-            transverse: None,
-            expansion: None,
-            mean_tree: None,
-            transfers: Vec::new(),
-            observables: Observables::default(),
-            trigonometry: self.trigonometry,
-            symbols: self.symbols,
-        }
     }
 
     /// Returns true if copies branch into copies, or have other links below

@@ -11,6 +11,7 @@ mod derivation;
 mod drive;
 pub mod expression;
 mod finish;
+mod finish_loops;
 mod frame;
 mod hamiltonian;
 mod inverse_mass;

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use super::values::{Usage, Values};
 use super::{Parameter, Quantity, Sign};
 use crate::description::{self, Expression, ExpressionKind, Property, TIME, Value};
-use crate::report::{Message, Report, nearest};
+use crate::report::{Report, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
 /// A torque on the root and a motion of its pivot; at least one of them.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -64,14 +64,14 @@ pub(super) fn resolve_drive(
         damaged,
     } = drive?;
     if parts.is_empty() && !damaged {
-        report.error(name.span(), Message::EmptyDrive);
+        report.error(name.span(), ValueMessage::EmptyDrive);
     }
     let mut resolved = Drive::default();
     let mut seen: Vec<String> = Vec::new();
     for Property { name, value } in parts {
         let (text, span) = (name.to_string(), name.span());
         if seen.contains(&text) {
-            report.error(span, Message::duplicate_property(name));
+            report.error(span, SyntaxMessage::duplicate_property(name));
             continue;
         }
         let (part, what, unit) = match text.as_str() {
@@ -82,7 +82,7 @@ pub(super) fn resolve_drive(
                 let nearest = nearest(&text, PARTS);
                 report.error(
                     span,
-                    Message::UnknownDrive {
+                    ValueMessage::UnknownDrive {
                         name: text,
                         nearest,
                     },
@@ -98,8 +98,8 @@ pub(super) fn resolve_drive(
         };
         match value {
             Value::Single(value) => *part = signal(value, &usage, values, report),
-            Value::Pair(..) => report.error(span, Message::NotAPoint { name: text }),
-            Value::Each { span, .. } => report.error(*span, Message::EachWithoutCopies),
+            Value::Pair(..) => report.error(span, TreeMessage::NotAPoint { name: text }),
+            Value::Each { span, .. } => report.error(*span, ValueMessage::EachWithoutCopies),
         }
     }
     Some(resolved)
@@ -167,7 +167,7 @@ fn part(
         }
         ExpressionKind::Power(base, exponent) => {
             let Ok(exponent) = u32::try_from(*exponent) else {
-                report.error(expression.span, Message::TimeDivisor);
+                report.error(expression.span, ValueMessage::TimeDivisor);
                 return None;
             };
             Signal::Power(Box::new(inner(base)?), exponent)
@@ -185,7 +185,7 @@ fn part(
                 _ => {
                     let nearest = nearest(&name, FUNCTIONS);
                     let span = function.span();
-                    report.error(span, Message::DriveFunction { name, nearest });
+                    report.error(span, ValueMessage::DriveFunction { name, nearest });
                     return None;
                 }
             };
@@ -205,13 +205,13 @@ fn divisor(
     let mut product = Quantity::integer(1);
     for divisor in divisors {
         if !is_plain(divisor) {
-            report.error(divisor.span, Message::TimeDivisor);
+            report.error(divisor.span, ValueMessage::TimeDivisor);
             return None;
         }
         let value = values.operand(divisor, usage, report)?;
         let value = values.accept(value, usage, divisor.span, report)?;
         let Ok(quotient) = product.divided_by(value) else {
-            report.error(divisor.span, Message::DivisionByZero);
+            report.error(divisor.span, ValueMessage::DivisionByZero);
             return None;
         };
         product = quotient;

@@ -6,7 +6,7 @@ use proc_macro2::Span;
 
 use super::template::{MAX_LINKS, Template};
 use super::{Group, Link, LinkId, Orbit, OrbitId};
-use crate::report::{Message, Report};
+use crate::report::{Report, SizeMessage, TreeMessage};
 
 /// Most pairs of a link and one above it in a tree that is written out. A chain of 100
 /// links, 4,950 pairs, takes 2 s in an unoptimised build, with its energies 5 s.
@@ -165,7 +165,10 @@ pub(super) fn check_size(templates: &[Template], report: &mut Report) -> bool {
         .zip(totals)
         .find(|(_, links)| *links > MAX_LINKS);
     if let Some((template, _)) = beyond {
-        report.error(template.span, Message::TooManyLinks { limit: MAX_LINKS });
+        report.error(
+            template.span,
+            SizeMessage::TooManyLinks { limit: MAX_LINKS },
+        );
     }
     beyond.is_none()
 }
@@ -195,7 +198,7 @@ pub(super) fn check_pairs(links: &[Link], span: Span, report: &mut Report) -> bo
     let pairs = depths.iter().sum();
     if pairs > MAX_PAIRS {
         let limit = MAX_PAIRS;
-        report.error(span, Message::TooManyPairs { pairs, limit });
+        report.error(span, SizeMessage::TooManyPairs { pairs, limit });
     }
     pairs <= MAX_PAIRS
 }
@@ -235,7 +238,7 @@ pub(super) fn check_names(
             && !std::mem::replace(reported, true)
         {
             let name = name.clone();
-            report.error(node.span, Message::DuplicateName { name });
+            report.error(node.span, TreeMessage::DuplicateName { name });
         }
     }
     owners

@@ -8,7 +8,7 @@ use super::bodies::Body;
 use super::requests::Resolved;
 use super::rule::Code;
 use super::template::{MAX_LINKS, Template, WholeRule};
-use crate::report::{Message, Report};
+use crate::report::{Report, SizeMessage};
 
 /// Trees by rule of at least so many links get loops: straight code for one state is slower,
 /// and takes several times as long to compile (`docs/performance.md`).
@@ -94,17 +94,17 @@ pub(super) fn of_rule(
     }
     match obstacle(templates, asked) {
         Some(what) if rule.code.is_some() => {
-            report.error(rule.span, Message::NoLoops { what });
+            report.error(rule.span, SizeMessage::NoLoops { what });
             Err(())
         }
         Some(what) if links > MAX_LINKS => {
             let limit = MAX_LINKS;
-            report.error(rule.span, Message::TooManyForUnrolled { what, limit });
+            report.error(rule.span, SizeMessage::TooManyForUnrolled { what, limit });
             Err(())
         }
         Some(_) => Ok(Layout::Unrolled),
         None if links > MOST => {
-            report.error(rule.span, Message::TooManyLinks { limit: MOST });
+            report.error(rule.span, SizeMessage::TooManyLinks { limit: MOST });
             Err(())
         }
         None => {
@@ -138,7 +138,7 @@ pub(super) fn of_links(
     // What is unreadable may look like an obstacle.
     if let (Some(what), Some(span), true) = (obstacle, span, report.is_empty()) {
         let what = what.to_owned();
-        report.error(span, Message::NoLoops { what });
+        report.error(span, SizeMessage::NoLoops { what });
     }
     match obstacle {
         Some(_) => Layout::Unrolled,

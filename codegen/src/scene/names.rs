@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Span};
 
 use crate::description::TIME;
-use crate::report::{Lookalike, Message, Report};
+use crate::report::{Lookalike, Message, Report, TreeMessage, ValueMessage};
 
 /// Keywords of Rust 2024, reserved ones included.
 #[rustfmt::skip]
@@ -56,26 +56,26 @@ const MOTION: &[&str] = &[
 ];
 
 /// Message about a name in a property that reads like an angle or a velocity.
-pub(super) fn motion(name: &str) -> Option<Message> {
+pub(super) fn motion(name: &str) -> Option<ValueMessage> {
     let known = MOTION.contains(&name) || name.starts_with("theta_") || name.starts_with("omega_");
-    known.then(|| Message::Lookalike {
+    known.then(|| ValueMessage::Lookalike {
         name: name.to_owned(),
         kind: Lookalike::Motion,
     })
 }
 
 /// Message about a name that reads like no value at all.
-fn lookalike(name: &str) -> Option<Message> {
+fn lookalike(name: &str) -> Option<ValueMessage> {
     let name = name.to_owned();
     let kind = match name.as_str() {
         small if JOINTS.contains(&small) => Lookalike::Joint,
         small if FUNCTIONS.contains(&small) => Lookalike::Function,
         other if NOT_FINITE.contains(&other.to_ascii_lowercase().as_str()) => {
-            return Some(Message::NotFinite { name });
+            return Some(ValueMessage::NotFinite { name });
         }
         _ => return None,
     };
-    Some(Message::Lookalike { name, kind })
+    Some(ValueMessage::Lookalike { name, kind })
 }
 
 /// Checks the name of a link; a fault goes to `report`.
@@ -97,10 +97,10 @@ pub(super) fn check_observable(name: &Ident, report: &mut Report) -> Option<()> 
 }
 
 /// The message about a constant without exact value, if `name` is one.
-pub(super) fn irrational(name: &str) -> Option<Message> {
+pub(super) fn irrational(name: &str) -> Option<ValueMessage> {
     let small = name.to_ascii_lowercase();
     let &(_, digits) = CONSTANTS.iter().find(|(constant, _)| *constant == small)?;
-    Some(Message::NotExact {
+    Some(ValueMessage::NotExact {
         name: name.to_owned(),
         digits,
     })
@@ -109,11 +109,12 @@ pub(super) fn irrational(name: &str) -> Option<Message> {
 /// Checks the name of a parameter; a fault goes to `report`.
 pub(super) fn check_parameter(name: &str, span: Span, report: &mut Report) -> Option<()> {
     if name == TIME {
-        report.error(span, Message::TimeOutsideDrive);
+        report.error(span, ValueMessage::TimeOutsideDrive);
         return None;
     }
     let message = irrational(name).or_else(|| lookalike(name));
-    match message.or_else(|| fault(name)) {
+    let message = message.map(Message::from);
+    match message.or_else(|| fault(name).map(Message::from)) {
         Some(message) => {
             report.error(span, message);
             None
@@ -128,15 +129,15 @@ pub fn is_keyword(name: &str) -> bool {
 }
 
 /// The message about a name that may not be used.
-fn fault(name: &str) -> Option<Message> {
+fn fault(name: &str) -> Option<TreeMessage> {
     let name = name.to_owned();
     if is_keyword(&name) || EMITTED.contains(&name.as_str()) {
-        Some(Message::ReservedName { name })
+        Some(TreeMessage::ReservedName { name })
     } else if is_snake_case(&name) {
         None
     } else {
         let suggestion = snake_case(&name);
-        Some(Message::NotSnakeCase { name, suggestion })
+        Some(TreeMessage::NotSnakeCase { name, suggestion })
     }
 }
 

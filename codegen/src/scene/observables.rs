@@ -9,7 +9,7 @@ use super::symbols::{Meaning, ObservableSymbols};
 use super::values::{message_for, unrepresentable};
 use super::{Quantity, Scene};
 use crate::description::{self, Expression, ExpressionKind};
-use crate::report::{Message, Report, nearest};
+use crate::report::{Message, OutputMessage, Report, TreeMessage, ValueMessage, nearest};
 
 /// A quantity that the description defines by an expression.
 #[derive(Debug, Clone, PartialEq)]
@@ -203,7 +203,7 @@ pub(super) fn resolve_observables(
         let named = check_observable(name, report).is_some();
         if taken {
             let name = text.clone();
-            report.error(observable.name.span(), Message::DuplicateName { name });
+            report.error(observable.name.span(), TreeMessage::DuplicateName { name });
         }
         let named = named && !taken && check_functions(name, &symbols, &mut functions, report);
         let value = evaluate(&observable.value, &symbols, report);
@@ -227,7 +227,7 @@ fn check_functions(
             || symbols.is_constant(&function)
             || !functions.insert(function.clone());
         if taken {
-            let message = Message::FunctionTaken {
+            let message = OutputMessage::FunctionTaken {
                 name: name.to_string(),
                 function,
             };
@@ -262,7 +262,7 @@ fn evaluate(
         ExpressionKind::Power(base, exponent) => {
             let value = evaluate(base, symbols, report)?;
             if *exponent < 0 && value.is_zero() {
-                report.error(base.span, Message::DivisionByZero);
+                report.error(base.span, ValueMessage::DivisionByZero);
                 return None;
             }
             match value {
@@ -286,14 +286,17 @@ fn evaluate(
             let value = evaluate(argument, symbols, report);
             let Some(&(_, known)) = known else {
                 let known = Function::ALL.map(|(name, _)| name).to_vec();
-                report.error(function.span(), Message::UnknownFunction { name, known });
+                report.error(
+                    function.span(),
+                    OutputMessage::UnknownFunction { name, known },
+                );
                 return None;
             };
             let value = value?;
             if let (Function::Sqrt, Observed::Known(Quantity::Exact(number))) = (known, &value)
                 && number.is_negative()
             {
-                let message = Message::Negative {
+                let message = ValueMessage::Negative {
                     what: "argument of `sqrt`".to_owned(),
                     value: number.to_string(),
                 };
@@ -310,7 +313,7 @@ fn evaluate(
         return None;
     }
     if value.is_out_of_range() {
-        report.error(expression.span, Message::NumberRange);
+        report.error(expression.span, ValueMessage::NumberRange);
         return None;
     }
     Some(value)
@@ -326,7 +329,7 @@ fn quotient(
 ) -> Option<Observed> {
     if let Some(at) = below.iter().position(Observed::is_zero) {
         let span = divisors.get(at).map_or(expression.span, |zero| zero.span);
-        report.error(span, Message::DivisionByZero);
+        report.error(span, ValueMessage::DivisionByZero);
         return None;
     }
     if let (Some(above), Some(below)) = (known(&above), known(&below)) {
@@ -379,12 +382,17 @@ fn symbol(name: &Ident, symbols: &ObservableSymbols, report: &mut Report) -> Opt
     let text = name.to_string();
     let message = match symbols.get(&text) {
         Some(Meaning::One(value)) => return Some(value.clone()),
-        Some(Meaning::Several) => Message::AmbiguousSymbol { name: text },
-        None => irrational(&text).unwrap_or_else(|| Message::UnknownSymbol {
-            nearest: nearest(&text, &symbols.names()).map(str::to_owned),
-            name: text,
-            example: symbols.example().to_owned(),
-        }),
+        Some(Meaning::Several) => OutputMessage::AmbiguousSymbol { name: text }.into(),
+        None => irrational(&text).map_or_else(
+            || {
+                Message::from(OutputMessage::UnknownSymbol {
+                    nearest: nearest(&text, &symbols.names()).map(str::to_owned),
+                    name: text.clone(),
+                    example: symbols.example().to_owned(),
+                })
+            },
+            Message::from,
+        ),
     };
     report.error(name.span(), message);
     None

@@ -3,7 +3,7 @@
 use super::expand::ExpandedTree;
 use super::{LinkId, PrescribedLinks};
 use crate::description::PrescribedClause;
-use crate::report::{Message, Report, nearest};
+use crate::report::{OutputMessage, Report, TreeMessage, nearest};
 
 /// Finds the links of each clause; what is wrong goes to `report`.
 pub(super) fn resolve_prescribed(
@@ -24,14 +24,14 @@ pub(super) fn resolve_prescribed(
     } in clauses
     {
         if links.is_empty() && !damaged {
-            report.error(name.span(), Message::NothingPrescribed);
+            report.error(name.span(), TreeMessage::NothingPrescribed);
         }
         let (mut found, mut written) = (Vec::new(), Vec::new());
         for link in links {
             let name = link.to_string();
             match names.iter().position(|known| *known == name) {
                 Some(index) if found.contains(&LinkId(index)) => {
-                    report.error(link.span(), Message::DuplicateRequest { name });
+                    report.error(link.span(), OutputMessage::DuplicateRequest { name });
                 }
                 Some(index) => {
                     found.push(LinkId(index));
@@ -39,7 +39,7 @@ pub(super) fn resolve_prescribed(
                 }
                 None => {
                     let nearest = nearest(&name, &names).map(str::to_owned);
-                    report.error(link.span(), Message::UnknownNode { name, nearest });
+                    report.error(link.span(), TreeMessage::UnknownNode { name, nearest });
                 }
             }
         }
@@ -47,8 +47,12 @@ pub(super) fn resolve_prescribed(
             name: written.join("_and_"),
             links: found,
         };
+        // Nothing of it was readable, which is reported.
+        if set.links.is_empty() {
+            continue;
+        }
         if sets.iter().any(|known| known.name == set.name) {
-            let message = Message::DuplicateRequest { name: set.name };
+            let message = OutputMessage::DuplicateRequest { name: set.name };
             report.error(name.span(), message);
         } else {
             sets.push(set);

@@ -10,7 +10,7 @@ use super::template::accept_body;
 use super::values::{Usage, Values, message_for};
 use super::{Offset, Quantity, Sign};
 use crate::description::{Node, Property, Value};
-use crate::report::{Message, Report, nearest};
+use crate::report::{Report, SyntaxMessage, TreeMessage, nearest};
 
 /// The properties of a link or rule, evaluated.
 pub(super) struct Properties {
@@ -128,7 +128,7 @@ const SYNONYMS: &[(&str, &str)] = &[
 ];
 
 /// A shape by its name.
-pub(super) fn find_shape(name: &str) -> Result<&'static BodyShape, Message> {
+pub(super) fn find_shape(name: &str) -> Result<&'static BodyShape, TreeMessage> {
     SHAPES
         .iter()
         .find(|shape| shape.name == name)
@@ -136,7 +136,7 @@ pub(super) fn find_shape(name: &str) -> Result<&'static BodyShape, Message> {
             let mut known: Vec<&'static str> = SHAPES.iter().map(|shape| shape.name).collect();
             known.push("generations");
             let meant = SYNONYMS.iter().find(|(other, _)| *other == name);
-            Message::UnknownShape {
+            TreeMessage::UnknownShape {
                 name: name.to_owned(),
                 nearest: meant
                     .map(|(_, shape)| *shape)
@@ -194,7 +194,10 @@ impl LinkKind {
         for property in &node.properties {
             let name = property.name.to_string();
             if seen.contains(&name) {
-                report.error(property.name.span(), Message::duplicate_property(&name));
+                report.error(
+                    property.name.span(),
+                    SyntaxMessage::duplicate_property(&name),
+                );
                 sound = false;
                 continue;
             }
@@ -225,10 +228,10 @@ impl LinkKind {
     }
 
     /// The message about an unknown property, and the one probably meant.
-    fn unknown(&self, name: String) -> (Message, Option<&'static str>) {
+    fn unknown(&self, name: String) -> (TreeMessage, Option<&'static str>) {
         let known = self.known();
         let nearest = nearest(&name, &known);
-        let message = Message::UnknownProperty {
+        let message = TreeMessage::UnknownProperty {
             name,
             body: self.text.clone(),
             nearest,
@@ -238,8 +241,8 @@ impl LinkKind {
     }
 
     /// The message about a missing property.
-    pub(super) fn missing(&self, name: &'static str, node: &Node) -> Message {
-        Message::MissingProperty {
+    pub(super) fn missing(&self, name: &'static str, node: &Node) -> TreeMessage {
+        TreeMessage::MissingProperty {
             name,
             link: node.name.to_string(),
             body: self.text.clone(),
@@ -341,7 +344,7 @@ fn evaluate(
         }
         Value::Pair(..) => {
             let name = name.to_owned();
-            report.error(property.name.span(), Message::NotAPoint { name });
+            report.error(property.name.span(), TreeMessage::NotAPoint { name });
             None
         }
         // Reported with the copies.

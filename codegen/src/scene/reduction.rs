@@ -16,7 +16,9 @@ use super::values::{Usage, Values};
 use super::{Quantity, Reduction, Sign, WholeMotion, WholeOrbit, WholeOrder};
 use crate::description::{Expression, LockedClause, Reductions};
 use crate::exact::Rational;
-use crate::report::{Message, Report, UnequalUse, nearest};
+use crate::report::{
+    OutputMessage, Report, SizeMessage, TreeMessage, UnequalUse, ValueMessage, nearest,
+};
 
 /// Most links of a whole tree: what an index of 32 bits counts.
 const MOST_WHOLE: usize = 1 << 32;
@@ -41,7 +43,7 @@ pub(super) fn reduce(
         let locked = reductions.locked.iter().map(|clause| clause.link.span());
         for span in in_phase.chain(locked) {
             let (node, wanted) = (unequal.name.clone(), UnequalUse::Reduction);
-            report.error(span, Message::UnequalCopies { node, wanted });
+            report.error(span, OutputMessage::UnequalCopies { node, wanted });
         }
         return None;
     }
@@ -54,7 +56,7 @@ pub(super) fn reduce(
     if order == WholeOrder::Generations
         && let Some(clause) = reductions.locked.first()
     {
-        let message = Message::LockedGeneration {
+        let message = TreeMessage::LockedGeneration {
             link: clause.link.to_string(),
         };
         report.error(clause.link.span(), message);
@@ -85,12 +87,12 @@ fn locks(
         let Some(index) = templates.iter().position(|known| known.name == name) else {
             let names: Vec<&str> = templates.iter().map(|known| known.name.as_str()).collect();
             let nearest = nearest(&name, &names).map(str::to_owned);
-            report.error(link.span(), Message::UnknownNode { name, nearest });
+            report.error(link.span(), TreeMessage::UnknownNode { name, nearest });
             continue;
         };
         let template = &templates[index];
         if template.parent.is_none() {
-            report.error(link.span(), Message::LockedRoot);
+            report.error(link.span(), TreeMessage::LockedRoot);
             continue;
         }
         let idle = [
@@ -98,7 +100,7 @@ fn locks(
             ("spring", template.spring.is_some()),
         ];
         for (property, _) in idle.into_iter().filter(|(_, given)| *given) {
-            let message = Message::IdleJoint {
+            let message = TreeMessage::IdleJoint {
                 link: name.clone(),
                 property,
             };
@@ -108,7 +110,7 @@ fn locks(
             continue;
         };
         if locks[index].replace(angle).is_some() {
-            report.error(link.span(), Message::DuplicateRequest { name });
+            report.error(link.span(), OutputMessage::DuplicateRequest { name });
         }
     }
     locks
@@ -133,7 +135,7 @@ fn locked_angle(
         .exact()
         .filter(|angle| **angle < most && -&most < **angle);
     if angle.is_none() {
-        report.error(written.span, Message::LockedAngle);
+        report.error(written.span, TreeMessage::LockedAngle);
     }
     angle.cloned()
 }
@@ -146,7 +148,7 @@ fn alike(nodes: &[Ident], templates: &[Template], report: &mut Report) -> Vec<bo
         let several = |template: &Template| template.copies > 1;
         if name == "all" && !templates.iter().any(|known| known.node == name) {
             if !templates.iter().any(several) {
-                report.error(node.span(), Message::NothingInPhase { name });
+                report.error(node.span(), TreeMessage::NothingInPhase { name });
             }
             alike.fill(true);
             continue;
@@ -156,17 +158,17 @@ fn alike(nodes: &[Ident], templates: &[Template], report: &mut Report) -> Vec<bo
             let mut names: Vec<&str> = templates.iter().map(|known| known.node.as_str()).collect();
             names.dedup();
             let nearest = nearest(&name, &names).map(str::to_owned);
-            report.error(node.span(), Message::UnknownNode { name, nearest });
+            report.error(node.span(), TreeMessage::UnknownNode { name, nearest });
             continue;
         }
         if !templates.iter().filter(of_node).any(several) {
-            report.error(node.span(), Message::NothingInPhase { name });
+            report.error(node.span(), TreeMessage::NothingInPhase { name });
             continue;
         }
         for (alike, template) in alike.iter_mut().zip(templates) {
             if template.node == name && std::mem::replace(alike, true) {
                 let name = name.clone();
-                report.error(node.span(), Message::DuplicateRequest { name });
+                report.error(node.span(), OutputMessage::DuplicateRequest { name });
                 break;
             }
         }
@@ -192,7 +194,7 @@ fn whole_links(templates: &[Template], report: &mut Report) -> Option<usize> {
     if links > MOST_WHOLE {
         let limit = MOST_WHOLE;
         let span = templates.first()?.span;
-        report.error(span, Message::TooManyLinks { limit });
+        report.error(span, SizeMessage::TooManyLinks { limit });
         return None;
     }
     Some(links)
@@ -293,7 +295,7 @@ fn lock(
         match weld(&parent.body, link, angle) {
             Ok(body) => parent.body = body,
             Err(_) => {
-                report.error(link.span, Message::NumberLength);
+                report.error(link.span, ValueMessage::NumberLength);
                 return None;
             }
         }

@@ -10,7 +10,7 @@ use super::expand::ExpandedTree;
 use super::sectors::sectors;
 use super::{BudgetRequest, LinkId, Requests, Scene, Solve, TransferRequest};
 use crate::description::{Request, RequestForm};
-use crate::report::{Message, Report, UnequalUse, nearest};
+use crate::report::{OutputMessage, Report, SyntaxMessage, UnequalUse, nearest};
 
 /// All outputs.
 const OUTPUTS: &[&str] = &[
@@ -81,12 +81,12 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
     {
         let (text, span) = (name.to_string(), name.span());
         if seen.contains(&text) {
-            report.error(span, Message::DuplicateRequest { name: text });
+            report.error(span, OutputMessage::DuplicateRequest { name: text });
             continue;
         }
         let formless = text != "transfer" && text != "budget";
         if forms.is_some() && formless && OUTPUTS.contains(&text.as_str()) {
-            report.error(span, Message::RequestForms { name: text.clone() });
+            report.error(span, OutputMessage::RequestForms { name: text.clone() });
         }
         let wanted = &mut resolved.requests;
         match text.as_str() {
@@ -118,7 +118,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             _ => {
                 let nearest = nearest(&text, OUTPUTS);
                 let name = text.clone();
-                report.error(span, Message::UnknownRequest { name, nearest });
+                report.error(span, OutputMessage::UnknownRequest { name, nearest });
             }
         }
         seen.push(text);
@@ -147,7 +147,7 @@ pub(super) fn resolve_solve(
     let found = Solve::ALL.into_iter().find(|solve| solve.name() == name);
     if found.is_none() {
         let nearest = nearest(&name, &Solve::ALL.map(Solve::name));
-        report.error(value.span(), Message::UnknownSolve { name, nearest });
+        report.error(value.span(), SyntaxMessage::UnknownSolve { name, nearest });
     }
     found
 }
@@ -171,7 +171,7 @@ fn budget(
         };
     };
     if forms.is_empty() && !damaged {
-        report.error(span, Message::NoBudgetForm);
+        report.error(span, OutputMessage::NoBudgetForm);
     }
     let mut seen: Vec<(String, Option<u32>)> = Vec::new();
     for RequestForm {
@@ -183,13 +183,13 @@ fn budget(
         let text = name.to_string();
         let order = value.map(|value| value.count);
         if seen.contains(&(text.clone(), order)) {
-            report.error(name.span(), Message::DuplicateRequest { name: text });
+            report.error(name.span(), OutputMessage::DuplicateRequest { name: text });
             continue;
         }
         let place = value.map_or(name.span(), |value| value.span);
         if members.is_some() && text != "small" && BUDGET_FORMS.contains(&text.as_str()) {
             let name = text.clone();
-            report.error(place, Message::RequestForms { name });
+            report.error(place, OutputMessage::RequestForms { name });
         }
         let flag = match text.as_str() {
             "canonical" => Some(&mut request.canonical),
@@ -204,27 +204,27 @@ fn budget(
                 *flag = true;
                 if value.is_some() {
                     let form = text.clone();
-                    report.error(place, Message::BudgetOrder { form });
+                    report.error(place, OutputMessage::BudgetOrder { form });
                 }
             }
             (None, "amplitude") => match order.filter(|order| AMPLITUDE_ORDERS.contains(order)) {
                 Some(order) => request.amplitude_orders.push(order),
-                None => report.error(place, Message::AmplitudeOrder),
+                None => report.error(place, OutputMessage::AmplitudeOrder),
             },
             (None, "small") => match members {
                 Some(members) if !members.is_empty() => small.clone_from(members),
-                _ => report.error(place, Message::NoSmallSector),
+                _ => report.error(place, OutputMessage::NoSmallSector),
             },
             (None, "angle") => match order.filter(|order| ANGLE_ORDERS.contains(order)) {
                 Some(order) => request.angle_orders.push(order),
-                None => report.error(place, Message::AngleOrder),
+                None => report.error(place, OutputMessage::AngleOrder),
             },
             _ => {
                 let nearest = nearest(&text, BUDGET_FORMS);
                 let name_of_form = text.clone();
                 report.error(
                     name.span(),
-                    Message::UnknownBudgetForm {
+                    OutputMessage::UnknownBudgetForm {
                         name: name_of_form,
                         nearest,
                     },
@@ -237,7 +237,7 @@ fn budget(
         && request.angle_orders.is_empty()
         && let Some(name) = small.first()
     {
-        report.error(name.span(), Message::SmallWithoutOrder);
+        report.error(name.span(), OutputMessage::SmallWithoutOrder);
     }
     request
 }
@@ -256,7 +256,7 @@ pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut 
         let found = known.iter().find(|sector| sector.name == name);
         match found.and_then(|sector| sector.difference) {
             Some(difference) if small.contains(&difference) => {
-                report.error(ident.span(), Message::DuplicateRequest { name });
+                report.error(ident.span(), OutputMessage::DuplicateRequest { name });
             }
             Some(difference) => small.push(difference),
             None => {
@@ -264,7 +264,7 @@ pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut 
                 let known = names.join("`, `");
                 report.error(
                     ident.span(),
-                    Message::UnknownSector {
+                    OutputMessage::UnknownSector {
                         name,
                         nearest,
                         known,
@@ -298,7 +298,7 @@ fn transfer(
         };
     };
     if forms.is_empty() && !damaged {
-        report.error(span, Message::NoForm);
+        report.error(span, OutputMessage::NoForm);
     }
     let mut seen: Vec<(String, Option<u32>)> = Vec::new();
     for RequestForm {
@@ -309,29 +309,29 @@ fn transfer(
     {
         if members.is_some() {
             let name = name.to_string();
-            report.error(span, Message::RequestForms { name });
+            report.error(span, OutputMessage::RequestForms { name });
         }
         let (text, span) = (name.to_string(), name.span());
         let order = value.map(|value| value.count);
         // One form may be asked for to several orders, each once.
         if seen.contains(&(text.clone(), order)) {
-            report.error(span, Message::DuplicateRequest { name: text });
+            report.error(span, OutputMessage::DuplicateRequest { name: text });
             continue;
         }
         let span = value.map_or(span, |value| value.span);
         match text.as_str() {
             "angle" => match order.filter(|order| ANGLE_ORDERS.contains(order)) {
                 Some(order) => request.angle_orders.push(order),
-                None => report.error(span, Message::AngleOrder),
+                None => report.error(span, OutputMessage::AngleOrder),
             },
             "amplitude" => match order.filter(|order| AMPLITUDE_ORDERS.contains(order)) {
                 Some(order) => request.amplitude_orders.push(order),
-                None => report.error(span, Message::AmplitudeOrder),
+                None => report.error(span, OutputMessage::AmplitudeOrder),
             },
             "exact" => {
                 request.exact = true;
                 if value.is_some() {
-                    report.error(span, Message::ExactOrder);
+                    report.error(span, OutputMessage::ExactOrder);
                 }
             }
             _ => {
@@ -339,7 +339,7 @@ fn transfer(
                 let form = text.clone();
                 report.error(
                     name.span(),
-                    Message::UnknownForm {
+                    OutputMessage::UnknownForm {
                         name: form,
                         nearest,
                     },
@@ -372,7 +372,7 @@ pub(super) fn check_symmetry(
         for (span, wanted) in places {
             if let Some(span) = span {
                 let node = orbit.node.clone();
-                report.error(span, Message::UnequalCopies { node, wanted });
+                report.error(span, OutputMessage::UnequalCopies { node, wanted });
             }
         }
         if let Some(transfer) = &mut resolved.requests.transfer {
@@ -389,7 +389,7 @@ pub(super) fn check_symmetry(
         for (span, request) in needy {
             if let Some(span) = span {
                 let request = request.to_owned();
-                report.error(span, Message::NoSiblings { request });
+                report.error(span, OutputMessage::NoSiblings { request });
             }
         }
     }
@@ -402,7 +402,7 @@ pub(super) fn check_symmetry(
         .find(|group| group.copies.iter().any(has_children));
     if let Some(group) = nested {
         let group = group.name.clone();
-        report.error(span, Message::NestedGroups { group });
+        report.error(span, OutputMessage::NestedGroups { group });
     }
     let lopsided = groups
         .iter()
@@ -411,6 +411,6 @@ pub(super) fn check_symmetry(
         .find(|link| !link.com.lateral.is_zero());
     if let Some(link) = lopsided {
         let link = link.name.clone();
-        report.error(span, Message::LateralTransfer { link });
+        report.error(span, OutputMessage::LateralTransfer { link });
     }
 }

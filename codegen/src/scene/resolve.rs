@@ -15,7 +15,7 @@ use super::template::TreeBuilder;
 use super::values::{Usage, Values, check_used};
 use super::{CratePath, Quantity, Scene, Sign};
 use crate::description::{Description, Node, Property, Value};
-use crate::report::{Message, Report};
+use crate::report::{OutputMessage, Report, SyntaxMessage, TreeMessage, ValueMessage};
 
 /// Checks a description and writes it out link by link.
 ///
@@ -80,7 +80,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     for (parameter, span) in values.parameters.iter().zip(&values.spans) {
         if owners.contains_key(&parameter.name) {
             let name = parameter.name.clone();
-            report.error(*span, Message::DuplicateName { name });
+            report.error(*span, TreeMessage::DuplicateName { name });
         }
     }
     // Copies may have stood where the tree was unreadable.
@@ -112,7 +112,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         if scene.requests.transverse && scene.transverse_sectors().is_empty() {
             report.error(
                 resolved.transverse.unwrap_or_else(Span::call_site),
-                Message::NoTransverse,
+                OutputMessage::NoTransverse,
             );
         }
         if !scene.groups.is_empty() {
@@ -149,14 +149,14 @@ fn gravity(
             value: Value::Each { span, .. },
             ..
         }) => {
-            report.error(*span, Message::EachWithoutCopies);
+            report.error(*span, ValueMessage::EachWithoutCopies);
             None
         }
         Some(Property {
             name,
             value: Value::Pair(..),
         }) => {
-            let message = Message::NotAPoint {
+            let message = TreeMessage::NotAPoint {
                 name: name.to_string(),
             };
             report.error(name.span(), message);
@@ -165,7 +165,7 @@ fn gravity(
         None => {
             // It may have stood where the attribute was unreadable.
             if !description.damaged {
-                report.error(description.item.ident.span(), Message::MissingGravity);
+                report.error(description.item.ident.span(), SyntaxMessage::MissingGravity);
             }
             None
         }
@@ -176,11 +176,11 @@ fn gravity(
 fn check_roots(description: &Description, report: &mut Report) {
     match description.roots.as_slice() {
         [] if description.damaged => {}
-        [] => report.error(description.item.ident.span(), Message::EmptyTree),
+        [] => report.error(description.item.ident.span(), TreeMessage::EmptyTree),
         [first, others @ ..] => {
             for other in others {
                 let first = first.name.to_string();
-                report.error(other.name.span(), Message::SecondRoot { first });
+                report.error(other.name.span(), TreeMessage::SecondRoot { first });
             }
         }
     }

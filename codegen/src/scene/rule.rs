@@ -7,7 +7,7 @@ use super::properties::{LinkKind, find_shape};
 use super::{Offset, Quantity, Sign};
 use crate::description::{Expression, ExpressionKind, Node, Property, Value};
 use crate::exact::{ExactError, Rational};
-use crate::report::{Message, Report};
+use crate::report::{Report, SyntaxMessage, TreeMessage};
 
 /// The settings of a generation rule.
 pub(super) struct GenerationRule {
@@ -47,7 +47,7 @@ pub(super) fn resolve_code(
     let (_, value) = written?;
     let found = Code::named(&value.to_string());
     if found.is_none() {
-        report.error(value.span(), Message::NotACode);
+        report.error(value.span(), SyntaxMessage::NotACode);
     }
     found.map(|code| (code, value.span()))
 }
@@ -165,7 +165,7 @@ impl Counts {
                 "count" | "branching" => {
                     let count = count(value);
                     if count.is_none() {
-                        report.error(name.span(), Message::NotACount { name: text.clone() });
+                        report.error(name.span(), TreeMessage::NotACount { name: text.clone() });
                     }
                     if text == "count" {
                         named = true;
@@ -177,7 +177,7 @@ impl Counts {
                 "code" => {
                     self.code = code(value);
                     if self.code.is_none() {
-                        report.error(name.span(), Message::NotACode);
+                        report.error(name.span(), SyntaxMessage::NotACode);
                     }
                 }
                 "shape" => self.shape = Some(shape(value, name.span(), report)),
@@ -225,7 +225,7 @@ fn shape(value: &Value, span: Span, report: &mut Report) -> Result<&'static Body
         ..
     }) = value
     else {
-        report.error(span, Message::NotAShape);
+        report.error(span, TreeMessage::NotAShape);
         return Err(());
     };
     find_shape(&name.to_string()).map_err(|message| report.error(name.span(), message))

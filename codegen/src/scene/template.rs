@@ -10,7 +10,7 @@ use super::unequal::unequal_copies;
 use super::values::{Usage, Values};
 use super::{Offset, Quantity, Sign};
 use crate::description::Node;
-use crate::report::{Message, Report};
+use crate::report::{Report, SizeMessage, TreeMessage};
 
 /// Most links that a scene may have, copies included.
 pub(super) const MAX_LINKS: usize = 4096;
@@ -70,7 +70,7 @@ impl TreeBuilder {
     /// still have their names and numbers of copies, but no meaningful bodies.
     pub(super) fn add_root(&mut self, node: &Node, report: &mut Report) {
         if let Some(copies) = node.copies.filter(|copies| copies.count > 1) {
-            report.error(copies.span, Message::RootCopies);
+            report.error(copies.span, TreeMessage::RootCopies);
         }
         self.add(node, None, report);
     }
@@ -85,7 +85,7 @@ impl TreeBuilder {
         let before = report.diagnostics().len();
         check_link(&node.name, report);
         if let Some(copies) = node.copies.filter(|copies| copies.count == 0) {
-            report.error(copies.span, Message::ZeroCopies);
+            report.error(copies.span, TreeMessage::ZeroCopies);
         }
         check_rest(node, report);
         let shape = node.shape.as_ref();
@@ -178,12 +178,12 @@ impl TreeBuilder {
                 }
                 Some(_) if rule.code == Some(Code::Loops) => {
                     let what = "a rule below other links".to_owned();
-                    report.error(first.span, Message::NoLoops { what });
+                    report.error(first.span, SizeMessage::NoLoops { what });
                 }
                 Some(_) => {}
             }
             if let Some(child) = node.children.first() {
-                report.error(child.name.span(), Message::RuleChildren);
+                report.error(child.name.span(), TreeMessage::RuleChildren);
             }
             self.add_generations(node, first, properties, rule, report);
             return;
@@ -218,7 +218,7 @@ impl TreeBuilder {
             (None, Some(_)) => {
                 let at = node.properties.iter().find(|p| p.name == "at");
                 let span = at.map_or(node.name.span(), |at| at.name.span());
-                report.error(span, Message::RootPivot);
+                report.error(span, TreeMessage::RootPivot);
                 origin()
             }
         }
@@ -236,7 +236,7 @@ impl TreeBuilder {
         let span = first.span;
         // The templates alone may be too many, before any copies.
         if self.templates.len().saturating_add(rule.count) > MAX_LINKS {
-            report.error(span, Message::TooManyLinks { limit: MAX_LINKS });
+            report.error(span, SizeMessage::TooManyLinks { limit: MAX_LINKS });
             return;
         }
         if first.body.joint.is_none() && rule.count > 1 && !node.damaged {
@@ -314,13 +314,13 @@ fn check_rest(node: &Node, report: &mut Report) {
     let find = |name: &str| node.properties.iter().find(|p| p.name == name);
     if let (Some(rest), None, false) = (find("rest"), find("spring"), node.damaged) {
         let link = node.name.to_string();
-        report.error(rest.name.span(), Message::RestWithoutSpring { link });
+        report.error(rest.name.span(), TreeMessage::RestWithoutSpring { link });
     }
 }
 
 fn missing_joint(node: &Node, report: &mut Report) {
     let link = node.name.to_string();
-    report.error(node.name.span(), Message::MissingJoint { link });
+    report.error(node.name.span(), TreeMessage::MissingJoint { link });
 }
 
 /// The pivot itself.

@@ -6,7 +6,7 @@ use super::coordinates::Coordinate;
 use super::template::Template;
 use super::{LinkId, Orbit, Scene};
 use crate::description::{Node, Property, Value};
-use crate::report::{Message, Report};
+use crate::report::{Report, ValueMessage};
 
 /// The copies of a node one by one, each with its own values, where the description says
 /// that they differ; `None` otherwise, and after reporting a wrong `each(...)`.
@@ -21,9 +21,9 @@ pub(super) fn unequal_copies(node: &Node, is_rule: bool, report: &mut Report) ->
         differ = true;
         let link = node.name.to_string();
         let message = match values.len() {
-            _ if is_rule => Message::EachInRule { link },
-            _ if copies < 2 => Message::EachWithoutCopies,
-            values if values != copies => Message::EachCount {
+            _ if is_rule => ValueMessage::EachInRule { link },
+            _ if copies < 2 => ValueMessage::EachWithoutCopies,
+            values if values != copies => ValueMessage::EachCount {
                 link,
                 copies,
                 values,

@@ -6,7 +6,7 @@ use super::names::check_parameter;
 use super::{Parameter, ParameterId, Quantity, Requirement, Sign};
 use crate::description::{Expression, ExpressionKind, ParameterClause};
 use crate::exact::{ExactError, Rational};
-use crate::report::{Message, Report, nearest};
+use crate::report::{Report, SyntaxMessage, ValueMessage, nearest};
 
 /// Use of a value.
 pub(super) struct Usage<'a> {
@@ -39,7 +39,7 @@ impl Values {
                 continue;
             }
             if values.parameters.iter().any(|known| known.name == text) {
-                let message = Message::duplicate_property(name);
+                let message = SyntaxMessage::duplicate_property(name);
                 report.error(name.span(), message);
                 continue;
             }
@@ -59,10 +59,10 @@ impl Values {
         });
     }
 
-    fn undeclared(&self, name: String) -> Message {
+    fn undeclared(&self, name: String) -> ValueMessage {
         let known: Vec<&str> = self.parameters.iter().map(|p| p.name.as_str()).collect();
         let nearest = nearest(&name, &known).map(str::to_owned);
-        Message::UndeclaredParameter { name, nearest }
+        ValueMessage::UndeclaredParameter { name, nearest }
     }
 
     /// The value of an expression; `None` after reporting what is wrong.
@@ -136,7 +136,7 @@ impl Values {
                 let (factors, values) = (factors?, values?);
                 if let Some(at) = values.iter().position(Quantity::is_zero) {
                     let span = divisors.get(at).map_or(expression.span, |zero| zero.span);
-                    report.error(span, Message::DivisionByZero);
+                    report.error(span, ValueMessage::DivisionByZero);
                     return None;
                 }
                 Quantity::product(factors).divided_by(Quantity::product(values))
@@ -147,13 +147,13 @@ impl Values {
             ExpressionKind::Negative(value) => Ok(self.operand(value, usage, report)?.negative()),
             ExpressionKind::Call { function, .. } => {
                 let name = function.to_string();
-                report.error(function.span(), Message::FunctionCall { name });
+                report.error(function.span(), ValueMessage::FunctionCall { name });
                 return None;
             }
         };
         match value {
             Ok(Quantity::Exact(number)) if !number.is_short() => {
-                report.error(expression.span, Message::NumberLength);
+                report.error(expression.span, ValueMessage::NumberLength);
                 None
             }
             Ok(value) => Some(value),
@@ -222,16 +222,18 @@ pub(super) fn check_used(parameters: &[Parameter], spans: &[Span], report: &mut 
     for (parameter, &span) in parameters.iter().zip(spans) {
         if parameter.doc.is_empty() {
             let name = parameter.name.clone();
-            report.error(span, Message::UnusedParameter { name });
+            report.error(span, ValueMessage::UnusedParameter { name });
         }
     }
 }
 
 /// The message for a failed operation on exact numbers.
-pub(super) fn message_for(error: ExactError) -> Message {
+pub(super) fn message_for(error: ExactError) -> ValueMessage {
     match error {
-        ExactError::DivisionByZero => Message::DivisionByZero,
-        ExactError::TooLong | ExactError::Malformed | ExactError::Exponent => Message::NumberLength,
+        ExactError::DivisionByZero => ValueMessage::DivisionByZero,
+        ExactError::TooLong | ExactError::Malformed | ExactError::Exponent => {
+            ValueMessage::NumberLength
+        }
     }
 }
 
@@ -239,15 +241,15 @@ pub(super) fn message_for(error: ExactError) -> Message {
 const LONGEST_NUMBER: usize = 30;
 
 /// The message about a number of the wrong sign.
-fn violation(number: &Rational, what: &str, sign: Sign) -> Option<Message> {
+fn violation(number: &Rational, what: &str, sign: Sign) -> Option<ValueMessage> {
     let (what, mut value) = (what.to_owned(), number.to_string());
     if value.len() > LONGEST_NUMBER {
         value = format!("{:e}", number.to_f64());
     }
     match sign {
-        Sign::NonNegative if number.is_negative() => Some(Message::Negative { what, value }),
+        Sign::NonNegative if number.is_negative() => Some(ValueMessage::Negative { what, value }),
         Sign::Positive if number.is_negative() || number.is_zero() => {
-            Some(Message::NotPositive { what, value })
+            Some(ValueMessage::NotPositive { what, value })
         }
         _ => None,
     }
@@ -255,7 +257,7 @@ fn violation(number: &Rational, what: &str, sign: Sign) -> Option<Message> {
 
 /// The message about a value whose numbers are too long to go on with or do not
 /// fit an `f64`: silently they would become zero or infinite.
-pub(super) fn unrepresentable(value: &Quantity) -> Option<Message> {
+pub(super) fn unrepresentable(value: &Quantity) -> Option<ValueMessage> {
     let mut message = None;
     value.for_each_leaf(&mut |leaf| {
         let Quantity::Exact(number) = leaf else {
@@ -263,9 +265,9 @@ pub(super) fn unrepresentable(value: &Quantity) -> Option<Message> {
         };
         let rounded = number.to_f64();
         if !number.is_short() {
-            message = Some(Message::NumberLength);
+            message = Some(ValueMessage::NumberLength);
         } else if !rounded.is_finite() || (rounded == 0.0 && !number.is_zero()) {
-            message = Some(Message::NumberRange);
+            message = Some(ValueMessage::NumberRange);
         }
     });
     message

@@ -1,7 +1,8 @@
 //! A storm that hits the branch now and then.
 
-use branched_pendulum::integrate::{Frames, HeldTorques, longest_sub_step};
+use branched_pendulum::integrate::{Frames, longest_sub_step};
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::UnderTorques;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -53,7 +54,7 @@ pub fn run(branch: &Branch<f32>, seconds: f64, frame: f64) -> Result<Storm, Fail
     let mut random = SplitMix64::seed_from_u64(11);
     let start = State::at_rest(0.0, &[0.0; LINKS]);
     let sub_step = longest_sub_step(branch);
-    let frames = Frames::new(HeldTorques::new(branch), &start, sub_step);
+    let frames = Frames::new(UnderTorques::of(branch, vec![0.0; LINKS]), &start, sub_step);
     let mut frames = frames.map_err(|error| Failure::Frames(Box::new(error)))?;
     let mut storm = Storm::default();
     let mut torques = [0.0; LINKS];

@@ -4,9 +4,9 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::Approximation;
-use crate::integrate::{Frames, HeldTorques};
+use crate::integrate::Frames;
 use crate::scalar::Real;
-use crate::system::{Forced, Ode};
+use crate::system::{Forced, Ode, UnderTorques};
 
 /// A motion by frames that takes an approximation while its error allows that, and the
 /// full model otherwise.
@@ -21,8 +21,9 @@ use crate::system::{Forced, Ode};
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
 /// use branched_pendulum::approximate::{Linear, Switched};
-/// use branched_pendulum::integrate::{Frames, HeldTorques, longest_sub_step};
+/// use branched_pendulum::integrate::{Frames, longest_sub_step};
 /// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::UnderTorques;
 ///
 /// #[branched_pendulum(
 ///     gravity = 9.80665,
@@ -36,7 +37,7 @@ use crate::system::{Forced, Ode};
 /// let branch = Branch::<f64>::new();
 /// let start = State::at_rest(0.0, &[1.0, 0.5, 0.8]);
 /// let sub_step = longest_sub_step(&branch);
-/// let full = Frames::new(HeldTorques::new(&branch), &start, sub_step)?;
+/// let full = Frames::new(UnderTorques::of(&branch, vec![0.0; 3]), &start, sub_step)?;
 /// let linear = Linear::about(&branch, &[0.0; 3])?;
 /// let seconds = linear.fading_time();
 /// let mut motion = Switched::new(full, linear.frames(1.0 / 60.0)?, 1e-2, seconds);
@@ -179,11 +180,12 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
     }
 }
 
-impl<P: Forced<T>, A: Approximation<T>, T: Real> Switched<HeldTorques<P, T>, A, T> {
+impl<P: Forced<T>, A: Approximation<T>, T: Real> Switched<UnderTorques<P, Vec<T>>, A, T> {
     /// Moves on by a frame under torques (N m) that stay the same during it; torques of
     /// another number than links are none.
     pub fn advance_under(&mut self, torques: &[T]) {
         let held = self.full.ode_mut().torques_mut();
+        held.resize(P::LINKS, T::ZERO);
         if torques.len() == held.len() {
             held.copy_from_slice(torques);
         } else {

@@ -50,7 +50,7 @@ pub use events::{Crossing, Event, Occurrence};
 pub use explicit::*;
 pub(crate) use fixed::Factored;
 pub use fixed::{Gauss, GaussOrder, Projected, Rk4, Solver, StoermerVerlet};
-pub use frames::{Frames, HeldTorques, longest_sub_step};
+pub use frames::{Frames, longest_sub_step};
 pub use integrator::Integrator;
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;

@@ -1,5 +1,8 @@
 //! Pendulums under torques from outside.
 
+mod fused;
+
+use alloc::vec::Vec;
 use core::fmt;
 
 use super::{Cast, LaneOde, Ode, Workspace};
@@ -11,7 +14,7 @@ use crate::scalar::Scalar;
     message = "`{Self}` takes no torques from outside",
     note = "a model takes them with `emit(forces)` in its attribute"
 )]
-pub trait Forced<T: Scalar>: Cast<T> {
+pub trait Forced<T: Scalar>: Cast<T> + Sized {
     /// Writes the angular accelerations, in rad/s², as
     /// [`Pendulum::accelerations_into`] does, with generalized torques Q (N m) on top of
     /// all others: M θ̈ + b = Q. Their power is Q·ω. All slices have length
@@ -31,7 +34,9 @@ pub trait Forced<T: Scalar>: Cast<T> {
     );
 
     /// Writes the same accelerations, in memory that the caller keeps, as
-    /// [`Pendulum::accelerations_with`](super::Pendulum::accelerations_with).
+    /// [`Pendulum::accelerations_with`](super::Pendulum::accelerations_with): models in
+    /// `f64` and `f32` of up to 64 links fuse products with sums where the machine can.
+    /// Integrators call this one.
     #[inline]
     fn accelerations_under_with(
         &self,
@@ -43,7 +48,9 @@ pub trait Forced<T: Scalar>: Cast<T> {
         alpha: &mut [T],
     ) {
         let _ = workspace;
-        self.accelerations_under_into(time, theta, omega, torques, alpha);
+        if !fused::under_in_fused(self, time, [theta, omega, torques], alpha) {
+            self.accelerations_under_into(time, theta, omega, torques, alpha);
+        }
     }
 
     /// Writes the accelerations of this pendulum on other scalars, in their arithmetic:
@@ -112,6 +119,18 @@ impl<T, F: Fn(T, &[T], &[T], &mut [T])> Torques<T> for F {
     #[inline]
     fn torques_into(&self, time: T, theta: &[T], omega: &[T], torques: &mut [T]) {
         self(time, theta, omega, torques);
+    }
+}
+
+/// Torques that stay as they are until the caller changes them, one for each link.
+impl<T: Scalar> Torques<T> for Vec<T> {
+    #[inline]
+    fn torques_into(&self, _: T, _: &[T], _: &[T], torques: &mut [T]) {
+        if self.len() == torques.len() {
+            torques.copy_from_slice(self);
+        } else {
+            torques.fill(T::from_f64(f64::NAN));
+        }
     }
 }
 
@@ -231,9 +250,21 @@ impl<P, F> UnderTorques<P, F> {
         Self { pendulum, torques }
     }
 
-    /// The pendulum, or a reference to one, under [`Torques`] of a type of their own.
+    /// The pendulum, or a reference to one, under [`Torques`] of a type of their own, or
+    /// under a vector of those that stay as they are.
     pub fn of(pendulum: P, torques: F) -> Self {
         Self { pendulum, torques }
+    }
+
+    /// The torques.
+    pub fn torques(&self) -> &F {
+        &self.torques
+    }
+
+    /// The torques, to change them: a vector between two frames of
+    /// [`Frames`](crate::integrate::Frames), for example.
+    pub fn torques_mut(&mut self) -> &mut F {
+        &mut self.torques
     }
 }
 

@@ -195,6 +195,11 @@ impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
 impl<T: Scalar, P: Transverse<T>> LaneOde<T> for TransverseOde<P> {
     type Of<S: Scalar> = TransverseOde<P::Of<S>>;
 
+    const DIMENSION: Option<usize> = match common_links(P::TRANSVERSE) {
+        Some(links) => Some(2 * (P::LINKS + links)),
+        None => None,
+    };
+
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
         TransverseOde {
             model: self.model.cast(convert),
@@ -231,6 +236,21 @@ impl<T: Scalar, P: Transverse<T>> LaneOde<T> for TransverseOde<P> {
 
     fn shape(&self) -> usize {
         self.index
+    }
+}
+
+/// Returns the number of links that all sectors have, if it is one.
+const fn common_links(sectors: &[TransverseSector]) -> Option<usize> {
+    let mut index = 0;
+    while index < sectors.len() {
+        if sectors[index].links != sectors[0].links {
+            return None;
+        }
+        index += 1;
+    }
+    match sectors {
+        [] => None,
+        [first, ..] => Some(first.links),
     }
 }
 

@@ -1,9 +1,9 @@
 //! Frames in real time.
 
 use branched_pendulum::Cast;
-use branched_pendulum::integrate::{Frames, HeldTorques, InputError, longest_sub_step};
+use branched_pendulum::integrate::{Frames, InputError, longest_sub_step};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
+use branched_pendulum::system::{OdeFn, UnderTorques};
 
 use crate::scenes::{Branched, Free, Tree, branched};
 
@@ -139,7 +139,8 @@ fn no_hit_makes_a_state_that_is_not_finite() {
         let step = longest_sub_step(model);
         for torque in [1.0, 1e3, 1e6, 1e30, 3e38, f64::INFINITY, f64::NAN] {
             for link in 0..3 {
-                let mut frames = Frames::new(HeldTorques::new(model), &start, step).unwrap();
+                let mut frames =
+                    Frames::new(UnderTorques::of(model, vec![T::ZERO; 3]), &start, step).unwrap();
                 frames.ode_mut().torques_mut()[link] = T::from_f64(torque);
                 for frame in 0..120 {
                     if frame == 10 {

@@ -1,8 +1,9 @@
 //! The full model and its approximation in turn.
 
 use branched_pendulum::approximate::{Linear, Switched};
-use branched_pendulum::integrate::{Frames, HeldTorques, longest_sub_step};
+use branched_pendulum::integrate::{Frames, longest_sub_step};
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::UnderTorques;
 
 use crate::scenes::{Branched, branched};
 
@@ -14,7 +15,7 @@ fn run(tolerance: f64) -> (f64, u64, u64) {
     let model: Branched = branched(8e-3);
     let start = State::at_rest(0.0, &[1.2, 0.8, 1.0]);
     let sub_step = longest_sub_step(&model);
-    let frames = || Frames::new(HeldTorques::new(&model), &start, sub_step).unwrap();
+    let frames = || Frames::new(UnderTorques::of(&model, vec![0.0; 3]), &start, sub_step).unwrap();
     let linear = Linear::about(&model, &[0.0; 3]).unwrap();
     let seconds = linear.fading_time();
     let linear = linear.frames(FRAME).unwrap();
@@ -58,7 +59,12 @@ fn the_switched_motion_meets_the_tolerance() {
 fn the_state_stays_finite() {
     let model = branched(8e-3);
     let start = State::at_rest(0.0, &[0.01; 3]);
-    let full = Frames::new(HeldTorques::new(&model), &start, longest_sub_step(&model)).unwrap();
+    let full = Frames::new(
+        UnderTorques::of(&model, vec![0.0; 3]),
+        &start,
+        longest_sub_step(&model),
+    )
+    .unwrap();
     let linear = Linear::about(&model, &[0.0; 3]).unwrap();
     let mut motion = Switched::new(full, linear.frames(FRAME).unwrap(), 0.1, 1.0);
     for (frame, torque) in [0.0, f64::NAN, 0.0, 1e6, f64::INFINITY, 0.0]

@@ -5,7 +5,7 @@ mod tree;
 
 use std::collections::BTreeSet;
 
-use branched_pendulum_codegen::report::Message;
+use branched_pendulum_codegen::report::SizeMessage;
 
 use crate::support::{errors, run_source};
 
@@ -35,13 +35,20 @@ fn messages_read_as_in_the_goldens() {
 /// One that adds a message adds a golden.
 #[test]
 fn every_message_has_a_golden() {
-    let catalogue = include_str!("../../../codegen/src/report/message.rs");
-    let catalogue = syn::parse_file(catalogue).expect("the catalogue is Rust");
+    let catalogue = [
+        include_str!("../../../codegen/src/report/message/output.rs"),
+        include_str!("../../../codegen/src/report/message/size.rs"),
+        include_str!("../../../codegen/src/report/message/syntax.rs"),
+        include_str!("../../../codegen/src/report/message/tree.rs"),
+        include_str!("../../../codegen/src/report/message/value.rs"),
+    ];
     let messages: BTreeSet<String> = catalogue
-        .items
-        .iter()
+        .into_iter()
+        .flat_map(|part| syn::parse_file(part).expect("the catalogue is Rust").items)
         .filter_map(|item| match item {
-            syn::Item::Enum(item) if item.ident == "Message" => Some(&item.variants),
+            syn::Item::Enum(item) if item.ident.to_string().ends_with("Message") => {
+                Some(item.variants)
+            }
             _ => None,
         })
         .flatten()
@@ -63,8 +70,10 @@ fn every_message_has_a_golden() {
             let report = run_source(source).report;
             let diagnostics = report.diagnostics().iter();
             let named = diagnostics.map(|diagnostic| {
+                // The part, and in parentheses the message.
                 let shown = format!("{:?}", diagnostic.message);
-                let end = shown.find([' ', '(', '{']).unwrap_or(shown.len());
+                let (_, shown) = shown.split_once('(').expect("parts hold messages");
+                let end = shown.find([' ', '(', ')', '{']).unwrap_or(shown.len());
                 shown[..end].to_owned()
             });
             named.collect::<Vec<_>>()
@@ -127,7 +136,7 @@ fn limits_of_the_derivation() {
     // Provoked, it would take half a minute.
     let limit = branched_pendulum_codegen::program::MOST_VALUES;
     let span = report.diagnostics()[0].span;
-    report.error(span, Message::TooManyValues { limit });
+    report.error(span, SizeMessage::TooManyValues { limit });
     insta::assert_snapshot!("limits", report.render(source));
 }
 

@@ -4,6 +4,7 @@
 mod errors;
 mod exact;
 mod fuzz;
+mod rules;
 mod scenes;
 mod singular;
 mod stubs;

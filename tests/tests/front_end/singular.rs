@@ -1,6 +1,6 @@
 //! The rule for singular mass matrices against the matrices themselves.
 
-use branched_pendulum_codegen::report::Message;
+use branched_pendulum_codegen::report::{Message, TreeMessage};
 
 use crate::support::{Outcome, Random, run_source};
 
@@ -65,10 +65,12 @@ fn source(links: &[Link]) -> String {
 fn is_refused(links: &[Link]) -> bool {
     let source = source(links);
     let Outcome { scene, report, .. } = run_source(&source);
-    let all_singular = report
-        .diagnostics()
-        .iter()
-        .all(|diagnostic| matches!(diagnostic.message, Message::Singular { .. }));
+    let all_singular = report.diagnostics().iter().all(|diagnostic| {
+        matches!(
+            diagnostic.message,
+            Message::Tree(TreeMessage::Singular { .. })
+        )
+    });
     assert!(all_singular, "{}", report.render(&source));
     scene.is_none()
 }

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::integrate::{Dop853, Options};
 use branched_pendulum::system::{OdeFn, State};
-use branched_pendulum_codegen::report::{Message, Report};
+use branched_pendulum_codegen::report::{Message, OutputMessage, Report, TreeMessage};
 use branched_pendulum_codegen::{description, scene};
 use branched_pendulum_tests::oracle::Tree;
 use branched_pendulum_tests::oracle::cartesian::Motion;
@@ -45,7 +45,8 @@ fn no_emitted_function_can_be_defined_again() {
             let messages: Vec<&Message> = report.diagnostics().iter().map(|d| &d.message).collect();
             let refused = matches!(
                 messages[..],
-                [Message::FunctionTaken { .. } | Message::ReservedName { .. }]
+                [Message::Output(OutputMessage::FunctionTaken { .. })
+                    | Message::Tree(TreeMessage::ReservedName { .. })]
             );
             assert!(scene.is_none() && refused, "{function}: {messages:?}");
         }

@@ -189,6 +189,11 @@ fn batches_under_torques() {
     Batch::new(&model)
         .evaluate(under, 0.0, [&theta, &omega, &torques], &mut alpha)
         .unwrap();
+    let mut same = theta.clone();
+    Batch::new(&model)
+        .accelerations_under(0.0, [&theta, &omega, &torques], &mut same)
+        .unwrap();
+    assert_eq!(alpha, same);
     for state in 0..STATES {
         let of_state = |slices: &[Vec<f64>]| std::array::from_fn(|link| slices[link][state]);
         let alone =
@@ -198,6 +203,40 @@ fn batches_under_torques() {
             assert!((alpha[link][state] - alone).abs() < 1e-12 * size);
         }
     }
+}
+
+/// The same of a tree in loops over generations, against each alone.
+#[test]
+fn batches_of_generations_under_torques() {
+    const STATES: usize = 13;
+    let model = ByGeneration::<f64>::new();
+    let mut random = Random::new(8);
+    let [theta, omega, torques]: [Vec<Vec<f64>>; 3] = [3.0, 9.0, 0.1].map(|size| {
+        (0..LINKS)
+            .map(|_| random.around_zero(STATES, size))
+            .collect()
+    });
+    let mut alpha = theta.clone();
+    Batch::new(&model)
+        .accelerations_under(0.0, [&theta, &omega, &torques], &mut alpha)
+        .unwrap();
+    for state in 0..STATES {
+        let [theta, omega, torques] = [&theta, &omega, &torques].map(|slices| {
+            slices
+                .iter()
+                .map(|slice| slice[state])
+                .collect::<Vec<f64>>()
+        });
+        let mut alone = [0.0; LINKS];
+        model.accelerations_under_into(0.0, &theta, &omega, &torques, &mut alone);
+        for (link, alone) in alone.iter().enumerate() {
+            // The same equations in the same order, in fused arithmetic both.
+            assert_eq!(alpha[link][state], *alone);
+        }
+    }
+    let short =
+        Batch::new(&model).accelerations_under(0.0, [&theta, &omega[1..], &torques], &mut alpha);
+    assert!(short.is_err());
 }
 
 /// The paper's pendulum, its children in phase.

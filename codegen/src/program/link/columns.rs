@@ -4,6 +4,16 @@
 use super::strips::Strips;
 use crate::program::Argument;
 
+/// Fields of the runtime's `LinkMotion`, in the order of the elements of an argument.
+pub const LINK_MOTION: [&str; 6] = [
+    "sine",
+    "cosine",
+    "omega",
+    "joint_angle",
+    "joint_rate",
+    "outside_torque",
+];
+
 /// A constant in the equations of one link, in reduced units: m and l are those of the
 /// commonest leaf for the whole tree, L is the link's own unit of length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -132,14 +142,6 @@ impl Strips {
 
     /// Name of an element.
     pub fn element(&self, argument: Argument, index: usize) -> &'static str {
-        const MOTION: [&str; 6] = [
-            "sine",
-            "cosine",
-            "omega",
-            "joint_angle",
-            "joint_rate",
-            "outside_torque",
-        ];
         const RESPONSE: [&str; 6] = [
             "deficit_xx_child",
             "deficit_xy_child",
@@ -170,7 +172,7 @@ impl Strips {
         ];
         let names: &[&str] = match argument {
             Argument::Constants => return self.columns[index].name(),
-            Argument::Motion => &MOTION,
+            Argument::Motion => &LINK_MOTION,
             Argument::Response => &RESPONSE,
             Argument::Sums if self.has_several_places => &ATTACHED,
             Argument::Sums => &SUMS,

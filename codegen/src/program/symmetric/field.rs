@@ -91,6 +91,9 @@ impl<'b> SymmetricTree<'b> {
         debug_assert_eq!(f.orbit, g.orbit);
         let mean = operation(&mut self.series, &f.mean, &g.mean);
         let mut result = SymmetricField::uniform(f.orbit, mean);
+        if self.series.builder.is_exceeded() {
+            return result;
+        }
         for &id in f.differences.keys().chain(g.differences.keys()) {
             if !result.differences.contains_key(&id) {
                 let value = operation(&mut self.series, &f.at(id), &g.at(id));
@@ -116,6 +119,9 @@ impl<'b> SymmetricTree<'b> {
     pub(super) fn scale(&mut self, factor: &TruncatedSeries, f: &SymmetricField) -> SymmetricField {
         let mean = self.series.mul(factor, &f.mean);
         let mut result = SymmetricField::uniform(f.orbit, mean);
+        if self.series.builder.is_exceeded() {
+            return result;
+        }
         for (&id, value) in &f.differences {
             let value = self.series.mul(factor, value);
             result.put(id, value);
@@ -215,6 +221,9 @@ impl<'b> SymmetricTree<'b> {
         copy: usize,
     ) -> TruncatedSeries {
         let mut sum = TruncatedSeries::default();
+        if self.series.builder.is_exceeded() {
+            return sum;
+        }
         for index in 1..=branch.differences() {
             let weight = weight(index, copy);
             if weight != 0 {
@@ -232,6 +241,9 @@ impl<'b> SymmetricTree<'b> {
         (1..values.len())
             .map(|index| {
                 let mut sum = TruncatedSeries::default();
+                if self.series.builder.is_exceeded() {
+                    return sum;
+                }
                 for value in &values[..index] {
                     let difference = self.series.sub(value, &values[index]);
                     sum = self.series.add(&sum, &difference);

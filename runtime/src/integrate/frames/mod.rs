@@ -1,6 +1,5 @@
 //! Motion in real time: frame by frame, whatever happens.
 
-mod held;
 mod limit;
 
 use alloc::vec;
@@ -11,7 +10,6 @@ use super::request::{all_finite, check_start};
 use crate::scalar::Real;
 use crate::system::{Ode, State, Workspace};
 
-pub use held::HeldTorques;
 pub use limit::longest_sub_step;
 
 /// Largest change of an angle in a longest sub-step, rad: what the rates are limited to.
@@ -31,7 +29,7 @@ const LONGEST_FRAME: f64 = 1.0;
 /// nothing is kept from one frame to the next but state and time, so that state and
 /// equations may be changed between any two.
 ///
-/// For a state of angles and their rates, as [`AbsoluteAngles`] and [`HeldTorques`] have
+/// For a state of angles and their rates, as [`AbsoluteAngles`] and [`UnderTorques`] have
 /// it: the second half of the components are the rates of the first.
 ///
 /// # In excess
@@ -56,6 +54,7 @@ const LONGEST_FRAME: f64 = 1.0;
 /// [`AbsoluteAngles`]: crate::system::AbsoluteAngles
 /// [`Gauss::for_animation`]: super::Gauss::for_animation
 /// [`Stepper`]: super::Stepper
+/// [`UnderTorques`]: crate::system::UnderTorques
 ///
 /// # Examples
 ///
@@ -63,8 +62,9 @@ const LONGEST_FRAME: f64 = 1.0;
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
-/// use branched_pendulum::integrate::{Frames, HeldTorques, longest_sub_step};
+/// use branched_pendulum::integrate::{Frames, longest_sub_step};
 /// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::UnderTorques;
 ///
 /// #[branched_pendulum(
 ///     gravity = 9.80665,
@@ -78,7 +78,7 @@ const LONGEST_FRAME: f64 = 1.0;
 /// let branch = Branch::<f32>::default();
 /// let rest = State::at_rest(0.0, &[0.0; 3]);
 /// let sub_step = longest_sub_step(&branch);
-/// let mut frames = Frames::new(HeldTorques::new(&branch), &rest, sub_step)?;
+/// let mut frames = Frames::new(UnderTorques::of(&branch, vec![0.0; 3]), &rest, sub_step)?;
 /// for number in 0..120 {
 ///     frames.ode_mut().torques_mut()[0] = if number < 60 { 0.5 } else { 0.0 };
 ///     frames.advance(1.0 / 60.0);

@@ -214,6 +214,19 @@ pub(super) const CASES: &[Case] = &[
     )] struct Pendulum;",
     ),
     (
+        "prescribed",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    prescribed(), prescribed(b_3, a, a), prescribed(b), prescribed(b_1, b_2), prescribed(b_1, b_2),
+    )] struct Pendulum;",
+    ),
+    (
+        "prescribed_in_loops",
+        "#[branched_pendulum(gravity = 1, code = loops,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    prescribed(a))] struct Pendulum;",
+    ),
+    (
         "no_transverse",
         "#[branched_pendulum(gravity = 1,
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2], emit(transverse))] struct Pendulum;",

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
-use branched_pendulum_codegen::report::Message;
+use branched_pendulum_codegen::report::{Message, SizeMessage};
 use branched_pendulum_codegen::stages;
 use proc_macro2::TokenStream;
 use syn::{Fields, ImplItem, Item, Type};
@@ -29,7 +29,7 @@ pub(crate) fn judge(attribute: &TokenStream, item: &TokenStream) -> Verdict {
         Ok(Err((report, tokens))) => {
             let diagnostics = report.diagnostics();
             let derivation = diagnostics.iter().find_map(|found| match &found.message {
-                Message::Algebra(reason) => Some(reason),
+                Message::Size(SizeMessage::Algebra(reason)) => Some(reason),
                 _ => None,
             });
             if let Some(reason) = derivation {

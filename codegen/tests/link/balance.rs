@@ -1,251 +1,12 @@
-//! The equations of one link: the program of a tree in loops, taken through the tree by
-//! its interpreter, gives what code written out gives; and its functions are the derived
-//! balance, symbol by symbol.
+//! The functions of links against the derived balance, symbol by symbol.
 
 use branched_pendulum_codegen::mechanics::algebra::{Formula, run};
 use branched_pendulum_codegen::mechanics::expression::{Expr, SymbolId};
 use branched_pendulum_codegen::mechanics::{LinkBalance, Mechanics};
 use branched_pendulum_codegen::program::{Argument, Column, Program, Rebuilt, Strips};
-use branched_pendulum_codegen::scene::Layout;
-use branched_pendulum_codegen::{Stages, stages};
 use std::collections::BTreeMap;
 
-/// A tree by rule.
-const RULE: &str = "gravity = 9.80665, tree: generations(count = 4, branching = 2, \
-    mass = 0.12, com = 0.1, inertia = 1e-3, joint = 0.3, mass_ratio = 0.5, length_ratio = 0.7)";
-
-/// Bent links with all forces, driven, the children of each on one pivot. The second leaf
-/// has its centre of mass beside its pivot.
-const BUSH: &str = "gravity = 9.80665, trunk(mass = 0.3, com = (0.1, 0.02), inertia = 2e-3, \
-    joint = (0.3, 0.05), friction = 1e-3, drag = 2e-3, spring = 0.1) [ \
-        left(mass = 0.2, com = 0.07, inertia = 1e-3, joint = 0.2, friction = 3e-3, spring = 0.2, \
-        rest = -0.4) [ \
-            tip: rod(mass = 0.05, length = 0.1, friction = 1e-3), \
-            weight(mass = 0.04, com = (0, 0.03), inertia = 1e-4, drag = 1e-3) ], \
-        right: rod(mass = 0.1, length = 0.25, spring = 0.05, rest = 0.3) ], \
-    drive(torque = 0.4 * cos(3 * t), x = 0.2 * sin(5 * t), y = 0.1 * cos(4 * t))";
-
-/// Several attachments on one link, one of them in its own pivot; a parameter.
-const SEVERAL: &str = "gravity = 9.80665, trunk(mass = 0.3, com = (0.1, 0.02), inertia = 2e-3, \
-    joint = 0.3, friction = c) [ \
-        left: rod(mass = 0.2, length = 0.3) [ tip: rod(mass = 0.05, length = 0.1, at = 0.2) ], \
-        right: rod(mass = 0.1, length = 0.25, at = (0.15, 0.04), friction = c), \
-        middle: disc(mass = 0.1, length = 0.05, radius = 0.02, at = 0) ]";
-
-fn compiled(text: &str, code: &str) -> Stages {
-    let text = format!("code = {code}, {text}");
-    let attribute = text.parse().expect("tokens");
-    let item = "struct Sample;".parse().expect("tokens");
-    stages(attribute, item).unwrap_or_else(|(report, _)| panic!("{}", report.render(&text)))
-}
-
-/// Strip and parent of every link, depth first.
-fn tree(stages: &Stages) -> Vec<(usize, Option<usize>)> {
-    match stages.scene.layout {
-        Layout::Generations { branching, .. } => {
-            let mut tree = vec![(0, None)];
-            let generations = stages.scene.links.len();
-            below(&mut tree, 0, branching, generations);
-            tree
-        }
-        _ => {
-            let links = stages.scene.links.iter().enumerate();
-            links
-                .map(|(index, link)| (index, link.parent.map(|parent| parent.0)))
-                .collect()
-        }
-    }
-}
-
-fn below(
-    tree: &mut Vec<(usize, Option<usize>)>,
-    link: usize,
-    branching: usize,
-    generations: usize,
-) {
-    let strip = tree[link].0 + 1;
-    if strip < generations {
-        for _ in 0..branching {
-            tree.push((strip, Some(link)));
-            let child = tree.len() - 1;
-            below(tree, child, branching, generations);
-        }
-    }
-}
-
-/// The recursion through a tree, by the interpreter.
-struct Sweep<'s> {
-    program: &'s Program,
-    strips: &'s Strips,
-    parameters: &'s [f64],
-    constants: Vec<Vec<f64>>,
-    motion: Vec<[f64; 5]>,
-}
-
-impl Sweep<'_> {
-    fn call(
-        &self,
-        entry: &str,
-        row: usize,
-        motion: usize,
-        others: &[(Argument, &[f64])],
-    ) -> Vec<f64> {
-        let input = |argument: Argument, index: usize| match argument {
-            Argument::Constants => self.constants[row][index],
-            Argument::Motion => self.motion[motion][index],
-            _ => {
-                let given = others.iter().find(|(name, _)| *name == argument);
-                given.expect("the argument is given").1[index]
-            }
-        };
-        let values = self
-            .program
-            .evaluate(f64::sin_cos, entry, self.parameters, input);
-        values.expect("the entry point exists")
-    }
-
-    fn accelerations(&self, tree: &[(usize, Option<usize>)], root: [f64; 2]) -> Vec<f64> {
-        let links = tree.len();
-        let has_children: Vec<bool> = (0..links)
-            .map(|link| tree.iter().any(|(_, parent)| *parent == Some(link)))
-            .collect();
-        let mut sums = vec![vec![0.0; self.strips.length(Argument::Sums)]; links];
-        let mut eliminations = vec![Vec::new(); links];
-        for link in (0..links).rev() {
-            let response = if has_children[link] {
-                let mut both = self.call("inner", link, link, &[(Argument::Sums, &sums[link])]);
-                eliminations[link] = both.split_off(self.strips.length(Argument::Response));
-                both
-            } else {
-                self.call("leaf", link, link, &[])
-            };
-            if let Some(parent) = tree[link].1 {
-                let attached =
-                    self.call("attach", link, parent, &[(Argument::Response, &response)]);
-                for (sum, value) in sums[parent].iter_mut().zip(attached) {
-                    *sum += value;
-                }
-            }
-        }
-        let mut carried = vec![Vec::new(); links];
-        let mut alpha = Vec::new();
-        for link in 0..links {
-            let pivot = match tree[link].1 {
-                None => root.to_vec(),
-                Some(parent) => self.call(
-                    "pivot",
-                    link,
-                    parent,
-                    &[(Argument::Carried, &carried[parent])],
-                ),
-            };
-            let pivot = (Argument::Pivot, pivot.as_slice());
-            let mut values = match has_children[link] {
-                true => {
-                    let elimination = (Argument::Elimination, eliminations[link].as_slice());
-                    self.call("accelerate", link, link, &[elimination, pivot])
-                }
-                false => self.call("accelerate_leaf", link, link, &[pivot]),
-            };
-            carried[link] = values.split_off(1);
-            alpha.push(values[0]);
-        }
-        alpha
-    }
-}
-
-/// By the interpreter, in loops.
-fn in_loops(
-    stages: &Stages,
-    parameters: &[f64],
-    time: f64,
-    theta: &[f64],
-    omega: &[f64],
-) -> Vec<f64> {
-    let program = &stages.program;
-    let strips = program.strips.as_ref().expect("a tree in loops");
-    let tree = tree(stages);
-    let values = program.setup.evaluate(parameters);
-    let row = |strip: usize| -> Vec<f64> {
-        let constants = strips.strips[strip].constants.iter();
-        constants.map(|id| values[id.0 as usize]).collect()
-    };
-    let mut constants: Vec<Vec<f64>> = tree.iter().map(|(strip, _)| row(*strip)).collect();
-    let at_time = |entry: &str| program.evaluate(f64::sin_cos, entry, parameters, |_, _| time);
-    let mut root = at_time("root_gravity").expect("every tree has gravity");
-    if let Some(drive) = at_time("root_drive") {
-        root = vec![root[0] + drive[0], root[1] + drive[1]];
-        if strips.has_drive_torque {
-            *constants[0].last_mut().expect("a column for the torque") = drive[2];
-        }
-    }
-    let motion = tree.iter().enumerate().map(|(link, (_, parent))| {
-        let (sine, cosine) = theta[link].sin_cos();
-        let relative = |state: &[f64]| state[link] - parent.map_or(0.0, |parent| state[parent]);
-        [sine, cosine, omega[link], relative(theta), relative(omega)]
-    });
-    let sweep = Sweep {
-        program,
-        strips,
-        parameters,
-        constants,
-        motion: motion.collect(),
-    };
-    sweep.accelerations(&tree, [root[0], root[1]])
-}
-
-/// Numbers without pattern between −1 and 1.
-fn scattered(seed: usize, count: usize) -> Vec<f64> {
-    (0..count)
-        .map(|index| ((1 + seed * 37 + index * 101) as f64 * 12.9898).sin())
-        .collect()
-}
-
-fn agree(text: &str, parameters: &[f64]) {
-    let (loops, unrolled) = (compiled(text, "loops"), compiled(text, "unrolled"));
-    let links = unrolled.scene.links.len();
-    assert_eq!(tree(&loops).len(), links);
-    let mut worst = 0.0_f64;
-    for seed in 0..40 {
-        let theta: Vec<f64> = scattered(seed, links).iter().map(|x| 3.0 * x).collect();
-        let omega: Vec<f64> = scattered(seed + 500, links)
-            .iter()
-            .map(|x| 5.0 * x)
-            .collect();
-        let time = 0.1 * seed as f64;
-        let input = |argument: Argument, index: usize| match argument {
-            Argument::Theta => theta[index],
-            Argument::Omega => omega[index],
-            _ => time,
-        };
-        let expected = unrolled
-            .program
-            .evaluate(f64::sin_cos, "accelerations", parameters, input)
-            .expect("accelerations");
-        let found = in_loops(&loops, parameters, time, &theta, &omega);
-        let scale = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        for (found, expected) in found.iter().zip(&expected) {
-            worst = worst.max((found - expected).abs() / scale);
-        }
-    }
-    assert!(worst < 1e-12, "{worst:e}");
-}
-
-#[test]
-fn a_tree_by_rule_moves_as_written_out() {
-    agree(RULE, &[]);
-}
-
-#[test]
-fn a_driven_bush_moves_as_written_out() {
-    agree(BUSH, &[]);
-}
-
-#[test]
-fn several_attachments_move_as_written_out() {
-    agree(SEVERAL, &[2e-3]);
-}
-
+use super::{BUSH, SEVERAL, compiled};
 /// The functions of a program in symbols of the balance.
 struct Algebra<'s> {
     program: &'s Program,
@@ -255,6 +16,10 @@ struct Algebra<'s> {
     /// The link's own unit of length.
     unit: Formula,
 }
+
+/// Reciprocal of the unit of torques of a bush: of the inertia of its leaf `right` about
+/// its pivot, 0.1 kg · (0.25 m)² / 3.
+const PER_TORQUE: i64 = 480;
 
 /// Symbols that stand for elements of arguments.
 fn stand_in(argument: Argument, index: usize) -> SymbolId {
@@ -342,6 +107,7 @@ impl Algebra<'_> {
                 | Column::Drag
                 | Column::Spring
                 | Column::Rest
+                | Column::PerTorque
                 | Column::DriveTorque => self.s(SymbolId(20_000 + *column as u32)),
             };
             values.push((stand_in(Argument::Constants, index), value));
@@ -361,12 +127,17 @@ impl Algebra<'_> {
             false => Formula::zero(),
         };
         let joint = |index| self.s(stand_in(Argument::Motion, index));
+        let outside = match self.strips.has_outside_torques {
+            true => Formula::integer(PER_TORQUE),
+            false => Formula::zero(),
+        };
         let terms = [
             self.s(s.torque),
             &has(Column::Spring) * &(&joint(3) - &has(Column::Rest)),
             &has(Column::Friction) * &joint(4),
             &has(Column::Drag) * &self.s(s.omega),
             -has(Column::DriveTorque),
+            -(&outside * &joint(5)),
         ];
         terms.into_iter().sum()
     }
@@ -483,7 +254,12 @@ fn with_algebra(text: &str, own_unit: bool, work: impl FnOnce(&Algebra<'_>) + Se
 
 #[test]
 fn the_functions_of_a_bush_are_the_balance() {
-    with_algebra(BUSH, true, |algebra| {
+    functions_are_the_balance(BUSH);
+    functions_are_the_balance(&format!("{BUSH}, emit(forces)"));
+}
+
+fn functions_are_the_balance(text: &str) {
+    with_algebra(text, true, |algebra| {
         let below = (Argument::Sums, algebra.below());
         algebra.assert_inner(&algebra.outputs("inner", &[below]));
         algebra.assert_leaf(&algebra.outputs("leaf", &[]));

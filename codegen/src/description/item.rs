@@ -1,0 +1,73 @@
+//! The struct that an attribute stands on, and how deep tokens may nest.
+
+use proc_macro2::{Span, TokenStream, TokenTree};
+
+use super::StructItem;
+use crate::report::{Report, SyntaxMessage, TreeMessage};
+
+/// Deepest nesting of brackets and parentheses. A chain of more links is what
+/// `generations` is for.
+pub(super) const MAX_NESTING: usize = 64;
+
+/// A token below [`MAX_NESTING`] groups, if there is one. Looks without
+/// recursion, so that parsing afterwards may recurse.
+pub(super) fn deepest(tokens: &TokenStream) -> Option<Span> {
+    let mut open = vec![tokens.clone().into_iter()];
+    while let Some(level) = open.last_mut() {
+        match level.next() {
+            Some(TokenTree::Group(group)) if open.len() > MAX_NESTING => return Some(group.span()),
+            Some(TokenTree::Group(group)) => open.push(group.stream().into_iter()),
+            Some(_) => {}
+            None => {
+                open.pop();
+            }
+        }
+    }
+    None
+}
+
+/// Types that emitted models name without a path: their type parameter, and
+/// primitive ones.
+const RESERVED_TYPES: [&str; 5] = ["T", "f64", "usize", "bool", "str"];
+
+impl StructItem {
+    /// Returns true if the struct is called as a type that the code of a model names.
+    pub fn is_reserved(&self) -> bool {
+        RESERVED_TYPES.iter().any(|name| self.ident == name)
+    }
+}
+
+/// Reads the struct.
+pub(super) fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
+    if deepest(&tokens).is_some() {
+        report.error(Span::call_site(), SyntaxMessage::NotAStruct);
+        return None;
+    }
+    let first = tokens.clone().into_iter().next();
+    let Ok(item) = syn::parse2::<syn::ItemStruct>(tokens.clone()) else {
+        let span = first.map_or_else(Span::call_site, |token| token.span());
+        report.error(span, SyntaxMessage::NotAStruct);
+        return None;
+    };
+    let name = item.ident.to_string();
+    if !item.fields.is_empty() {
+        report.error(
+            item.ident.span(),
+            SyntaxMessage::StructFields { name: name.clone() },
+        );
+    }
+    if !item.generics.params.is_empty() || item.generics.where_clause.is_some() {
+        let name = name.clone();
+        report.error(item.ident.span(), SyntaxMessage::StructGenerics { name });
+    }
+    let item = StructItem {
+        attrs: item.attrs,
+        vis: item.vis,
+        ident: item.ident,
+        tokens,
+    };
+    if item.is_reserved() {
+        report.error(item.ident.span(), TreeMessage::ReservedName { name });
+    }
+    Some(item)
+}
