@@ -2,7 +2,7 @@
 
 use super::algebra::{AlgebraError, Formula};
 use super::derivation::Derivation;
-use super::expression::{Expr, Role, Symbols};
+use super::expression::{Expr, Symbols};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::inverse_mass::{Counting, DerivedExpansion};
 use super::mismatch::Mismatch;
@@ -12,8 +12,8 @@ use super::{
     Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics, Observables,
     TransferFormulas, TransferParts, Truncated, WrittenOut,
 };
+use crate::scene::TransferRequest;
 use crate::scene::coordinates::{self, Coordinate};
-use crate::scene::{OrbitId, TransferRequest};
 use std::collections::BTreeMap;
 
 impl Derivation<'_> {
@@ -375,16 +375,6 @@ impl Derivation<'_> {
             None => Expr::zero(),
         };
         Some([coefficient(2, 0), coefficient(1, 1), coefficient(0, 2)])
-    }
-
-    /// The constant G of an orbit's node, of copies that differ their mean; zero where nothing
-    /// hangs off the pivot.
-    pub(super) fn gravity_of(&self, orbit: OrbitId) -> Formula {
-        let name = &self.scene.orbits[orbit.0].node;
-        match self.symbols.find(&format!("G_{name}")) {
-            Some(id) if self.symbols.get(id).role == Role::Constant => Formula::symbol(id),
-            _ => Formula::zero(),
-        }
     }
 }
 

@@ -3,11 +3,10 @@
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
-use super::expression::SymbolId;
+use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::inverse_mass::{Counting, DerivedExpansion};
-use crate::scene::LinkId;
-use crate::scene::{Coordinate, CoordinateKind};
+use crate::scene::{Coordinate, CoordinateKind, LinkId, OrbitId};
 
 /// W split into what the kinetic and what the potential energy of the rest of
 /// the tree do.
@@ -92,6 +91,16 @@ impl Derivation<'_> {
             .collect();
         let rotation = self.share(&share);
         (rotation.cos, rotation.sin)
+    }
+
+    /// The constant G of an orbit's node, of copies that differ their mean; zero where nothing
+    /// hangs off the pivot.
+    fn gravity_of(&self, orbit: OrbitId) -> Formula {
+        let name = &self.scene.orbits[orbit.0].node;
+        match self.symbols.find(&format!("G_{name}")) {
+            Some(id) if self.symbols.get(id).role == Role::Constant => Formula::symbol(id),
+            _ => Formula::zero(),
+        }
     }
 
     /// cos² → 1 − sin² of every difference, so that equal formulas look equal.
