@@ -2,7 +2,7 @@
 //! code written out.
 
 use branched_pendulum_codegen::Stages;
-use branched_pendulum_codegen::program::{Argument, Column, Program, Strips};
+use branched_pendulum_codegen::program::{Argument, Program, Strips};
 
 use super::{BUSH, RULE, SEVERAL, compiled, tree};
 /// The recursion through a tree, by the interpreter.
