@@ -24,6 +24,7 @@ GENERATED = ["-p", "branched-pendulum-tests", "--test", "generated"]
 LINK = ["-p", "branched-pendulum-codegen", "--test", "link"]
 LIBRARY = ["-p", "branched-pendulum", "--lib"]
 RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
+OUTSIDE = ["-p", "branched-pendulum-tests", "--test", "outside"]
 
 BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
 DRIVEN = "drive::accelerations_and_power_agree_with_both_oracles"
@@ -56,6 +57,18 @@ EXPRESSIONS = [
     ("sign of lateral levers", f"{C}/mechanics/positions.rs",
      "&(along * &sin) + &(across * &cos)", "&(along * &sin) - &(across * &cos)",
      MECHANICS, CARTESIAN),
+    ("torque from outside pulls", f"{C}/program/choice.rs",
+     "self.builder.add(outside, torque)", "self.builder.sub(torque, outside)",
+     MECHANICS, "outside::torques_from_outside_add_to_the_equations_of_motion"),
+    ("torque from outside pulls in loops", f"{C}/program/link/entries.rs",
+     "builder.add(pushed, outside)", "builder.sub(pushed, outside)",
+     OUTSIDE, "balance::of_trees_in_loops_over_links"),
+    ("weight in the reaction of a prescribed link", f"{C}/program/link/equations.rs",
+     "builder.sub(self.steady_torque, pull)", "builder.add(self.steady_torque, pull)",
+     OUTSIDE, "prescribed::the_free_tree_moves_so_under_the_reactions"),
+    ("torque of one copy for all", f"{R}/system/whole_tree.rs",
+     "*sum + torque", "torque", OUTSIDE,
+     "reduced::accelerations_are_those_of_the_whole_tree"),
     ("reaction of a joint on the parent", f"{C}/program/link/torques.rs",
      "builder.add(torques[parent], torque)", "builder.sub(torques[parent], torque)",
      MECHANICS, BOTH_SOLVES),

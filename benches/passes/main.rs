@@ -9,6 +9,8 @@ mod variants;
 
 use branched_pendulum::batch::Batch;
 use branched_pendulum::{Pendulum, Cast};
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -29,14 +31,12 @@ fn count<const N: usize>() -> usize {
     (NUMBERS / N).next_multiple_of(16)
 }
 
-/// Numbers between −`bound` and `bound`, by Marsaglia's xorshift (2003).
+/// Numbers between −`bound` and `bound`.
 fn random<const N: usize>(seed: u64, bound: f64) -> Vec<[f64; N]> {
-    let mut state = seed;
+    let mut random = SplitMix64::seed_from_u64(seed);
     let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        bound * ((state >> 11) as f64 * (1.0 / (1_u64 << 52) as f64) - 1.0)
+        let unit = (random.next_u64() >> 11) as f64 / (1_u64 << 52) as f64;
+        bound * (unit - 1.0)
     };
     (0..count::<N>()).map(|_| std::array::from_fn(|_| next())).collect()
 }

@@ -85,8 +85,7 @@ pub fn stages_without(
             return Err(refuse(&description, report));
         }
     };
-    let lowered = program::lower_in_limits(off, &scene, &mechanics);
-    let Ok(program) = lowered else {
+    let Ok(program) = program::lower(off, &scene, &mechanics) else {
         let limit = program::MOST_VALUES;
         report.error(Span::call_site(), SizeMessage::TooManyValues { limit });
         return Err(refuse(&description, report));

@@ -14,7 +14,7 @@ use quote::quote_spanned;
 
 pub use message::{
     Lookalike, Message, OutputMessage, Problem, SizeMessage, SyntaxMessage, TreeMessage,
-    ValueMessage,
+    UnequalUse, ValueMessage,
 };
 pub use nearest::nearest;
 

@@ -78,7 +78,12 @@ fn main() {
     let lanes = move || {
         let method = Dop853::new(Options::with_tolerance(1e-9));
         let ensemble = Ensemble::new().threads(std::num::NonZeroUsize::MIN);
-        black_box(ensemble.integrate_in_lanes(&method, &Ideal::new(), &starts, 10.0));
+        black_box(ensemble.integrate_in_lanes(
+            &method,
+            &AbsoluteAngles(Ideal::new()),
+            &starts,
+            10.0,
+        ));
     };
     let angle = |state: usize| (state % 64) as f64 / 32.0 - 1.0;
     let angles: [Vec<f64>; 3] = std::array::from_fn(|link| {

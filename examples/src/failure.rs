@@ -5,10 +5,12 @@ use std::io;
 use std::path::PathBuf;
 
 use branched_pendulum::ParameterError;
+use branched_pendulum::analysis::advice::AdviceError;
 use branched_pendulum::analysis::truncation::TruncationError;
-use branched_pendulum::analysis::{ModesError, SectorModesError, SpectrumError};
-use branched_pendulum::data::CsvError;
+use branched_pendulum::analysis::{ModesError, SectorModesError, SmoothingError, SpectrumError};
+use branched_pendulum::approximate::LinearError;
 use branched_pendulum_charts::ChartError;
+use branched_pendulum_data::{CsvError, ReadError};
 
 /// Why a program could not finish. Causes are told by `source`, once each.
 #[derive(Debug, thiserror::Error)]
@@ -34,9 +36,32 @@ pub enum Failure {
     /// A spectrum could not be taken.
     #[error("the spectrum of θ_m could not be taken")]
     Spectrum(#[from] SpectrumError),
+    /// There is no linear model of small motions.
+    #[error("the linear model could not be made")]
+    Linear(#[from] LinearError),
+    /// A motion in real time could not begin.
+    #[error("the frames could not begin")]
+    Frames(#[source] Box<dyn Error + Send + Sync>),
     /// Forms of W could not be compared.
     #[error("the forms of W could not be compared")]
     Truncation(#[from] TruncationError),
+    /// There is no advice.
+    #[error("there is no advice")]
+    Advice(#[from] AdviceError),
+    /// A file of measurements could not be read.
+    #[error("the measurements could not be read")]
+    Reading(#[from] ReadError),
+    /// A file holds another number of links than the pendulum.
+    #[error("{} holds angles of {found} links where the pendulum has 3; name them by `--columns` or `--dots`", path.display())]
+    Links {
+        /// The file.
+        path: PathBuf,
+        /// Number of links found.
+        found: usize,
+    },
+    /// Measured angles could not be smoothed.
+    #[error("the motion could not be estimated")]
+    Smoothing(#[from] SmoothingError),
     /// The output folder could not be made.
     #[error("cannot make the output folder {}", path.display())]
     Folder {
@@ -81,14 +106,16 @@ impl Failure {
 mod tests {
     use super::Failure;
     use crate::program::messages;
+    use branched_pendulum::analysis::advice::AdviceError;
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
-    use branched_pendulum::data::CsvError;
+    use branched_pendulum::approximate::LinearError;
     use branched_pendulum::integrate::{IntegrationError, RunError};
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::OdeFn;
     use branched_pendulum_charts::ChartError;
+    use branched_pendulum_data::CsvError;
     use std::error::Error;
     use std::io;
     use std::path::PathBuf;
@@ -173,7 +200,13 @@ mod tests {
             Box::new(Failure::integration(50.0, integration())),
             Box::new(Failure::Modes(no_rows())),
             Box::new(Failure::SectorModes(modes())),
+            Box::new(Failure::Linear(LinearError::NotFinite)),
+            Box::new(Failure::Frames(Box::new(request()))),
             Box::new(Failure::Truncation(truncation())),
+            Box::new(Failure::Advice(AdviceError::Request("a start"))),
+            Box::new(Failure::Advice(AdviceError::Reference(Box::new(
+                integration(),
+            )))),
             Box::new(Failure::Folder {
                 path: folder(),
                 source: refused(),

@@ -4,6 +4,8 @@
 //! `evaluation-speed`, whose many scenes take long to compile and whose modules are
 //! its own.
 
+pub mod advise;
+pub mod analyse;
 pub mod branched_double;
 pub mod energy_cascade;
 pub mod failure;
@@ -12,5 +14,6 @@ pub mod program;
 pub mod quadrature;
 pub mod solvers;
 pub mod stability_map;
+pub mod swaying_branch;
 pub mod transfer_orders;
 pub mod work_precision;

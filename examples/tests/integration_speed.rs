@@ -56,11 +56,11 @@ fn lanes_are_as_accurate_as_the_plain_method_near_the_threshold() {
     for (plain, lanes) in [
         (
             ensemble.integrate(&pair, &ode, &starts, 5.0),
-            ensemble.integrate_in_lanes(&pair, &model, &starts, 5.0),
+            ensemble.integrate_in_lanes(&pair, &ode, &starts, 5.0),
         ),
         (
             ensemble.integrate(&series, &ode, &starts, 5.0),
-            ensemble.integrate_in_lanes(&series, &model, &starts, 5.0),
+            ensemble.integrate_in_lanes(&series, &ode, &starts, 5.0),
         ),
     ] {
         let (plain, lanes) = (median_and_worst(plain), median_and_worst(lanes));

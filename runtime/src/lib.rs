@@ -8,6 +8,7 @@
 //! - [`scalar`]: the numbers that emitted code computes with,
 //! - [`system`]: the traits that it implements, and states,
 //! - [`integrate`]: trajectories, with error control, dense output and events,
+//! - [`approximate`]: models that are cheaper, with their errors,
 //! - [`ensemble`]: many trajectories on all cores,
 //! - [`batch`]: accelerations of many states, in vector registers,
 //! - [`tree`]: large trees, in loops,
@@ -16,7 +17,6 @@
 //! - [`transfer_forms`]: several forms of one energy transfer,
 //! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
 //!   errors of truncated transfers,
-//! - [`data`]: CSV files,
 //! - [`model`]: what emitted models return, and what they refuse.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
@@ -72,7 +72,7 @@
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
 //!   `alloc` and offers [`scalar`], [`system`], [`model`], [`batch`], [`tree`],
-//!   [`taylor`], [`sectors`], [`transfer_forms`] and [`integrate`].
+//!   [`taylor`], [`sectors`], [`transfer_forms`], [`integrate`] and [`approximate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `macros` (default): the attribute `branched_pendulum`.
@@ -86,9 +86,8 @@ extern crate alloc;
 
 #[cfg(feature = "std")]
 pub mod analysis;
+pub mod approximate;
 pub mod batch;
-#[cfg(feature = "std")]
-pub mod data;
 #[doc(hidden)]
 pub mod emitted;
 #[cfg(feature = "std")]
@@ -110,8 +109,8 @@ pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
 pub use system::{
-    Canonical, Cast, Energy, Forced, Pendulum, Positions, SymmetricPendulum, TaylorPendulum,
-    Transverse, WholeTree,
+    Canonical, Cast, Energy, Forced, Pendulum, Positions, Prescribed, SymmetricPendulum,
+    TaylorPendulum, Transverse, WholeTree,
 };
 pub use transfer_forms::{TransferForm, TransferForms};
 

@@ -20,5 +20,5 @@ pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};
 pub use crate::system::{
     AbsoluteAngles, Canonical, CanonicalVariables, Energy, FirstIntegral, Forced, Ode, Pendulum,
-    Positions, State, SymmetricCoordinates, SymmetricPendulum,
+    Positions, Prescribed, State, SymmetricCoordinates, SymmetricPendulum,
 };

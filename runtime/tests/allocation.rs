@@ -6,7 +6,8 @@ mod counting;
 
 use std::num::NonZeroUsize;
 
-use branched_pendulum::integrate::{Crossing, Event, Solver};
+use branched_pendulum::approximate::{Approximation, Linear};
+use branched_pendulum::integrate::{Crossing, Event, Frames, Solver};
 use branched_pendulum::integrate::{LaneMethod, Projected, StoermerVerlet};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{OdeFn, TaylorOde};
@@ -102,6 +103,27 @@ fn methods_with_fixed_steps() {
         assert_eq!(in_frames(&ode, &method), 0);
     }
     assert_eq!(in_frames(&ode, &Gauss::for_animation(STEP)), 0);
+}
+
+#[test]
+fn frames_in_real_time() {
+    let ode = oscillator();
+    let start = State::at_rest(0.0, &[1.0]);
+    let mut frames = Frames::new(&ode, &start, STEP).unwrap();
+    let damped = [[0.1, 0.02], [0.02, 0.2]];
+    let linear = Linear::of_matrices(&damped, &damped, &damped).unwrap();
+    let mut modes = linear.frames(STEP).unwrap();
+    let mut state = [1.0, 0.0, 0.0, 0.5];
+    let before = allocations();
+    for _ in 0..100_000 {
+        frames.advance(2.5 * STEP);
+        frames.set_state(0.0, &[1.0, 0.1]).unwrap();
+        modes.step_under(&mut state, &[0.1, 0.2]);
+        modes.advance();
+        modes.angles_into(&mut state[..2]);
+        state[0] += modes.validity(&state);
+    }
+    assert_eq!(allocations() - before, 0);
 }
 
 #[test]
@@ -244,17 +266,22 @@ impl<T: Scalar> TaylorPendulum<T> for Oscillator<T> {
 
 /// Allocations of ensembles in lanes whose trajectories make so many steps, and
 /// have a sample in each.
-fn in_lanes(method: &impl LaneMethod<Oscillator<f64>, f64>, steps: u32) -> u64 {
+fn in_lanes(method: &impl LaneMethod<AbsoluteAngles<Oscillator<f64>>, f64>, steps: u32) -> u64 {
     let starts = vec![State::at_rest(0.0, &[1.0]); 11];
     let releases: Vec<_> = (0..11)
-        .map(|i| (Oscillator(1.0 + 0.1 * f64::from(i)), starts[0].clone()))
+        .map(|i| {
+            (
+                AbsoluteAngles(Oscillator(1.0 + 0.1 * f64::from(i))),
+                starts[0].clone(),
+            )
+        })
         .collect();
     let times: Vec<f64> = (0..steps).map(|i| STEP * (f64::from(i) + 0.5)).collect();
     let (ensemble, end) = (
         Ensemble::new().threads(NonZeroUsize::MIN),
         STEP * f64::from(steps),
     );
-    let (model, starts) = (&Oscillator(1.0), starts.as_slice());
+    let (model, starts) = (&AbsoluteAngles(Oscillator(1.0)), starts.as_slice());
     let before = allocations();
     let ends = [
         ensemble.integrate_in_lanes(method, model, starts, end),
@@ -274,7 +301,7 @@ fn in_lanes(method: &impl LaneMethod<Oscillator<f64>, f64>, steps: u32) -> u64 {
 
 #[test]
 fn lanes() {
-    fn count(method: &impl LaneMethod<Oscillator<f64>, f64>) {
+    fn count(method: &impl LaneMethod<AbsoluteAngles<Oscillator<f64>>, f64>) {
         assert_eq!(in_lanes(method, 10), in_lanes(method, 10_000));
     }
     count(&Dopri5::new(options()));

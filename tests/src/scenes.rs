@@ -33,6 +33,8 @@ pub mod simple;
 pub mod sweep;
 #[path = "../fixtures/scenes/triplet.rs"]
 pub mod triplet;
+#[path = "../fixtures/scenes/unequal.rs"]
+pub mod unequal;
 
 /// The paper's scene as `branched-pendulum` commits it: built without the macro.
 #[rustfmt::skip]

@@ -14,6 +14,9 @@ use crate::report::{Diagnostic, SyntaxMessage, ValueMessage};
 /// use for more, and the emitted code writes every factor out.
 const MAX_DEGREE: u32 = 8;
 
+/// The place of `each(...)`.
+pub(super) const EACH_WHOLE: &str = "`each(...)` around whole values, as in `each(2 * a, 2 * b)`";
+
 /// A value as written.
 #[derive(Debug, Clone)]
 pub struct Expression {
@@ -206,6 +209,10 @@ impl Expression {
         }
         if input.peek(syn::Ident::peek_any) {
             let name = Ident::parse_any(input).map_err(|_| expected(input, Self::WHAT))?;
+            if input.peek(token::Paren) && name == "each" {
+                let message = SyntaxMessage::Expected { what: EACH_WHOLE };
+                return Err(Diagnostic::new(name.span(), message).into());
+            }
             if input.peek(token::Paren) {
                 let (inside, end) = parenthesised(input)?;
                 let argument = Box::new(parse_all((inside, end), Self::parse)?);

@@ -13,11 +13,13 @@
 //!             | "observe" "(" [ observable { "," observable } [ "," ] ] ")"
 //!             | "in_phase" "(" [ name { "," name } [ "," ] ] ")"
 //!             | "locked" "(" name "," expression ")"
+//!             | "prescribed" "(" name { "," name } [ "," ] ")"
 //!             | link
 //! link        = name [ ":" shape ] "(" [ property { "," property } [ "," ] ] ")"
 //!               [ "[" [ link { "," link } [ "," ] ] "]" ] [ "*" integer ]
 //! property    = name "=" value
-//! value       = expression | "(" expression "," expression ")"
+//! value       = point | "each" "(" point { "," point } [ "," ] ")"
+//! point       = expression | "(" expression "," expression ")"
 //! request     = name [ "(" [ form { "," form } [ "," ] ] ")" ]
 //! form        = name [ "=" integer | "(" [ name { "," name } [ "," ] ] ")" ]
 //! observable  = name "=" expression
@@ -36,7 +38,8 @@
 //! other name is one. In observables a `name` is a symbol
 //! of the scene (an angle, a velocity, a momentum, a parameter, a constant of the
 //! model), and only they and drives have functions. A pair is a point of a link,
-//! `(along, lateral)`; a single value there means `(along, 0)`. Which properties,
+//! `(along, lateral)`; a single value there means `(along, 0)`. Copies of a link may differ:
+//! `each(...)` holds a value for each. Which properties,
 //! requests, symbols and functions there are, and what they mean, is the
 //! business of [`scene`](crate::scene); this module knows their shape only.
 
@@ -80,8 +83,21 @@ pub struct Description {
     pub observables: Vec<ObservableClause>,
     /// `in_phase(...)` and `locked(...)`.
     pub reductions: Reductions,
+    /// `prescribed(...)`, each by itself.
+    pub prescribed: Vec<PrescribedClause>,
     /// True if part of it was unreadable, which is reported already: anything
     /// that is missing may have stood there.
+    pub damaged: bool,
+}
+
+/// Links whose motion the caller states.
+#[derive(Debug, Clone)]
+pub struct PrescribedClause {
+    /// The word `prescribed`.
+    pub name: Ident,
+    /// The links.
+    pub links: Vec<Ident>,
+    /// True if part of it was unreadable, which is reported already.
     pub damaged: bool,
 }
 
@@ -237,6 +253,13 @@ pub enum Value {
     Single(Expression),
     /// A point, `(along, lateral)`.
     Pair(Expression, Expression),
+    /// A value for each copy, `each(first, second)`.
+    Each {
+        /// The values, in the order of the copies.
+        values: Vec<Value>,
+        /// Place of the word `each`.
+        span: Span,
+    },
 }
 
 impl Value {
@@ -248,6 +271,7 @@ impl Value {
                 along.for_each_name(visit);
                 lateral.for_each_name(visit);
             }
+            Self::Each { values, .. } => values.iter().for_each(|v| v.for_each_name(visit)),
         }
     }
 }

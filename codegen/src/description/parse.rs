@@ -7,7 +7,7 @@ use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 use syn::parse::ParseStream;
 use syn::{Token, token};
 
-use super::expression::whole_number;
+use super::expression::{EACH_WHOLE, whole_number};
 use super::item::{MAX_NESTING, deepest, parse_item};
 use super::list::{
     List, ListFault, brackets, colon, expected, group, identifier, list, parse_all, take,
@@ -15,7 +15,7 @@ use super::list::{
 use super::requests::{observable, request};
 use super::{
     Description, DriveClause, Expression, LockedClause, Node, ObservableClause, ParameterClause,
-    Property, Reductions, Request, Value,
+    PrescribedClause, Property, Reductions, Request, Value,
 };
 use crate::report::{Diagnostic, Report, SyntaxMessage};
 
@@ -54,6 +54,7 @@ pub fn parse(
         requests: Vec::new(),
         observables: Vec::new(),
         reductions: Reductions::default(),
+        prescribed: Vec::new(),
         damaged: entries.damaged,
     };
     gather(entries.members, &mut description, report);
@@ -107,6 +108,7 @@ fn gather(members: Vec<Member>, description: &mut Description, report: &mut Repo
             }
             Member::InPhase(nodes) => description.reductions.in_phase.extend(nodes),
             Member::Locked(clause) => description.reductions.locked.push(clause),
+            Member::Prescribed(clause) => description.prescribed.push(clause),
             Member::Link(node) => description.roots.push(node),
         }
     }
@@ -131,6 +133,7 @@ enum Member {
     Observe(Ident, Vec<ObservableClause>),
     InPhase(Vec<Ident>),
     Locked(LockedClause),
+    Prescribed(PrescribedClause),
     Link(Node),
 }
 
@@ -195,6 +198,15 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFaul
             Ok(LockedClause { link, angle })
         })?;
         return Ok(Member::Locked(clause));
+    }
+    if name == "prescribed" && declares(input) {
+        let links = group(input, Delimiter::Parenthesis, "`(` and links")?;
+        let links = list(links, report, |input, _| identifier(input, "a link"));
+        return Ok(Member::Prescribed(PrescribedClause {
+            name,
+            links: links.members,
+            damaged: links.damaged,
+        }));
     }
     if name == "gravity" || name == "crate" {
         return Err(expected(input, "`=` and a value"));
@@ -290,16 +302,55 @@ fn property(input: ParseStream<'_>, _: &mut Report) -> Result<Property, ListFaul
 fn property_value(name: Ident, input: ParseStream<'_>) -> Result<Property, ListFault> {
     colon(&name, input)?;
     take::<Token![=]>(input, "`=` and a value")?;
-    let value = match pair(input) {
+    let value = match each(input) {
+        Some((span, values)) => Value::Each {
+            values: parse_all(values, |input| {
+                let mut values = vec![point(input)?];
+                while !input.is_empty() {
+                    take::<Token![,]>(input, "`,`")?;
+                    if !input.is_empty() {
+                        values.push(point(input)?);
+                    }
+                }
+                Ok(values)
+            })?,
+            span,
+        },
+        None => point(input)?,
+    };
+    if matches!(value, Value::Each { .. }) && !input.is_empty() && !input.peek(Token![,]) {
+        return Err(expected(input, EACH_WHOLE));
+    }
+    Ok(Property { name, value })
+}
+
+/// A single value or a pair.
+fn point(input: ParseStream<'_>) -> Result<Value, ListFault> {
+    match pair(input) {
         Some(pair) => parse_all(pair, |input| {
             let along = Expression::parse(input)?;
             take::<Token![,]>(input, "`,`")?;
             let lateral = Expression::parse(input)?;
             Ok(Value::Pair(along, lateral))
-        })?,
-        None => Value::Single(Expression::parse(input)?),
-    };
-    Ok(Property { name, value })
+        }),
+        None => Expression::parse(input).map(Value::Single),
+    }
+}
+
+/// Takes `each` and its parentheses: the place of the word, and the tokens in them.
+fn each(input: ParseStream<'_>) -> Option<(Span, (TokenStream, Span))> {
+    input
+        .step(|cursor| match cursor.ident() {
+            Some((word, rest)) if word == "each" => match rest.group(Delimiter::Parenthesis) {
+                Some((inside, span, rest)) => {
+                    let tokens = (inside.token_stream(), span.close());
+                    Ok(((word.span(), tokens), rest))
+                }
+                None => Err(cursor.error("")),
+            },
+            _ => Err(cursor.error("")),
+        })
+        .ok()
 }
 
 /// Takes parentheses with a comma in them.

@@ -42,6 +42,10 @@ impl Display for Description {
         for LockedClause { link, angle } in locked {
             writeln!(f, "locked({link}, {angle})")?;
         }
+        for clause in &self.prescribed {
+            let links: Vec<String> = clause.links.iter().map(ToString::to_string).collect();
+            writeln!(f, "prescribed({})", links.join(", "))?;
+        }
         if !self.requests.is_empty() {
             write!(f, "emit(")?;
             separated(&self.requests, f)?;
@@ -86,9 +90,20 @@ fn separated<T: Display>(members: &[T], f: &mut Formatter<'_>) -> fmt::Result {
 
 impl Display for Property {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match &self.value {
-            Value::Single(value) => write!(f, "{} = {value}", self.name),
-            Value::Pair(along, lateral) => write!(f, "{} = ({along}, {lateral})", self.name),
+        write!(f, "{} = {}", self.name, self.value)
+    }
+}
+
+impl Display for Value {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Single(value) => write!(f, "{value}"),
+            Self::Pair(along, lateral) => write!(f, "({along}, {lateral})"),
+            Self::Each { values, .. } => {
+                write!(f, "each(")?;
+                separated(values, f)?;
+                write!(f, ")")
+            }
         }
     }
 }

@@ -61,7 +61,7 @@ impl Emission<'_> {
         format!("Sectors, in order: {}.", names.join(", "))
     }
 
-    pub(super) fn budget_meaning(&self, definition: EnergyDefinition) -> Vec<String> {
+    pub(super) fn budget_meaning(&self, definition: EnergyDefinition, powers: &str) -> Vec<String> {
         let (kinetic, formula, latex, closes) = match definition {
             EnergyDefinition::Rest => (
                 "from its momenta and its block of the mass matrix at rest",
@@ -90,7 +90,7 @@ impl Emission<'_> {
         };
         let mut lines = vec![
             format!(
-                "Energies E_s of all sectors (in J), the transfers W_s into them and the powers P_s of friction and drive (in W), so that dE_s/dt = W_s + P_s without truncation. The kinetic energy of a sector is taken {kinetic}."
+                "Energies E_s of all sectors (in J), the transfers W_s into them and the powers P_s of {powers} (in W), so that dE_s/dt = W_s + P_s without truncation. The kinetic energy of a sector is taken {kinetic}."
             ),
             String::new(),
         ];

@@ -3,7 +3,7 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use crate::mechanics::Counting;
-use crate::program::{Argument, Entry, LinkFunction, Purpose};
+use crate::program::{Argument, Cause, Entry, LinkFunction, Purpose};
 use crate::scene::Solve;
 use crate::scene::{CoordinateKind, Reduction};
 use proc_macro2::TokenStream;
@@ -135,6 +135,13 @@ impl Emission<'_> {
                 String::new(),
                 "The power of the torques is Q·ω. In canonical variables they add to the rates of the momenta.".into(),
             ],
+            Purpose::Prescribed(set) => self.prescribed_meaning(set),
+            Purpose::OutsidePower => vec![
+                "Power Q·ω (in W) of `torques` Q (in N m) from outside at angular velocities `omega` (in rad/s): dE/dt of E = K + U is this with the powers of friction and drive.".into(),
+            ],
+            Purpose::AntiphaseOutsidePower(n) => vec![
+                format!("Power Σ ∂H_d/∂p Q (in W) of `torques` Q (in N m) from outside, on each link, on H_d of `{}`.", difference(n)),
+            ],
             Purpose::Accelerations => vec![
                 format!("Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s).", self.at_time()),
                 String::new(),
@@ -206,7 +213,10 @@ impl Emission<'_> {
                 vec!["Energy H = ½ pᵀ M̃⁻¹ p + U (in J) at symmetric `coordinates` (in rad) and `momenta` (in kg m²/s), with M̃ of [`symmetric_accelerations`](Self::symmetric_accelerations).".into()]
             }
             Purpose::SubHamiltonian(n) => vec![
-                format!("Energy H_d (in J) of the antiphase coordinate `{}` by itself: the sub-Hamiltonian whose growth W explains (Toda and Ooshida, Eq. 12; for more than two copies, Parseval's share of the potential energy).", difference(n)),
+                format!("Energy H_d (in J) of the antiphase coordinate `{}` by itself: the sub-Hamiltonian whose growth W explains (Toda and Ooshida, Eq. 12; for more than two copies, Parseval's share of the potential energy).{}", difference(n), match self.mechanics.mean_tree {
+                    Some(_) => " Its constants are the means of those of the copies.",
+                    None => "",
+                }),
             ],
             Purpose::AngleTransfer(n) => vec![
                 format!("Energy transfer W (in W) into `{}` to first order in the difference angles, momenta untouched: W_K and W_P as published (Toda and Ooshida, Eqs. 16b and 16c).", difference(n)),
@@ -251,11 +261,22 @@ impl Emission<'_> {
             Purpose::ExactTransferFromRates(n) => vec![
                 format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; {}.", difference(n), self.on_top()),
             ],
+            Purpose::SplitTransfer(n, cause) => {
+                let name = difference(n);
+                let what = match cause {
+                    Cause::MeanTree => format!("Growth: the part of the energy transfer W (in W) into `{name}` that equal copies with the mean constants would have at the same coordinates and momenta, {{H_d, H₀}}. Quadratic in the differences at leading order."),
+                    Cause::Mismatch => format!("Forcing: the part of the energy transfer W (in W) into `{name}` that the mismatch of the copies adds, {{H_d, H − H₀}} with the Hamiltonian H₀ of equal copies that have the mean constants. Linear in the differences and in the mismatch at leading order; growth and forcing sum to W. In the formulas u are the velocities (in rad/s) that the mismatch adds, M̃₀ u = −(M̃ − M̃₀) q̇ with the mass matrices of H and H₀."),
+                };
+                vec![what]
+            }
             Purpose::Observable(n, form) => self.observable_meaning(n, form),
             Purpose::FrictionPower(n) => vec![
                 format!("Power (in W) of friction and drag on H_d of `{}`.", difference(n)),
             ],
-            Purpose::Budget(definition) => self.budget_meaning(definition),
+            Purpose::Budget(definition) => self.budget_meaning(definition, "friction and drive"),
+            Purpose::BudgetUnder(definition) => {
+                self.budget_meaning(definition, "friction, drive and the `torques` from outside")
+            }
             Purpose::SectorTransfers(order) => self.sector_transfers_meaning(order),
             Purpose::TransferMatrix => self.matrix_meaning(),
             Purpose::AntiphaseDrivePower(n) => vec![
@@ -302,6 +323,7 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::DifferenceRate(_) => Some("their rates `difference_rate` (in rad/s)"),
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
         Argument::Torques => Some("`torques` (in N m)"),
+        Argument::Prescribed(_) => Some("accelerations `prescribed` (in rad/s²)"),
         _ => None,
     }
 }

@@ -3,7 +3,7 @@
 use super::Emission;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{Frame, TransferFormulas, TransferParts, WrittenOut};
-use crate::program::Purpose;
+use crate::program::{Cause, Purpose};
 
 /// A formula: left side and right side.
 pub(super) struct DocFormula {
@@ -54,6 +54,13 @@ impl Emission<'_> {
             Purpose::ExactTransfer(n) | Purpose::ExactTransferFromRates(n) => {
                 self.transfer(&mechanics.transfers[n], |t| &t.exact)
             }
+            Purpose::SplitTransfer(n, cause) => match &mechanics.transfers[n].split {
+                Some([growth, forcing]) => Self::transfer_parts(match cause {
+                    Cause::MeanTree => growth,
+                    Cause::Mismatch => forcing,
+                }),
+                None => Vec::new(),
+            },
             Purpose::QuadraticForm(n) => match &mechanics.transfers[n].quadratic_form {
                 Some(form) => ["a_pp", "a_pq", "a_qq"]
                     .iter()
@@ -73,13 +80,10 @@ impl Emission<'_> {
                 Some(power) => self.power_formulas(power),
                 None => Vec::new(),
             },
-            Purpose::TotalFrictionPower => {
-                let drive = mechanics.drive.as_ref();
-                match drive.and_then(|drive| drive.friction_power.as_ref()) {
-                    Some(power) => simple("P", power),
-                    None => Vec::new(),
-                }
-            }
+            Purpose::TotalFrictionPower => match &mechanics.friction_power {
+                Some(power) => simple("P", power),
+                None => Vec::new(),
+            },
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
             Purpose::Observable(n, form) => self.observable_formulas(n, form),
             Purpose::Positions(_) | Purpose::PointVelocities(_) => self.positions_formulas(purpose),
@@ -89,6 +93,10 @@ impl Emission<'_> {
             | Purpose::TransverseFriction(_) => self.transverse_formulas(purpose),
             Purpose::AbsoluteVelocities
             | Purpose::AccelerationsUnder
+            | Purpose::Prescribed(_)
+            | Purpose::OutsidePower
+            | Purpose::AntiphaseOutsidePower(_)
+            | Purpose::BudgetUnder(_)
             | Purpose::TaylorCoefficients
             | Purpose::MassMatrix
             | Purpose::Budget(_)
@@ -187,12 +195,7 @@ impl Emission<'_> {
         let Some(parts) = form(transfer) else {
             return Vec::new();
         };
-        let named = |name: &str, expr: &Expr| DocFormula {
-            left: name.to_owned(),
-            left_latex: format!("W_{{{}}}", &name[2..]),
-            right: expr.clone(),
-        };
-        let mut formulas = vec![named("W_K", &parts.kinetic), named("W_P", &parts.potential)];
+        let mut formulas = Self::transfer_parts(parts);
         let mut truncated = false;
         parts.kinetic.for_each_symbol(&mut |id| {
             truncated |= self.mechanics.symbols.get(id).role == Role::Derived;
@@ -201,6 +204,15 @@ impl Emission<'_> {
             formulas.extend(self.written_out());
         }
         formulas
+    }
+
+    fn transfer_parts(parts: &TransferParts) -> Vec<DocFormula> {
+        let named = |name: &str, expr: &Expr| DocFormula {
+            left: name.to_owned(),
+            left_latex: format!("W_{{{}}}", &name[2..]),
+            right: expr.clone(),
+        };
+        vec![named("W_K", &parts.kinetic), named("W_P", &parts.potential)]
     }
 
     /// w and D, where they are written out.

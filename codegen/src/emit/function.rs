@@ -5,7 +5,7 @@ use super::gather::Gathered;
 use super::names::Locals;
 use super::parts::{self, Line};
 use super::tokens::{Binding, ident};
-use crate::program::{Argument, Entry, Op, Pass, Purpose, Shape, ValueId};
+use crate::program::{Argument, Entry, LINK_MOTION, Op, Pass, Purpose, ValueId};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -27,11 +27,13 @@ impl Emission<'_> {
         let result = self.result_type(entry);
         let needed = self.program.needed(&entry.outputs);
         let (body, parts) = self.body(entry, &needed);
-        // A batch compiles the accelerations for wider registers than the rest
+        // Batches and lanes compile the accelerations for wider registers than the rest
         // of the build uses, which only inlining allows. Those of loops call the
         // drive.
         let inline = match entry.purpose {
-            Purpose::Accelerations => quote!(#[inline(always)]),
+            Purpose::Accelerations | Purpose::AccelerationsUnder | Purpose::Transverse(_) => {
+                quote!(#[inline(always)])
+            }
             Purpose::Drive if self.scene.in_loops() => quote!(#[inline(always)]),
             _ => quote!(#[inline]),
         };
@@ -69,42 +71,9 @@ impl Emission<'_> {
             Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                 self.transverse_links(sector)
             }
+            Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
             _ => self.scene.links.len(),
         })
-    }
-
-    pub(super) fn result_type(&self, entry: &Entry) -> TokenStream {
-        let length = Literal::usize_unsuffixed(entry.outputs.len());
-        let runtime = self.runtime();
-        match entry.shape {
-            Shape::Scalar => quote!(T),
-            Shape::Vector => quote!([T; #length]),
-            Shape::Rows(length) => {
-                let rows = Literal::usize_unsuffixed(entry.outputs.len() / length);
-                let length = Literal::usize_unsuffixed(length);
-                quote!([[T; #length]; #rows])
-            }
-            Shape::Split(first) => {
-                let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
-                let first = match first {
-                    1 => quote!(T),
-                    _ => {
-                        let first = Literal::usize_unsuffixed(first);
-                        quote!([T; #first])
-                    }
-                };
-                quote!((#first, [T; #rest]))
-            }
-            Shape::Transfer => quote!(#runtime::Transfer<T>),
-            Shape::Transfers(count) => {
-                let count = Literal::usize_unsuffixed(count);
-                quote!([#runtime::Transfer<T>; #count])
-            }
-            Shape::Budget(count) => {
-                let count = Literal::usize_unsuffixed(count);
-                quote!(#runtime::Budget<T, #count>)
-            }
-        }
     }
 
     /// The body of a function that is short.
@@ -277,6 +246,7 @@ impl Emission<'_> {
                 Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                     self.transverse_links(sector)
                 }
+                Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
                 _ => self.scene.links.len(),
             },
         };
@@ -326,7 +296,7 @@ impl Emission<'_> {
             }
         });
         let names: Vec<TokenStream> = names.collect();
-        let rest = (names.len() < elements.len()).then(|| quote!(..));
+        let rest = (names.len() < LINK_MOTION.len()).then(|| quote!(..));
         quote!(let #runtime::tree::LinkMotion { #(#names,)* #rest } = #array;)
     }
 
@@ -348,48 +318,6 @@ impl Emission<'_> {
                 quote!(#name)
             }
             None => quote!(_),
-        }
-    }
-
-    /// The outputs in the shape in which the function returns them.
-    pub(super) fn shaped(&self, entry: &Entry, values: Vec<TokenStream>) -> TokenStream {
-        let runtime = self.runtime();
-        match entry.shape {
-            Shape::Scalar => quote!(#(#values)*),
-            Shape::Vector => quote!([#(#values),*]),
-            Shape::Rows(length) => {
-                let rows = values.chunks(length).map(|row| quote!([#(#row),*]));
-                quote!([#(#rows),*])
-            }
-            Shape::Split(first) => {
-                let (first, second) = values.split_at(first);
-                match first {
-                    [first] => quote!((#first, [#(#second),*])),
-                    _ => quote!(([#(#first),*], [#(#second),*])),
-                }
-            }
-            Shape::Transfer => {
-                let (kinetic, potential) = (&values[0], &values[1]);
-                quote!(#runtime::Transfer { kinetic: #kinetic, potential: #potential })
-            }
-            Shape::Transfers(_) => {
-                let transfers = values.chunks(2).map(|parts| {
-                    let (kinetic, potential) = (&parts[0], &parts[1]);
-                    quote!(#runtime::Transfer { kinetic: #kinetic, potential: #potential })
-                });
-                quote!([#(#transfers),*])
-            }
-            Shape::Budget(count) => {
-                let (energies, rest) = values.split_at(count);
-                let (transfers, powers) = rest.split_at(count);
-                quote! {
-                    #runtime::Budget {
-                        energies: [#(#energies),*],
-                        transfers: [#(#transfers),*],
-                        powers: [#(#powers),*],
-                    }
-                }
-            }
         }
     }
 }

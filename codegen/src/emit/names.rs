@@ -131,6 +131,10 @@ impl Emission<'_> {
             Argument::Difference(sector) => &self.transverse_sector(sector).differences,
             Argument::DifferenceRate(sector) => &self.transverse_sector(sector).rates,
             Argument::Torques => return format!("outside_{}", self.scene.links[index].name),
+            Argument::Prescribed(set) => {
+                let link = self.scene.prescribed[set].links[index];
+                return format!("prescribed_{}", self.scene.links[link.0].name);
+            }
             Argument::Forces => {
                 let axis = ["x", "y"][index % 2];
                 return format!("force_{axis}_{}", self.scene.links[index / 2].name);

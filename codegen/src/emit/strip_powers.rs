@@ -67,9 +67,6 @@ impl Emission<'_> {
                 }
             }
         };
-        if !self.scene.requests.energies {
-            return drive;
-        }
         let power = doc_lines(&[
             "Power (in W) of the drive on the whole tree at `time` (in s), angles `theta` (in rad) and angular velocities `omega` (in rad/s): dE/dt of E = K + U without friction. NaN for slices of another length than there are links. O(links).".to_owned(),
             String::new(),
@@ -79,12 +76,42 @@ impl Emission<'_> {
             String::new(),
             "with the velocities **V** of the centres of mass in the frame that moves with the pivot.".to_owned(),
         ]);
+        let power = self.scene.requests.energies.then(|| {
+            quote! {
+                #power
+                #[must_use]
+                pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
+                    let mut workspace = #runtime::system::Workspace::new();
+                    self.bodies.drive_power(&mut workspace, self.drive(time), theta, omega)
+                }
+            }
+        });
+        quote! {
+            #drive
+
+            #power
+        }
+    }
+
+    /// The powers of friction and of torques from outside, where energies are asked for and
+    /// something feeds them.
+    pub(super) fn strip_powers(&self) -> TokenStream {
+        let requests = &self.scene.requests;
+        let fed = self.mechanics.drive.is_some() || requests.forces;
+        if !(requests.energies && fed) {
+            return TokenStream::new();
+        }
         let mut links = self.scene.links.iter();
         let braked = links.any(|link| link.friction.is_some() || link.drag.is_some());
         let friction = braked.then(|| {
-            let docs = doc_lines(&[
-                "Power −Σ c (ω − ω_parent)² + k ω² (in W) of friction c and drag k on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`. NaN for a slice of another length than there are links. O(links).".to_owned(),
-            ]);
+            let others = match (&self.mechanics.drive, requests.forces) {
+                (Some(_), false) => "`drive_power`",
+                (Some(_), true) => "`drive_power` and `outside_power`",
+                (None, _) => "`outside_power`",
+            };
+            let docs = doc_lines(&[format!(
+                "Power −Σ c (ω − ω_parent)² + k ω² (in W) of friction c and drag k on the whole tree, never positive: dE/dt of E = K + U is this and {others}. NaN for a slice of another length than there are links. O(links)."
+            )]);
             quote! {
                 #docs
                 #[must_use]
@@ -93,17 +120,20 @@ impl Emission<'_> {
                 }
             }
         });
-        quote! {
-            #drive
-
-            #power
-            #[must_use]
-            pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
-                let mut workspace = #runtime::system::Workspace::new();
-                self.bodies.drive_power(&mut workspace, self.drive(time), theta, omega)
+        let outside = requests.forces.then(|| {
+            let docs = doc_lines(&self.meaning(Purpose::OutsidePower));
+            quote! {
+                #docs
+                /// NaN for slices of another length than there are links. O(links).
+                #[must_use]
+                pub fn outside_power(&self, omega: &[T], torques: &[T]) -> T {
+                    self.bodies.outside_power(omega, torques)
+                }
             }
-
+        });
+        quote! {
             #friction
+            #outside
         }
     }
 

@@ -21,12 +21,14 @@ impl Emission<'_> {
         let energies = self.scene.requests.energies;
         let energy = energies.then(|| self.strip_energy());
         let positions = self.positions_trait();
+        let forced = self.scene.requests.forces.then(|| self.strip_forced());
         quote! {
             #equations
             #functions
             #pendulum
             #energy
             #positions
+            #forced
         }
     }
 
@@ -83,6 +85,11 @@ impl Emission<'_> {
             }
         }
         let (joints, torque) = (strips.has_joint_torques, strips.has_drive_torque);
+        let forced = strips.has_outside_torques.then(|| {
+            quote!(
+                const FORCED: bool = true;
+            )
+        });
         let functions = LinkFunction::ALL.map(|function| self.link_function(function));
         quote! {
             #docs
@@ -107,6 +114,7 @@ impl Emission<'_> {
                 const NAMES: &'static [&'static str] = &[#(#names),*];
                 const JOINTS: bool = #joints;
                 const TORQUE: bool = #torque;
+                #forced
 
                 #(#functions)*
             }
@@ -176,9 +184,18 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let own = match self.scene.layout {
             Layout::Generations { .. } => self.generation_functions(),
-            _ => self.array_function(),
+            _ => {
+                let under = self
+                    .scene
+                    .requests
+                    .forces
+                    .then(|| self.array_function_under());
+                let own = self.array_function();
+                quote!(#own #under)
+            }
         };
         let (energies, drive) = (self.strip_energies(), self.strip_drive());
+        let powers = self.strip_powers();
         // Of commas: all tokens stand where the attribute does, see `emit`.
         let allow = self.mechanics.drive.is_some();
         let allow = allow.then(|| quote!(#[allow(clippy::possible_missing_comma)]));
@@ -190,6 +207,7 @@ impl Emission<'_> {
 
                 #energies
                 #drive
+                #powers
             }
         }
     }
@@ -240,7 +258,7 @@ impl Emission<'_> {
     }
 
     /// The drive as the tree takes it.
-    fn drive_at_time(&self) -> TokenStream {
+    pub(super) fn drive_at_time(&self) -> TokenStream {
         match self.mechanics.drive {
             Some(_) => quote!(::core::option::Option::Some(self.root_drive(time))),
             None => quote!(::core::option::Option::None),

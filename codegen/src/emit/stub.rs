@@ -34,7 +34,14 @@ const NUMBERS: [&str; 4] = [
 /// Methods from the time and two arrays to a number.
 const POWERS: [&str; 2] = ["drive_power", "antiphase_drive_power"];
 /// Methods from two arrays to a transfer.
-const TRANSFERS: [&str; 2] = ["transfer_exact", "transfer_exact_from_rates"];
+const TRANSFERS: [&str; 6] = [
+    "transfer_exact",
+    "transfer_exact_from_rates",
+    "transfer_forcing",
+    "transfer_forcing_from_rates",
+    "transfer_growth",
+    "transfer_growth_from_rates",
+];
 
 /// The type and its documented methods as stubs. They are never run: the
 /// errors beside them keep the crate from compiling.
@@ -85,7 +92,13 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
         of_points("_torques"),
     );
     let taylor = taylor(description, runtime);
+    let prescribed = prescribed(description, runtime);
     let budgets = budgets(description, runtime);
+    let mut outside_powers = vec![format_ident!("antiphase_outside_power")];
+    let placed = places
+        .iter()
+        .map(|place| format_ident!("antiphase_outside_power_{place}"));
+    outside_powers.extend(placed);
     quote! {
         #(#attrs)*
         #vis struct #name<T = f64>(::core::marker::PhantomData<T>);
@@ -150,6 +163,14 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             ) -> [T; N] {
                 ::core::unimplemented!()
             }
+            pub fn outside_power<const N: usize>(&self, omega: &[T; N], torques: &[T; N]) -> T {
+                ::core::unimplemented!()
+            }
+            #(pub fn #outside_powers<const N: usize>(
+                &self, coordinates: &[T; N], rates: &[T; N], torques: &[T; N],
+            ) -> T {
+                ::core::unimplemented!()
+            })*
             pub fn link_properties<const N: usize>(&self) -> [[T; 8]; N] {
                 ::core::unimplemented!()
             }
@@ -200,6 +221,10 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
 
         impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
             fn accelerations_under_into(&self, _: T, _: &[T], _: &[T], _: &[T], _: &mut [T]) {}
+            fn accelerations_under_of<#other: #runtime::Scalar>(
+                _: &#name<#other>, _: #other, _: &[#other], _: &[#other], _: &[#other],
+                _: &mut [#other],
+            ) {}
         }
 
         impl<T: #runtime::Scalar> #runtime::Positions<T> for #name<T> {
@@ -222,8 +247,46 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             fn potential_energy_of(&self, _: &[T]) -> T { ::core::unimplemented!() }
         }
 
+        #prescribed
+
         #taylor
     }
+}
+
+/// The functions of prescribed links.
+fn prescribed(description: &Description, runtime: &TokenStream) -> Option<TokenStream> {
+    let name = &description.item.ident;
+    if description.prescribed.is_empty() {
+        return None;
+    }
+    let mut functions: Vec<Ident> = Vec::new();
+    for clause in &description.prescribed {
+        let links: Vec<String> = clause.links.iter().map(Ident::to_string).collect();
+        let function = format!("accelerations_prescribed_{}", links.join("_and_"));
+        let known = functions.iter().any(|known| *known == function);
+        if is_plain(&function) && !known {
+            functions.push(format_ident!("{function}"));
+        }
+    }
+    let time = description.drive.as_ref().map(|_| quote!(time: T,));
+    Some(quote! {
+        #[allow(missing_docs, unused_variables, clippy::all)]
+        impl<T: #runtime::Scalar> #name<T> {
+            #(pub fn #functions<const N: usize, const K: usize>(
+                &self, #time theta: &[T; N], omega: &[T; N], torques: &[T; N], prescribed: &[T; K],
+            ) -> ([T; N], [T; K]) {
+                ::core::unimplemented!()
+            })*
+        }
+
+        impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
+            const PRESCRIBED: &'static [#runtime::system::PrescribedLinks] = &[];
+            fn accelerations_prescribed_into(
+                &self, _: usize, _: T, _: #runtime::system::PrescribedMotion<'_, T>,
+                _: &mut [T], _: &mut [T],
+            ) {}
+        }
+    })
 }
 
 /// The Taylor coefficients, where they are asked for.

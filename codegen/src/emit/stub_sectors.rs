@@ -54,6 +54,7 @@ pub(super) fn budgets(description: &Description, runtime: &TokenStream) -> Token
     let sectors = Literal::usize_unsuffixed(sectors.min(MOST_SECTORS));
     let both = |name: &str| [format_ident!("{name}"), format_ident!("symmetric_{name}")];
     let shares = BUDGETS.iter().flat_map(|name| both(name));
+    let under = BUDGETS.iter().map(|name| format_ident!("{name}_under"));
     let mut transfers = both("sector_transfers").to_vec();
     for order in 1..=8 {
         transfers.push(format_ident!("sector_transfers_angle_{order}"));
@@ -63,6 +64,11 @@ pub(super) fn budgets(description: &Description, runtime: &TokenStream) -> Token
     quote! {
         #(pub fn #shares<const N: usize>(
             &self, #time first: &[T; N], second: &[T; N],
+        ) -> #runtime::Budget<T, #sectors> {
+            ::core::unimplemented!()
+        })*
+        #(pub fn #under<const N: usize>(
+            &self, #time theta: &[T; N], omega: &[T; N], torques: &[T; N],
         ) -> #runtime::Budget<T, #sectors> {
             ::core::unimplemented!()
         })*

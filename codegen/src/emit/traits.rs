@@ -23,6 +23,7 @@ impl Emission<'_> {
         let positions = self.positions_trait();
         let transverse = self.transverse_trait();
         let forced = self.scene.requests.forces.then(|| self.forced());
+        let prescribed = self.prescribed_trait();
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
         quote! {
             #pendulum
@@ -34,6 +35,7 @@ impl Emission<'_> {
             #positions
             #transverse
             #forced
+            #prescribed
             #taylor
         }
     }
@@ -170,6 +172,7 @@ impl Emission<'_> {
 
     fn forced(&self) -> TokenStream {
         let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
+        let other = super::other_scalar(name);
         let output = Ident::new("alpha", Span::call_site());
         let call = match self.mechanics.drive.is_some() {
             true => quote!(self.accelerations_under(time, theta, omega, torques)),
@@ -178,7 +181,7 @@ impl Emission<'_> {
         let body = self.fill(&output, &["theta", "omega", "torques"], call);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
-                #[inline]
+                #[inline(always)]
                 fn accelerations_under_into(
                     &self,
                     #time: T,
@@ -188,6 +191,20 @@ impl Emission<'_> {
                     alpha: &mut [T],
                 ) {
                     #body
+                }
+
+                #[inline(always)]
+                fn accelerations_under_of<#other: #runtime::Scalar>(
+                    pendulum: &#name<#other>,
+                    time: #other,
+                    theta: &[#other],
+                    omega: &[#other],
+                    torques: &[#other],
+                    alpha: &mut [#other],
+                ) {
+                    #runtime::Forced::accelerations_under_into(
+                        pendulum, time, theta, omega, torques, alpha,
+                    );
                 }
             }
         }

@@ -6,7 +6,8 @@ use super::tokens::ident;
 use crate::mechanics::TransverseFormulas;
 use crate::mechanics::expression::Expr;
 use crate::program::Purpose;
-use proc_macro2::{Literal, TokenStream};
+use crate::scene::TransverseSector;
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 impl Emission<'_> {
@@ -101,121 +102,23 @@ impl Emission<'_> {
     /// `impl Transverse`; NaN for slices of a wrong length.
     pub(super) fn transverse_trait(&self) -> Option<TokenStream> {
         let transverse = self.mechanics.transverse.as_ref()?;
-        let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
-        let sectors = transverse.sectors.iter().map(|formulas| {
-            let sector = &formulas.sector;
-            let [first, links, copies, holders] =
-                [sector.first.0, sector.links, sector.copies, sector.holders]
-                    .map(Literal::usize_unsuffixed);
-            let name = &sector.name;
-            quote! {
-                #runtime::system::TransverseSector {
-                    name: #name,
-                    first: #first,
-                    links: #links,
-                    copies: #copies,
-                    holders: #holders,
-                }
-            }
-        });
-        let arms = |call: &dyn Fn(&TransverseFormulas) -> TokenStream| -> Vec<TokenStream> {
-            let arms = transverse
-                .sectors
-                .iter()
-                .enumerate()
-                .map(|(number, formulas)| {
-                    let (number, call) = (Literal::usize_unsuffixed(number), call(formulas));
-                    quote!(#number => #call,)
-                });
-            arms.collect()
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let sectors = transverse.sectors.iter();
+        let sectors = sectors.map(|formulas| self.sector_constant(&formulas.sector));
+        let (other, time) = (super::other_scalar(name), self.time_name());
+        let energy = self.by_sector("energy", &["theta"], false);
+        let transfer = self.by_sector("transfer", &["theta", "omega", "alpha"], true);
+        let accelerations = self.by_sector("accelerations", &["theta", "omega", "alpha"], true);
+        let power = self.friction_by_sector();
+        let motion = quote! {
+            let #runtime::system::InPhaseMotion { theta, omega, alpha } = motion;
         };
-        let timed = self.mechanics.drive.is_some();
-        let (time, handed) = match timed {
-            true => (quote!(time), quote!(time,)),
-            false => (quote!(_time), TokenStream::new()),
-        };
-        let nan = quote!(T::from_f64(f64::NAN));
-        let array = |of: &Literal, what: TokenStream| quote!(<&[T; #of] as ::core::convert::TryFrom<&[T]>>::try_from(#what));
-        let motion = ["theta", "omega", "alpha"].map(|field| {
-            let field = ident(field);
-            array(&links, quote!(motion.#field))
-        });
-        let small = |formulas: &TransverseFormulas| {
-            let size = Literal::usize_unsuffixed(formulas.sector.links);
-            ["difference", "difference_rate"].map(|argument| {
-                let argument = ident(argument);
-                array(&size, quote!(#argument))
-            })
-        };
-        let ok = quote!(::core::result::Result::Ok);
-        let accelerations = arms(&|formulas| {
-            let function = format_ident!("transverse_accelerations_{}", formulas.sector.name);
-            let small = small(formulas);
-            let size = Literal::usize_unsuffixed(formulas.sector.links);
-            quote! {
-                match (#(#motion,)* #(#small,)*) {
-                    (#ok(theta), #ok(omega), #ok(alpha), #ok(difference), #ok(difference_rate))
-                        if accelerations.len() == #size =>
-                    {
-                        accelerations.copy_from_slice(&self.#function(
-                            #handed theta, omega, alpha, difference, difference_rate,
-                        ));
-                    }
-                    _ => accelerations.fill(#nan),
-                }
-            }
-        });
-        let energies = arms(&|formulas| {
-            let function = format_ident!("transverse_energy_{}", formulas.sector.name);
-            let small = small(formulas);
-            let theta = array(&links, quote!(theta));
-            quote! {
-                match (#theta, #(#small,)*) {
-                    (#ok(theta), #ok(difference), #ok(difference_rate)) => {
-                        self.#function(theta, difference, difference_rate)
-                    }
-                    _ => #nan,
-                }
-            }
-        });
-        let transfers = arms(&|formulas| {
-            let function = format_ident!("transverse_transfer_{}", formulas.sector.name);
-            let small = small(formulas);
-            quote! {
-                match (#(#motion,)* #(#small,)*) {
-                    (#ok(theta), #ok(omega), #ok(alpha), #ok(difference), #ok(difference_rate)) => {
-                        self.#function(
-                            #handed theta, omega, alpha, difference, difference_rate,
-                        )
-                    }
-                    _ => #nan,
-                }
-            }
-        });
-        let powers = arms(&|formulas| {
-            let size = Literal::usize_unsuffixed(formulas.sector.links);
-            let rate = array(&size, quote!(difference_rate));
-            let value = match formulas.friction.is_zero() {
-                true => quote!(#ok(_) => T::from_f64(0.0)),
-                false => {
-                    let function =
-                        format_ident!("transverse_friction_power_{}", formulas.sector.name);
-                    quote!(#ok(difference_rate) => self.#function(difference_rate))
-                }
-            };
-            quote! {
-                match #rate {
-                    #value,
-                    ::core::result::Result::Err(_) => #nan,
-                }
-            }
-        });
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Transverse<T> for #name<T> {
                 const TRANSVERSE: &'static [#runtime::system::TransverseSector] =
                     &[#(#sectors),*];
 
-                #[inline]
+                #[inline(always)]
                 fn transverse_accelerations_into(
                     &self,
                     sector: usize,
@@ -225,10 +128,26 @@ impl Emission<'_> {
                     difference_rate: &[T],
                     accelerations: &mut [T],
                 ) {
-                    match sector {
-                        #(#accelerations)*
-                        _ => accelerations.fill(#nan),
+                    #motion
+                    let written: bool = #accelerations;
+                    if !written {
+                        accelerations.fill(T::from_f64(f64::NAN));
                     }
+                }
+
+                #[inline(always)]
+                fn transverse_accelerations_of<#other: #runtime::Scalar>(
+                    model: &#name<#other>,
+                    sector: usize,
+                    time: #other,
+                    motion: #runtime::system::InPhaseMotion<'_, #other>,
+                    difference: &[#other],
+                    difference_rate: &[#other],
+                    accelerations: &mut [#other],
+                ) {
+                    #runtime::Transverse::transverse_accelerations_into(
+                        model, sector, time, motion, difference, difference_rate, accelerations,
+                    );
                 }
 
                 #[inline]
@@ -239,10 +158,7 @@ impl Emission<'_> {
                     difference: &[T],
                     difference_rate: &[T],
                 ) -> T {
-                    match sector {
-                        #(#energies)*
-                        _ => #nan,
-                    }
+                    #energy
                 }
 
                 #[inline]
@@ -254,10 +170,8 @@ impl Emission<'_> {
                     difference: &[T],
                     difference_rate: &[T],
                 ) -> T {
-                    match sector {
-                        #(#transfers)*
-                        _ => #nan,
-                    }
+                    #motion
+                    #transfer
                 }
 
                 #[inline]
@@ -266,12 +180,122 @@ impl Emission<'_> {
                     sector: usize,
                     difference_rate: &[T],
                 ) -> T {
-                    match sector {
-                        #(#powers)*
-                        _ => #nan,
-                    }
+                    #power
                 }
             }
         })
+    }
+
+    /// `TransverseSector { … }`.
+    fn sector_constant(&self, sector: &TransverseSector) -> TokenStream {
+        let TransverseSector {
+            name,
+            first,
+            links,
+            copies,
+            holders,
+        } = sector;
+        let [first, links, copies, holders] =
+            [first.0, *links, *copies, *holders].map(Literal::usize_unsuffixed);
+        let runtime = self.runtime();
+        quote! {
+            #runtime::system::TransverseSector {
+                name: #name,
+                first: #first,
+                links: #links,
+                copies: #copies,
+                holders: #holders,
+            }
+        }
+    }
+
+    /// `match sector { 0 => …, … }`: a quantity of each sector, from these slices of the
+    /// motion, the differences and their rates. Accelerations are written, and true.
+    fn by_sector(&self, quantity: &str, motion: &[&str], timed: bool) -> TokenStream {
+        let runtime = self.runtime();
+        let motion: Vec<Ident> = motion.iter().map(|name| ident(name)).collect();
+        let timed = timed && self.mechanics.drive.is_some();
+        let time = timed.then(|| quote!(time,));
+        let (some, none) = (
+            quote!(::core::option::Option::Some),
+            self.no_answer(quantity),
+        );
+        let arms = self.sector_arms(|formulas| {
+            let function = format_ident!("transverse_{quantity}_{}", formulas.sector.name);
+            let value = quote!(self.#function(#time #(#motion,)* difference, difference_rate));
+            let value = match quantity {
+                "accelerations" => quote!(#runtime::emitted::write(accelerations, &#value)),
+                _ => value,
+            };
+            quote! {
+                match (
+                    #runtime::emitted::arrays([#(#motion),*]),
+                    #runtime::emitted::arrays([difference, difference_rate]),
+                ) {
+                    (#some([#(#motion),*]), #some([difference, difference_rate])) => #value,
+                    _ => #none,
+                }
+            }
+        });
+        quote! {
+            match sector {
+                #(#arms,)*
+                _ => #none,
+            }
+        }
+    }
+
+    /// The same of the power of friction, which takes the rates alone and may be zero.
+    fn friction_by_sector(&self) -> TokenStream {
+        let (runtime, none) = (self.runtime(), self.no_answer("friction_power"));
+        let some = quote!(::core::option::Option::Some);
+        let arms = self.sector_arms(|formulas| {
+            let links = Literal::usize_unsuffixed(formulas.sector.links);
+            let (known, power) = match formulas.friction.is_zero() {
+                true => (quote!(_), quote!(T::from_f64(0.0))),
+                false => {
+                    let name = &formulas.sector.name;
+                    let function = format_ident!("transverse_friction_power_{name}");
+                    (
+                        quote!([difference_rate]),
+                        quote!(self.#function(difference_rate)),
+                    )
+                }
+            };
+            quote! {
+                match #runtime::emitted::arrays::<T, #links, 1>([difference_rate]) {
+                    #some(#known) => #power,
+                    _ => #none,
+                }
+            }
+        });
+        quote! {
+            match sector {
+                #(#arms,)*
+                _ => #none,
+            }
+        }
+    }
+
+    /// `0 => …`, for each sector.
+    fn sector_arms(
+        &self,
+        of_sector: impl Fn(&TransverseFormulas) -> TokenStream,
+    ) -> Vec<TokenStream> {
+        let transverse = self.mechanics.transverse.iter();
+        let sectors = transverse.flat_map(|transverse| &transverse.sectors);
+        let arms = sectors.enumerate().map(|(number, formulas)| {
+            let (number, value) = (Literal::usize_unsuffixed(number), of_sector(formulas));
+            quote!(#number => #value)
+        });
+        arms.collect()
+    }
+
+    /// What stands for a quantity that has no answer.
+    fn no_answer(&self, quantity: &str) -> TokenStream {
+        match quantity {
+            "accelerations" => quote!(false),
+            _ => quote!(T::from_f64(f64::NAN)),
+        }
     }
 }

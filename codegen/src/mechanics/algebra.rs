@@ -181,18 +181,19 @@ impl Formula {
 
     /// Products multiplied out.
     pub fn expand(&self) -> Self {
-        spend(most_terms(self.0.as_view()));
+        spend_on(most_terms(self.0.as_view()), self, TERM_READ);
         Self(self.0.expand())
     }
 
     /// Over one common denominator, numerator and denominator coprime.
     pub fn together(&self) -> Self {
-        spend(most_terms(self.0.as_view()));
+        spend_on(most_terms(self.0.as_view()), self, TERM_READ);
         Self(self.0.together())
     }
 
     /// Partial derivative with respect to the symbol itself (no chain rule).
     pub fn derivative(&self, id: SymbolId) -> Self {
+        spend_on(CALL, self, BYTES);
         Self(self.0.derivative(algebra_symbol(id)))
     }
 
@@ -201,6 +202,7 @@ impl Formula {
         if replacements.is_empty() {
             return self.clone();
         }
+        spend_on(CALL, self, BYTES);
         let replacements: Vec<Replacement> = replacements
             .iter()
             .map(|(id, value)| {
@@ -221,13 +223,19 @@ impl Formula {
             .map(|id| Atom::var(algebra_symbol(*id)))
             .collect();
         let Self(expanded) = self.expand();
-        let mut table = BTreeMap::new();
-        for (key, coefficient) in expanded.coefficient_list::<i16>(&atoms) {
-            let exponents = monomial_exponents(key.as_view(), &atoms);
-            table.insert(exponents, Self(coefficient));
+        let mut terms: BTreeMap<Vec<u32>, Vec<Atom>> = BTreeMap::new();
+        // Term by term: the algebra's own list of coefficients takes far longer.
+        let mut note = |term: AtomView<'_>| {
+            let (exponents, rest) = split_term(term, &atoms);
+            terms.entry(exponents).or_default().push(rest);
+        };
+        match expanded.as_view() {
+            AtomView::Add(sum) => sum.iter().for_each(&mut note),
+            term => note(term),
         }
-        table.retain(|_, coefficient: &mut Formula| !coefficient.is_zero());
-        table
+        let sums = terms.into_iter();
+        let sums = sums.map(|(exponents, terms)| (exponents, Self(Atom::add_many(terms.iter()))));
+        sums.filter(|(_, sum)| !sum.is_zero()).collect()
     }
 
     /// The symbols that occur.
@@ -248,6 +256,19 @@ impl Formula {
     }
 }
 
+/// Work of one operation, and bytes of a formula that take as much as one term: found by
+/// measuring, so that the limit is one of time on any formula.
+const CALL: u64 = 3;
+const BYTES: u64 = 16;
+/// Bytes of a formula that is multiplied out.
+const TERM_READ: u64 = 1;
+
+/// Counts an operation on a formula.
+fn spend_on(terms: u64, formula: &Formula, bytes: u64) {
+    let size = formula.0.as_view().get_byte_size() as u64;
+    spend(terms.saturating_add(size / bytes));
+}
+
 /// Number of terms of a formula multiplied out, before like terms are collected.
 fn most_terms(view: AtomView<'_>) -> u64 {
     match view {
@@ -264,22 +285,25 @@ fn most_terms(view: AtomView<'_>) -> u64 {
     }
 }
 
-fn monomial_exponents(key: AtomView<'_>, atoms: &[Atom]) -> Vec<u32> {
+/// Powers of the atoms among the factors of a term, and the product of its other factors.
+fn split_term(term: AtomView<'_>, atoms: &[Atom]) -> (Vec<u32>, Atom) {
     let mut exponents = vec![0; atoms.len()];
-    let mut note = |factor: AtomView<'_>| {
+    let factors = match term {
+        AtomView::Mul(product) => product.iter().collect(),
+        other => vec![other],
+    };
+    let mut rest = Vec::with_capacity(factors.len());
+    for factor in factors {
         let (base, exponent) = match factor {
             AtomView::Pow(power) => (power.get_base(), integer(power.get_exp())),
             other => (other, 1),
         };
-        if let Some(position) = atoms.iter().position(|atom| atom.as_view() == base) {
-            exponents[position] += exponent.unsigned_abs();
+        match atoms.iter().position(|atom| atom.as_view() == base) {
+            Some(place) if exponent > 0 => exponents[place] += exponent.unsigned_abs(),
+            _ => rest.push(factor.to_owned()),
         }
-    };
-    match key {
-        AtomView::Mul(product) => product.iter().for_each(&mut note),
-        other => note(other),
     }
-    exponents
+    (exponents, Atom::mul_many(rest.iter()))
 }
 
 fn symbol_id(symbol: AlgebraSymbol) -> SymbolId {
@@ -331,12 +355,14 @@ macro_rules! operator {
         impl std::ops::$trait for Formula {
             type Output = Formula;
             fn $method(self, other: Formula) -> Formula {
-                Formula(std::ops::$trait::$method(&self.0, &other.0))
+                std::ops::$trait::$method(&self, &other)
             }
         }
         impl std::ops::$trait<&Formula> for &Formula {
             type Output = Formula;
             fn $method(self, other: &Formula) -> Formula {
+                spend_on(CALL, self, BYTES);
+                spend_on(0, other, BYTES);
                 Formula(std::ops::$trait::$method(&self.0, &other.0))
             }
         }
@@ -357,7 +383,11 @@ impl std::ops::Neg for Formula {
 
 impl std::iter::Sum for Formula {
     fn sum<I: Iterator<Item = Formula>>(iter: I) -> Formula {
-        let terms: Vec<Atom> = iter.map(|formula| formula.0).collect();
+        let read = |formula: Formula| {
+            spend_on(CALL, &formula, BYTES);
+            formula.0
+        };
+        let terms: Vec<Atom> = iter.map(read).collect();
         // Adding all at once keeps the cost linear in the number of terms.
         Formula(Atom::add_many(terms.iter()))
     }

@@ -51,9 +51,6 @@ pub struct DriveTerms {
     /// Power Σ Q_i ω_i of the drive, in absolute angles, if energies are asked
     /// for.
     pub power: Option<Expr>,
-    /// Power −2 R of friction and drag, if energies are asked for and there are
-    /// any.
-    pub friction_power: Option<Expr>,
 }
 
 impl DriveTerms {
@@ -293,7 +290,7 @@ impl Derivation<'_> {
             rotations: _,
             torque,
             pivot,
-            friction,
+            friction: _,
         } = &self.drive;
         let expr = |formula: &Formula| formula.to_expr(&self.symbols);
         let plain = |meaning: &Temporal<Formula>| match meaning {
@@ -320,9 +317,16 @@ impl Derivation<'_> {
                 })
                 .collect(),
             power: frame.map(power),
-            friction_power: frame
-                .filter(|_| !friction.is_zero())
-                .map(|_| expr(friction)),
         })
+    }
+
+    /// Power −2 R of friction and drag, if there are any, where energies are asked for
+    /// and something from outside feeds them.
+    pub(super) fn total_friction_power(&self) -> Option<Expr> {
+        let requests = &self.scene.requests;
+        let fed = self.scene.drive.is_some() || requests.forces;
+        let friction = &self.drive.friction;
+        let wanted = requests.energies && fed && !friction.is_zero();
+        wanted.then(|| friction.to_expr(&self.symbols))
     }
 }

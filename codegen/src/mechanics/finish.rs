@@ -5,11 +5,12 @@ use super::derivation::Derivation;
 use super::expression::{Expr, Role, Symbols};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::inverse_mass::{Counting, DerivedExpansion};
+use super::mismatch::Mismatch;
 use super::series::VelocitySeries;
 use super::transfer::{self, SubHamiltonian};
 use super::{
-    Articulation, Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics,
-    Observables, TransferFormulas, TransferParts, Truncated, WrittenOut,
+    Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics, Observables,
+    TransferFormulas, TransferParts, Truncated, WrittenOut,
 };
 use crate::scene::coordinates::{self, Coordinate};
 use crate::scene::{OrbitId, TransferRequest};
@@ -28,6 +29,7 @@ impl Derivation<'_> {
             combinations: Vec::new(),
             constants: Vec::new(),
             drive: self.plain_drive(Some(&absolute)),
+            friction_power: self.total_friction_power(),
             absolute: self.frame(&absolute),
             articulation: self.articulation(&absolute),
             positions: None,
@@ -37,12 +39,14 @@ impl Derivation<'_> {
             sectors: None,
             transverse: None,
             expansion: None,
+            mean_tree: None,
             transfers: Vec::new(),
             observables: Observables::default(),
         };
         let requests = &self.scene.requests;
         let requests_transverse = requests.transverse;
-        let nested = requests.symmetric && self.is_nested();
+        // The arithmetic on fields takes the constants of copies for equal.
+        let nested = requests.symmetric && self.is_nested() && !self.scene.has_unequal_copies();
         if requests.budget.is_some() || nested {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
             mechanics.sectors = Some(self.sectors(&absolute, &coordinates));
@@ -55,16 +59,31 @@ impl Derivation<'_> {
             mechanics.symmetric = Some(symmetric);
         } else if self.scene.requests.symmetric {
             let coordinates = coordinates::symmetric_coordinates(self.scene);
-            let symmetric = self.symmetric_frame(&absolute, &coordinates);
+            let constants = self.copy_constants(&coordinates);
+            let symmetric = self.symmetric_frame(&absolute, &coordinates, &constants);
             mechanics.symmetric = Some(self.frame(&symmetric));
             if let Some(request) = self.scene.requests.transfer.clone() {
+                let unequal = self.scene.has_unequal_copies();
+                let mean = unequal.then(|| self.mean_frame(&symmetric, &constants));
+                let mismatch = mean
+                    .as_ref()
+                    .map(|mean| self.mismatch(&symmetric, mean, &coordinates));
+                let equal = mean.as_ref().unwrap_or(&symmetric);
                 let orders = request.angle_orders.iter().chain(&request.amplitude_orders);
                 let order = orders.copied().max().unwrap_or(0);
-                let expansion = self.expand_mass(&symmetric, &coordinates, order);
-                let mut plain = self.expansion(&symmetric, &expansion);
-                mechanics.transfers =
-                    self.transfers(&symmetric, &coordinates, &expansion, &request, &mut plain);
-                mechanics.expansion = Some(plain);
+                let expansion = self.expand_mass(equal, &coordinates, order);
+                let mut plain = self.expansion(equal, &expansion);
+                mechanics.transfers = self.transfers(
+                    (&symmetric, mismatch.as_ref()),
+                    &coordinates,
+                    &expansion,
+                    &request,
+                    &mut plain,
+                );
+                match &mismatch {
+                    Some(mismatch) => mechanics.mean_tree = Some(self.mean_tree(mismatch)),
+                    None => mechanics.expansion = Some(plain),
+                }
             }
             mechanics.coordinates = coordinates;
             derived = Some(symmetric);
@@ -93,35 +112,6 @@ impl Derivation<'_> {
         mechanics.combinations = self.combinations;
         mechanics.symbols = self.symbols;
         Ok(mechanics)
-    }
-
-    /// A tree in loops: one link for all, and the drive.
-    fn finish_loops(mut self) -> Mechanics {
-        self.drive_signals();
-        let link = self.link_balance();
-        let gravity = self.quantity(&self.scene.gravity);
-        Mechanics {
-            parameters: self.parameters.clone(),
-            drive: self.plain_drive(None),
-            absolute: Frame::default(),
-            articulation: Articulation {
-                gravity: self.expr(&gravity.expand()),
-                joints: Vec::new(),
-            },
-            positions: None,
-            link: Some(link),
-            combinations: Vec::new(),
-            constants: Vec::new(),
-            coordinates: Vec::new(),
-            symmetric: None,
-            sectors: None,
-            transverse: None,
-            expansion: None,
-            transfers: Vec::new(),
-            observables: Observables::default(),
-            trigonometry: self.trigonometry,
-            symbols: self.symbols,
-        }
     }
 
     /// Returns true if copies branch into copies, or have other links below
@@ -172,7 +162,7 @@ impl Derivation<'_> {
             .collect()
     }
 
-    fn frame(&self, frame: &DerivedFrame) -> Frame {
+    pub(super) fn frame(&self, frame: &DerivedFrame) -> Frame {
         let requests = &self.scene.requests;
         Frame {
             coordinates: frame.coordinates.clone(),
@@ -242,9 +232,11 @@ impl Derivation<'_> {
         }
     }
 
+    /// W into all differences; between copies that differ with the mean tree, whose
+    /// `expansion` it is then.
     fn transfers(
         &mut self,
-        frame: &DerivedFrame,
+        (frame, mismatch): (&DerivedFrame, Option<&Mismatch<'_>>),
         coordinates: &[Coordinate],
         expansion: &DerivedExpansion,
         request: &TransferRequest,
@@ -268,8 +260,15 @@ impl Derivation<'_> {
             .differences
             .iter()
             .map(|&coordinate| {
-                let energy = self.sub_hamiltonian(frame, coordinates, expansion, coordinate);
-                self.transfer(frame, expansion, &energy, request, &series)
+                let equal = mismatch.map_or(frame, |mismatch| mismatch.mean);
+                let energy = self.sub_hamiltonian(equal, coordinates, expansion, coordinate);
+                let split = mismatch.map(|mismatch| {
+                    let growth = self.exact_transfer(mismatch.mean, expansion, &energy);
+                    let forcing = self.forcing(mismatch, &expansion.differences, &energy);
+                    [self.parts(&growth), self.parts(&forcing)]
+                });
+                let transfer = self.transfer(frame, expansion, &energy, request, &series);
+                TransferFormulas { split, ..transfer }
             })
             .collect()
     }
@@ -320,8 +319,10 @@ impl Derivation<'_> {
             quadratic_form,
             higher,
             exact: exact.map(|parts| self.parts(&parts)),
+            split: None,
             friction: self.expr(&self.friction_power(frame, energy)),
             drive: self.expr(&self.drive_power(frame, energy)),
+            velocity: self.expr(&self.own_velocity(frame, energy)),
         }
     }
 
@@ -376,9 +377,10 @@ impl Derivation<'_> {
         Some([coefficient(2, 0), coefficient(1, 1), coefficient(0, 2)])
     }
 
-    /// The constant G of an orbit; zero where nothing hangs off its pivot.
+    /// The constant G of an orbit's node, of copies that differ their mean; zero where nothing
+    /// hangs off the pivot.
     pub(super) fn gravity_of(&self, orbit: OrbitId) -> Formula {
-        let name = &self.scene.orbits[orbit.0].name;
+        let name = &self.scene.orbits[orbit.0].node;
         match self.symbols.find(&format!("G_{name}")) {
             Some(id) if self.symbols.get(id).role == Role::Constant => Formula::symbol(id),
             _ => Formula::zero(),

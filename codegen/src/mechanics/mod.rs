@@ -11,12 +11,14 @@ mod derivation;
 mod drive;
 pub mod expression;
 mod finish;
+mod finish_loops;
 mod frame;
 mod hamiltonian;
 mod inverse_mass;
 mod lagrangian;
 mod link;
 mod lock;
+mod mismatch;
 mod observable;
 mod observable_rate;
 mod observables;
@@ -151,10 +153,15 @@ pub struct TransferFormulas {
     pub higher: Vec<Truncated>,
     /// W without truncation.
     pub exact: Option<TransferParts>,
+    /// The same as what the mean tree does and what the mismatch adds, between copies that
+    /// differ; the first in velocities of the mean tree.
+    pub split: Option<[TransferParts; 2]>,
     /// The power of friction and drag on H_d; zero without both.
     pub friction: Expr,
     /// The power of the drive on H_d; zero without a moving pivot.
     pub drive: Expr,
+    /// ∂H_d/∂p_d, by which torques on the difference have power.
+    pub velocity: Expr,
 }
 
 /// W cut off at an order.
@@ -194,6 +201,16 @@ pub struct MassExpansion {
     pub written_out: Option<WrittenOut>,
 }
 
+/// The mean tree of one whose copies differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeanTree {
+    /// Its mechanics, in the symmetric coordinates of the tree.
+    pub frame: Frame,
+    /// The velocities that the mismatch adds at given momenta; solved for with the mass
+    /// matrix of the mean tree.
+    pub added: System,
+}
+
 /// Formulas for people: what the code solves, written out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrittenOut {
@@ -225,6 +242,9 @@ pub struct Mechanics {
     pub constants: Vec<Constant>,
     /// The drive, if the scene has one.
     pub drive: Option<DriveTerms>,
+    /// Power −2 R of friction and drag, if there are any, where energies are asked for
+    /// and a drive or torques from outside feed them; not of trees in loops.
+    pub friction_power: Option<Expr>,
     /// The mechanics in absolute angles; without coordinates where the code is loops.
     pub absolute: Frame,
     /// The joints, from which their accelerations can be formed as well.
@@ -245,6 +265,8 @@ pub struct Mechanics {
     pub transverse: Option<TransverseMechanics>,
     /// Expansion about the in-phase motion, if a transfer is asked for.
     pub expansion: Option<MassExpansion>,
+    /// The mean tree, if a transfer is asked for between copies that differ.
+    pub mean_tree: Option<MeanTree>,
     /// Energy transfers, one for each difference, if asked for.
     pub transfers: Vec<TransferFormulas>,
     /// Quantities of the user's own with their rates.

@@ -2,7 +2,7 @@
 
 use super::expression::{Expr, SymbolId};
 use super::{
-    Counting, DriveTerms, Frame, LinkBalance, LinkPositions, MatrixEntry, Mechanics,
+    Counting, DriveTerms, Frame, LinkBalance, LinkPositions, MatrixEntry, MeanTree, Mechanics,
     OrbitMechanics, RelativePosition, Temporal, TransferParts, TransverseFormulas,
     TransverseMechanics, text,
 };
@@ -72,6 +72,13 @@ impl fmt::Display for Mechanics {
                 self.line(f, &self.name(*symbol), value)?;
             }
         }
+        if let Some(MeanTree { frame, added }) = &self.mean_tree {
+            writeln!(f, "mean tree, and velocities u that the mismatch adds")?;
+            self.matrix(f, "M̃₀", &frame.mass)?;
+            for (&symbol, value) in added.unknowns.iter().zip(&added.right) {
+                writeln!(f, "  (M̃₀ {}) = {}", self.name(symbol), self.text(value))?;
+            }
+        }
         for transfer in &self.transfers {
             let name = &self.coordinates[transfer.coordinate].name;
             writeln!(f, "transfer into {name}")?;
@@ -93,6 +100,10 @@ impl fmt::Display for Mechanics {
                 self.parts(f, &name, &Some(truncated.parts.clone()))?;
             }
             self.parts(f, "exact", &transfer.exact)?;
+            if let Some([growth, forcing]) = transfer.split.clone() {
+                self.parts(f, "growth", &Some(growth))?;
+                self.parts(f, "forcing", &Some(forcing))?;
+            }
             if !transfer.friction.is_zero() {
                 self.line(f, "power of friction", &transfer.friction)?;
             }
@@ -232,7 +243,7 @@ impl Mechanics {
         }
         let powers = [
             ("power", &drive.power),
-            ("power of friction", &drive.friction_power),
+            ("power of friction", &self.friction_power),
         ];
         powers.iter().try_for_each(|(name, power)| match power {
             Some(power) => self.line(f, name, power),

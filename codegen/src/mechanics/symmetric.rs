@@ -5,8 +5,8 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::SymbolId;
 use super::frame::{DerivedFrame, MassMatrix};
-use crate::scene::{Coordinate, CoordinateKind};
-use crate::scene::{Group, LinkId};
+use super::mismatch::CopyConstants;
+use crate::scene::{Coordinate, CoordinateKind, Group, LinkId};
 use std::collections::BTreeMap;
 
 /// cos and sin of an integer combination of angles, by angle addition.
@@ -46,6 +46,7 @@ impl Derivation<'_> {
         &mut self,
         absolute: &DerivedFrame,
         coordinates: &[Coordinate],
+        constants: &CopyConstants,
     ) -> DerivedFrame {
         let ids: Vec<SymbolId> = coordinates
             .iter()
@@ -66,7 +67,8 @@ impl Derivation<'_> {
                 self.groups_of.insert(id, group);
             }
         }
-        let replacements = self.substitution(absolute, &ids, &rows);
+        let mut replacements = self.substitution(absolute, &ids, &rows);
+        replacements.extend(constants.replacements.iter().cloned());
 
         let mut mass = MassMatrix::default();
         for (i, j, entry) in absolute.mass.iter() {
@@ -93,9 +95,13 @@ impl Derivation<'_> {
                 })
                 .collect()
         };
+        let with_constants = |mut linear: Vec<(SymbolId, Formula)>| {
+            linear.extend(constants.replacements.iter().cloned());
+            linear
+        };
         let springs = absolute
             .springs
-            .substitute(&linear(&absolute.coordinates, &ids))
+            .substitute(&with_constants(linear(&absolute.coordinates, &ids)))
             .expand();
         let gravity = self.symmetric_sum(absolute, &absolute.potential, &replacements);
         // A torque's work is linear in the root's angle, which stays one.
@@ -110,7 +116,7 @@ impl Derivation<'_> {
             springs,
             dissipation: absolute
                 .dissipation
-                .substitute(&linear(&absolute.velocities, &velocities))
+                .substitute(&with_constants(linear(&absolute.velocities, &velocities)))
                 .expand(),
             drive: &moment + &torque,
             coordinates: ids,
@@ -260,35 +266,48 @@ impl Derivation<'_> {
         }
     }
 
-    /// A sum of multiples of 1 − cos θ and sin θ, equal within an orbit, as the
-    /// energy in gravity is: orbit by orbit as G (n − Σ cos θ), since the sum over
-    /// an orbit is what becomes short, and the difference from its rest value
-    /// stays one.
+    /// A sum of multiples of 1 − cos θ and sin θ, as the energy in gravity is: node by node as
+    /// G (n − Σ cos θ) with the mean G of its links, since the sum over them is what becomes
+    /// short, and the difference from its rest value stays one. What copies that differ add
+    /// is a multiple of mismatches.
     fn symmetric_sum(
         &self,
         absolute: &DerivedFrame,
         sum: &Formula,
         replacements: &[(SymbolId, Formula)],
     ) -> Formula {
-        let mut terms = Vec::new();
+        let mut nodes: Vec<(&str, Vec<LinkId>)> = Vec::new();
         for orbit in &self.scene.orbits {
-            let count = Formula::integer(orbit.links.len() as i64);
-            let total = |function: fn(&Self, SymbolId) -> SymbolId| -> Formula {
-                orbit
-                    .links
-                    .iter()
-                    .map(|link| Formula::symbol(function(self, absolute.coordinates[link.0])))
-                    .sum::<Formula>()
-                    .substitute(replacements)
-                    .expand()
+            match nodes.iter_mut().find(|(node, _)| *node == orbit.node) {
+                Some((_, links)) => links.extend(&orbit.links),
+                None => nodes.push((&orbit.node, orbit.links.clone())),
+            }
+        }
+        let mut terms = Vec::new();
+        for (_, links) in nodes {
+            let count = Formula::integer(links.len() as i64);
+            let differ = links
+                .iter()
+                .any(|link| self.scene.links[link.0].orbit != self.scene.links[links[0].0].orbit);
+            let mut parts = |function: fn(&Self, SymbolId) -> SymbolId| {
+                let symbol = |link: &LinkId| function(self, absolute.coordinates[link.0]);
+                let value = |link: &LinkId| Formula::symbol(symbol(link)).substitute(replacements);
+                let total = links.iter().map(value).sum::<Formula>().expand();
+                if !differ {
+                    return (sum.derivative(symbol(&links[0])), total);
+                }
+                let weight = |link: &LinkId| sum.derivative(symbol(link)).substitute(replacements);
+                let weights: Vec<Formula> = links.iter().map(weight).collect();
+                let mean = (&weights.iter().cloned().sum::<Formula>() / &count).expand();
+                let rest = links.iter().zip(&weights);
+                let rest = rest.map(|(link, weight)| &(weight - &mean) * &value(link));
+                terms.push(rest.sum::<Formula>().expand());
+                (mean, total)
             };
-            let constant = |function: fn(&Self, SymbolId) -> SymbolId| {
-                let one = function(self, absolute.coordinates[orbit.links[0].0]);
-                sum.derivative(one)
-            };
-            let weight = -constant(Self::cos);
-            terms.push(&weight * &(&count - &total(Self::cos)));
-            terms.push(&constant(Self::sin) * &total(Self::sin));
+            let (weight, cosines) = parts(Self::cos);
+            let (lateral, sines) = parts(Self::sin);
+            terms.push(&-weight * &(&count - &cosines));
+            terms.push(&lateral * &sines);
         }
         terms.into_iter().sum()
     }
@@ -299,6 +318,6 @@ impl Derivation<'_> {
 fn split(row: &[(usize, i64)]) -> (usize, &[(usize, i64)]) {
     match row.split_first() {
         Some((&(mean, _), differences)) => (mean, differences),
-        None => unreachable!("every link has the mean of its orbit among its coordinates"),
+        None => unreachable!("every link has the mean of its node among its coordinates"),
     }
 }

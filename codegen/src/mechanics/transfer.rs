@@ -238,7 +238,7 @@ impl Derivation<'_> {
     /// The power of friction on H_d: Σ ∂H_d/∂p_s Q_s, Q = −∂R/∂q̇.
     pub(super) fn friction_power(&self, frame: &DerivedFrame, energy: &SubHamiltonian) -> Formula {
         let s = energy.coordinate;
-        let velocity = energy.kinetic.derivative(frame.momenta[s]);
+        let velocity = self.own_velocity(frame, energy);
         let torque = -frame.dissipation.derivative(frame.velocities[s]);
         (&velocity * &torque).expand()
     }
@@ -247,7 +247,12 @@ impl Derivation<'_> {
     /// acts on no difference.
     pub(super) fn drive_power(&self, frame: &DerivedFrame, energy: &SubHamiltonian) -> Formula {
         let s = energy.coordinate;
-        let velocity = energy.kinetic.derivative(frame.momenta[s]);
+        let velocity = self.own_velocity(frame, energy);
         (&velocity * &frame.drive_forces(self)[s]).expand()
+    }
+
+    /// ∂H_d/∂p_d.
+    pub(super) fn own_velocity(&self, frame: &DerivedFrame, energy: &SubHamiltonian) -> Formula {
+        energy.kinetic.derivative(frame.momenta[energy.coordinate])
     }
 }

@@ -1,5 +1,6 @@
-//! Limit of the work of one derivation, counted in terms of formulas that are
-//! multiplied out: the same on every machine, as a limit of time would not be.
+//! Limit of the work of one derivation, counted in terms of formulas that are multiplied
+//! out, and in what other operations take as long as: the same on every machine, as a limit
+//! of time would not be. Terms take some 1.2 µs each in an unoptimised build.
 
 use std::cell::Cell;
 

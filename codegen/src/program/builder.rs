@@ -3,8 +3,8 @@
 use super::rules::RULES;
 use super::rules::sharing::KnownOperations;
 use super::{
-    Choice, ConstantId, ConstantOp, Definition, Entry, MOST_VALUES, Op, Pass, Program, Setup,
-    TooManyValues, ValueId,
+    Argument, Choice, ConstantId, ConstantOp, Definition, Entry, MOST_VALUES, Op, Pass, Program,
+    Setup, TooManyValues, ValueId,
 };
 use crate::exact::Rational;
 use crate::scene::Scene;
@@ -17,6 +17,8 @@ pub(super) struct Builder {
     pub(super) setup: Setup,
     /// The pass that is left out, for comparison.
     pub(super) off: Option<Pass>,
+    /// Value that stands for all others once there are too many.
+    stand_in: Option<ValueId>,
 }
 
 impl Builder {
@@ -29,15 +31,32 @@ impl Builder {
         }
     }
 
-    pub(super) fn finish(self, entries: Vec<Entry>, choice: Choice) -> Program {
-        Program {
+    /// Returns true if there would be more than [`MOST_VALUES`]. What is formed from there
+    /// on is nothing but cheap.
+    pub(super) fn is_exceeded(&self) -> bool {
+        self.stand_in.is_some()
+    }
+
+    /// The program.
+    ///
+    /// # Errors
+    /// [`TooManyValues`] if there would be more than [`MOST_VALUES`].
+    pub(super) fn finish(
+        self,
+        entries: Vec<Entry>,
+        choice: Choice,
+    ) -> Result<Program, TooManyValues> {
+        if self.is_exceeded() {
+            return Err(TooManyValues);
+        }
+        Ok(Program {
             definitions: self.definitions,
             entries,
             setup: self.setup,
             choice,
             strips: None,
             without: self.off,
-        }
+        })
     }
 
     pub(super) fn op(&self, id: ValueId) -> &Op {
@@ -51,6 +70,9 @@ impl Builder {
 
     /// A value by this operation: what the rules make of it, or the operation.
     fn form(&mut self, op: Op) -> ValueId {
+        if let Some(stand_in) = self.stand_in {
+            return stand_in;
+        }
         for (pass, rule) in RULES {
             if (pass.is_none() || self.off != pass)
                 && let Some(value) = rule(self, &op)
@@ -63,6 +85,9 @@ impl Builder {
 
     /// A value by exactly this operation, formed before or now.
     pub(super) fn record(&mut self, op: Op) -> ValueId {
+        if let Some(stand_in) = self.stand_in {
+            return stand_in;
+        }
         let found = match self.off {
             Some(Pass::Sharing) => self.known.find_leaf(&op),
             _ => self.known.find(&op),
@@ -70,11 +95,16 @@ impl Builder {
         if let Some(id) = found {
             return id;
         }
-        if self.definitions.len() >= MOST_VALUES {
-            // No panic: nothing is printed, and `lower_in_limits` says why.
-            std::panic::resume_unwind(Box::new(TooManyValues));
-        }
         let id = ValueId(self.definitions.len() as u32);
+        // No constant, so that nothing folds or vanishes, and callers find values where
+        // they expect some.
+        let op = match self.definitions.len() >= MOST_VALUES {
+            true => {
+                self.stand_in = Some(id);
+                Op::Input(Argument::Time, 0)
+            }
+            false => op,
+        };
         self.known.insert(op.clone(), id);
         self.definitions.push(Definition {
             op,
@@ -110,7 +140,7 @@ impl Builder {
         }
     }
 
-    pub(super) fn input(&mut self, argument: super::Argument, index: usize) -> ValueId {
+    pub(super) fn input(&mut self, argument: Argument, index: usize) -> ValueId {
         self.record(Op::Input(argument, index))
     }
 
@@ -253,11 +283,11 @@ impl Builder {
         let entry = Entry {
             name: "outputs".to_owned(),
             purpose,
-            arguments: vec![super::Argument::Theta],
+            arguments: vec![Argument::Theta],
             outputs,
             shape: super::Shape::Vector,
         };
-        let program = self.finish(vec![entry], choice);
+        let program = self.finish(vec![entry], choice).expect("a small program");
         assert_eq!(program.verify(), Ok(()));
         program
     }

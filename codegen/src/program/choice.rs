@@ -3,8 +3,10 @@
 
 use super::count::{Operations, operations};
 use super::lower::{Environment, Lowering};
+use super::solve::Matrix;
 use super::{Argument, Pass, ValueId};
-use crate::scene::{Scene, Solve};
+use crate::scene::{LinkId, Scene, Solve};
+use std::collections::BTreeMap;
 
 /// The solve for the accelerations in absolute angles, and the cost of both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +17,16 @@ pub struct Choice {
     pub factorization: Option<Operations>,
     /// Operations of the recursion.
     pub recursion: Operations,
+}
+
+/// Accelerations of links that are given, by link.
+pub(super) type Held = BTreeMap<usize, ValueId>;
+
+/// Accelerations of all links, and the torques that the given ones take beyond those from
+/// outside, in the order of the links.
+pub(super) struct Moved {
+    pub(super) accelerations: Vec<ValueId>,
+    pub(super) reactions: Vec<ValueId>,
 }
 
 /// Cost of a division in products and sums. On current processors one takes as
@@ -106,8 +118,45 @@ impl Lowering<'_> {
         }
     }
 
+    /// θ̈ of all links and the reactions of the prescribed ones of a set, by the same
+    /// solve.
+    pub(super) fn accelerations_prescribed(
+        &mut self,
+        scene: &Scene,
+        environment: &mut Environment<'_>,
+        solve: Solve,
+        set: usize,
+    ) -> Moved {
+        environment.torques = Some(Argument::Torques);
+        let mut held = Held::new();
+        for (index, &LinkId(link)) in scene.prescribed[set].links.iter().enumerate() {
+            let alpha = self.builder.input(Argument::Prescribed(set), index);
+            held.insert(link, alpha);
+        }
+        let mut moved = match solve {
+            Solve::Factorization => self.factorization_around(environment, &held),
+            Solve::Recursion => self.recursion_around(scene, environment, &held),
+        };
+        // From the order of the links to that of the set.
+        let order: Vec<usize> = held.keys().copied().collect();
+        let links = scene.prescribed[set].links.iter();
+        let of_link = |link: &LinkId| order.iter().position(|&known| known == link.0);
+        let reactions = links
+            .filter_map(of_link)
+            .map(|place| moved.reactions[place]);
+        moved.reactions = reactions.collect();
+        moved
+    }
+
     /// q̈ with M q̈ = Q − bias, Q from outside if at all, by elimination.
     pub(super) fn factorization(&mut self, environment: &mut Environment<'_>) -> Vec<ValueId> {
+        self.factorization_around(environment, &Held::new())
+            .accelerations
+    }
+
+    /// The same around links whose acceleration is given: their rows are the torques
+    /// that it takes.
+    fn factorization_around(&mut self, environment: &mut Environment<'_>, held: &Held) -> Moved {
         let frame = environment.frame;
         let names = self.coordinate_names(frame);
         let mass = self.mass_matrix(environment);
@@ -122,10 +171,60 @@ impl Lowering<'_> {
             }
             right.push(self.builder.name(torque, &format!("torque_{name}")));
         }
-        let solution = self.builder.solve(mass, right, &names);
-        for (&value, name) in solution.iter().zip(&names) {
+        let builder = &mut self.builder;
+        let free: Vec<usize> = (0..right.len()).filter(|i| !held.contains_key(i)).collect();
+        let (mut reduced, mut across) = (Matrix::new(), Vec::new());
+        for (&(row, column), &value) in &mass {
+            let place = |link: usize| free.binary_search(&link).ok();
+            match (place(row), place(column)) {
+                (Some(i), Some(j)) => {
+                    reduced.insert((i, j), value);
+                }
+                _ => across.push((row, column, value)),
+            }
+        }
+        let mut take = |right: &mut [ValueId], link: usize, value: ValueId, alpha: ValueId| {
+            let part = builder.mul(value, alpha);
+            right[link] = builder.sub(right[link], part);
+        };
+        for &(row, column, value) in &across {
+            if let Some(&alpha) = held.get(&column) {
+                take(&mut right, row, value, alpha);
+            }
+            if let (Some(&alpha), true) = (held.get(&row), row != column) {
+                take(&mut right, column, value, alpha);
+            }
+        }
+        let own = free.iter().map(|&link| right[link]).collect();
+        let free_names: Vec<String> = free.iter().map(|&link| names[link].clone()).collect();
+        let solution = self.builder.solve(reduced, own, &free_names);
+        let mut accelerations = right.clone();
+        for (&link, &value) in free.iter().zip(&solution).chain(held) {
+            accelerations[link] = value;
+        }
+        for (&value, name) in solution.iter().zip(&free_names) {
             self.builder.name(value, &format!("alpha_{name}"));
         }
-        solution
+        // What the free links' accelerations take besides.
+        for &(row, column, value) in &across {
+            for (link, other) in [(row, column), (column, row)] {
+                if held.contains_key(&link) && !held.contains_key(&other) {
+                    let part = self.builder.mul(value, accelerations[other]);
+                    right[link] = self.builder.sub(right[link], part);
+                }
+            }
+        }
+        let mut reactions = Vec::with_capacity(held.len());
+        for link in held.keys() {
+            let reaction = self.builder.neg(right[*link]);
+            reactions.push(
+                self.builder
+                    .name(reaction, &format!("reaction_{}", names[*link])),
+            );
+        }
+        Moved {
+            accelerations,
+            reactions,
+        }
     }
 }

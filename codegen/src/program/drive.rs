@@ -5,6 +5,7 @@ use super::lower::{Environment, Lowering};
 use super::{Argument, Purpose, Shape, ValueId};
 use crate::mechanics::expression::SymbolId;
 use crate::mechanics::{DriveTerms, Mechanics, Temporal};
+use crate::scene::Scene;
 
 impl Lowering<'_> {
     /// The value of a symbol that depends on time alone.
@@ -68,10 +69,16 @@ impl EntryList<'_, '_> {
         );
     }
 
-    /// The powers of drive and friction, which balance the energy.
-    pub(super) fn powers(&mut self, environment: &mut Environment<'_>, drive: &DriveTerms) {
-        use Argument::{Omega, Theta, Time};
-        if let Some(power) = &drive.power {
+    /// The powers of drive, friction and torques from outside, which balance the energy.
+    pub(super) fn powers(
+        &mut self,
+        scene: &Scene,
+        mechanics: &Mechanics,
+        environment: &mut Environment<'_>,
+    ) {
+        use Argument::{Omega, Theta, Time, Torques};
+        let drive = mechanics.drive.as_ref();
+        if let Some(power) = drive.and_then(|drive| drive.power.as_ref()) {
             let power = self.lowering.expr(environment, power);
             self.push(
                 "drive_power",
@@ -81,12 +88,29 @@ impl EntryList<'_, '_> {
                 Shape::Scalar,
             );
         }
-        if let Some(power) = &drive.friction_power {
+        if let Some(power) = &mechanics.friction_power {
             let power = self.lowering.expr(environment, power);
             self.push(
                 "friction_power",
                 Purpose::TotalFrictionPower,
                 &[Omega],
+                vec![power],
+                Shape::Scalar,
+            );
+        }
+        if scene.requests.energies && scene.requests.forces {
+            let builder = &mut self.lowering.builder;
+            let mut power = builder.integer(0);
+            for link in 0..scene.links.len() {
+                let rate = builder.input(Omega, link);
+                let torque = builder.input(Torques, link);
+                let own = builder.mul(torque, rate);
+                power = builder.add(power, own);
+            }
+            self.push(
+                "outside_power",
+                Purpose::OutsidePower,
+                &[Omega, Torques],
                 vec![power],
                 Shape::Scalar,
             );

@@ -42,7 +42,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
             _ => list.symmetric(symmetric),
         }
         for (number, transfer) in mechanics.transfers.iter().enumerate() {
-            list.transfer(mechanics, symmetric, number, transfer);
+            list.transfer(scene, symmetric, number, transfer);
         }
     }
     if let (Some(sectors), Some(request)) = (&mechanics.sectors, &scene.requests.budget) {
@@ -119,6 +119,29 @@ impl EntryList<'_, '_> {
                 alpha,
                 Shape::Vector,
             );
+            for (number, set) in scene.prescribed.iter().enumerate() {
+                let mut held = motion.clone();
+                let moved = (self.lowering).accelerations_prescribed(
+                    scene,
+                    &mut held,
+                    choice.solve,
+                    number,
+                );
+                let mut outputs = moved.accelerations;
+                outputs.extend(moved.reactions);
+                self.push(
+                    &format!("accelerations_prescribed_{}", set.name),
+                    Purpose::Prescribed(number),
+                    &self.timed(&[
+                        Theta,
+                        Omega,
+                        Argument::Torques,
+                        Argument::Prescribed(number),
+                    ]),
+                    outputs,
+                    Shape::Arrays(scene.links.len()),
+                );
+            }
         }
         if let Some(energies) = &frame.energies {
             let kinetic = self.lowering.expr(&mut motion, &energies.kinetic);
@@ -138,9 +161,7 @@ impl EntryList<'_, '_> {
                 Shape::Scalar,
             );
         }
-        if let Some(drive) = &mechanics.drive {
-            self.powers(&mut motion, drive);
-        }
+        self.powers(scene, mechanics, &mut motion);
         if let Some(momentum) = &frame.momentum {
             let momenta = self.exprs(&mut motion, momentum);
             self.push(

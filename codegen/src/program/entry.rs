@@ -30,13 +30,16 @@ pub enum Argument {
     DifferenceRate(usize),
     /// Generalized torques from outside, one for each absolute angle, N m.
     Torques,
+    /// Accelerations of the prescribed links of the set with that number, rad/s².
+    Prescribed(usize),
     /// Angles or angular velocities, absolute: the transform serves both.
     Absolute,
     /// Angles or angular velocities, symmetric.
     Symmetric,
     /// Constants of one link of a tree in loops.
     Constants,
-    /// Its motion: sine, cosine, angular velocity, joint angle, joint rate.
+    /// Its motion: sine, cosine, angular velocity, joint angle, joint rate, torque from
+    /// outside.
     Motion,
     /// Response of a subtree: deficit xx, xy, yy of the articulated inertia, bias
     /// force, torque of its joint on the parent.
@@ -65,6 +68,8 @@ pub enum Shape {
     Transfer,
     /// A number of `Transfer`s.
     Transfers(usize),
+    /// Two arrays, the first of that length.
+    Arrays(usize),
     /// That many numbers (one alone is no array), and an array of the others.
     Split(usize),
     /// A `Budget` of that many sectors: energies, transfers, powers.
@@ -109,6 +114,25 @@ impl PointKind {
     }
 }
 
+/// Cause of an energy transfer between copies that differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The tree of equal copies that have the means of all constants.
+    MeanTree,
+    /// What the copies differ in.
+    Mismatch,
+}
+
+impl Cause {
+    /// Name of its part of W in code.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MeanTree => "growth",
+            Self::Mismatch => "forcing",
+        }
+    }
+}
+
 /// Purpose of an entry point; the emitter documents it accordingly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
@@ -116,6 +140,9 @@ pub enum Purpose {
     Accelerations,
     /// θ̈ from θ, ω and torques from outside.
     AccelerationsUnder,
+    /// θ̈ and the reactions of prescribed links, from θ, ω, torques from outside and the
+    /// accelerations of the prescribed links of the set with that number.
+    Prescribed(usize),
     /// The coefficients of θ and ω in powers of the time: order 0 of the
     /// recurrences, which is θ̈ and the sines and cosines that it goes without.
     TaylorCoefficients,
@@ -159,23 +186,31 @@ pub enum Purpose {
     ExactTransfer(usize),
     /// W exactly, from coordinates and velocities.
     ExactTransferFromRates(usize),
+    /// The part of W that has this cause.
+    SplitTransfer(usize, Cause),
     /// Power of friction on H_d.
     FrictionPower(usize),
     /// Energies of all sectors, the transfers into them and the power of other
     /// forces.
     Budget(EnergyDefinition),
+    /// The same with the power of torques from outside.
+    BudgetUnder(EnergyDefinition),
     /// W of all sectors by parts: exact, or through an order.
     SectorTransfers(Option<(Counting, u32)>),
     /// {E_s, E_r} of the sectors by Parseval.
     TransferMatrix,
     /// Power of the drive on H_d.
     AntiphaseDrivePower(usize),
+    /// Power of torques from outside on H_d.
+    AntiphaseOutsidePower(usize),
     /// The drive itself: acceleration of the root's pivot, torque on the root.
     Drive,
     /// Power of the drive on the whole tree.
     DrivePower,
     /// Power of friction and drag on the whole tree.
     TotalFrictionPower,
+    /// Power of torques from outside on the whole tree.
+    OutsidePower,
     /// The observable with that number.
     Observable(usize, ObservableForm),
     /// Accelerations of small differences in the transverse sector with that number.

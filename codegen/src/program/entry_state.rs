@@ -87,6 +87,17 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
     ConstantValues { orbits, couplings }
 }
 
+/// Torques from outside on the links.
+pub(super) fn outside_torques(tree: &mut SymmetricTree<'_>, scene: &Scene) -> Fields {
+    let orbits = scene.orbits.iter().enumerate();
+    let fields = orbits.map(|(orbit, links)| {
+        let input = |&LinkId(link): &LinkId| tree.series.builder.input(Argument::Torques, link);
+        let links: Vec<ValueId> = links.links.iter().map(input).collect();
+        tree.analysed(orbit, &links, "outside")
+    });
+    fields.collect()
+}
+
 /// The state that an entry point receives, with momenta, velocities and forces.
 pub(super) fn motion(
     tree: &mut SymmetricTree<'_>,

@@ -9,7 +9,9 @@ use super::constants::ConstantId;
 use super::solve::Matrix;
 use super::{Argument, ValueId};
 use crate::mechanics::expression::{Expr, Role, SymbolId};
-use crate::mechanics::{Frame, MassExpansion, MatrixEntry, Mechanics, ObservableFrame};
+use crate::mechanics::{
+    Frame, MassExpansion, MatrixEntry, MeanTree, Mechanics, ObservableFrame, System,
+};
 use std::collections::BTreeMap;
 
 /// Lowering in progress.
@@ -158,6 +160,11 @@ impl<'a> Lowering<'a> {
     /// A velocity of the expansion: w with M⁽⁰⁾ w = p, or a correction to it.
     fn derived(&mut self, environment: &mut Environment<'_>, symbol: SymbolId) -> ValueId {
         let mechanics = self.mechanics;
+        if let Some(mean_tree) = &mechanics.mean_tree {
+            let added = self.added(environment, mean_tree);
+            let unknowns = &mean_tree.added.unknowns;
+            return added[position(unknowns, symbol)];
+        }
         let Some(expansion) = &mechanics.expansion else {
             unreachable!("derived velocities come with the expansion");
         };
@@ -187,6 +194,27 @@ impl<'a> Lowering<'a> {
             }
         }
         unreachable!("{} is defined nowhere", mechanics.symbols.get(symbol).code)
+    }
+
+    /// The velocities that the mismatch of copies adds.
+    pub(super) fn added(
+        &mut self,
+        environment: &mut Environment<'_>,
+        mean_tree: &MeanTree,
+    ) -> Vec<ValueId> {
+        let System { unknowns, right } = &mean_tree.added;
+        let matrix = self.matrix(environment, &mean_tree.frame.mass);
+        let right = right.iter();
+        let right = right.map(|right| self.expr(environment, right)).collect();
+        let names = self.coordinate_names(environment.frame);
+        let names: Vec<String> = names.iter().map(|name| format!("mean_{name}")).collect();
+        let solution = self.builder.solve(matrix, right, &names);
+        for (&symbol, &value) in unknowns.iter().zip(&solution) {
+            let code = &self.mechanics.symbols.get(symbol).code;
+            self.builder.name(value, code);
+            environment.values.insert(symbol, value);
+        }
+        solution
     }
 
     fn solve_in_phase(

@@ -47,10 +47,11 @@ pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use entry::{
-    Argument, EnergyDefinition, Entry, LinkFunction, ObservableForm, PointKind, Purpose, Shape,
+    Argument, Cause, EnergyDefinition, Entry, LinkFunction, ObservableForm, PointKind, Purpose,
+    Shape,
 };
 pub use fuse::FusedSum;
-pub use link::{Column, Strip, Strips};
+pub use link::{Column, LINK_MOTION, Strip, Strips};
 pub use operation::{Definition, Op, ValueId};
 use passes::PASSES;
 pub use passes::{Pass, worth};
@@ -60,51 +61,34 @@ pub use verify::Fault;
 
 use crate::mechanics::Mechanics;
 use crate::scene::Scene;
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-/// Lowers everything that the scene asks for into one program.
+/// Lowers everything that the scene asks for into one program, without one of the passes
+/// where the worth of that one is to be seen.
 ///
 /// Linear in the size of the mechanics, times a logarithm.
-pub fn lower(scene: &Scene, mechanics: &Mechanics) -> Program {
-    lower_without(None, scene, mechanics)
-}
-
-/// Lowers what [`lower_without`] lowers, unless that is too long.
 ///
 /// # Errors
 /// [`TooManyValues`] where there would be more than [`MOST_VALUES`].
-pub fn lower_in_limits(
+pub fn lower(
     off: Option<Pass>,
     scene: &Scene,
     mechanics: &Mechanics,
 ) -> Result<Program, TooManyValues> {
-    let lowered = AssertUnwindSafe(|| lower_without(off, scene, mechanics));
-    catch_unwind(lowered).map_err(|reason| match reason.downcast() {
-        Ok(limit) => *limit,
-        Err(panic) => resume_unwind(panic),
-    })
-}
-
-/// Lowers without one of the passes, to see the worth of that one. Unwinds with
-/// [`TooManyValues`] where there would be more than [`MOST_VALUES`].
-pub fn lower_without(off: Option<Pass>, scene: &Scene, mechanics: &Mechanics) -> Program {
     let mut lowering = lower::Lowering::new(mechanics);
     lowering.builder.off = off;
     let (entries, choice, strips) = match scene.in_loops() {
         true => entries::link_entries(scene, &mut lowering),
         false => entries::entries(scene, &mut lowering),
     };
-    let mut program = lowering.builder.finish(entries, choice);
+    let mut program = lowering.builder.finish(entries, choice)?;
     program.strips = strips;
-    PASSES
-        .iter()
-        .filter(|(pass, _)| off != Some(*pass))
-        .fold(program, |program, (_, pass)| {
-            debug_assert_eq!(program.verify(), Ok(()), "before a pass");
-            let program = pass(program);
-            debug_assert_eq!(program.verify(), Ok(()), "after a pass");
-            program
-        })
+    let passes = PASSES.iter().filter(|(pass, _)| off != Some(*pass));
+    Ok(passes.fold(program, |program, (_, pass)| {
+        debug_assert_eq!(program.verify(), Ok(()), "before a pass");
+        let program = pass(program);
+        debug_assert_eq!(program.verify(), Ok(()), "after a pass");
+        program
+    }))
 }
 
 /// All of a scene's code in one list.

@@ -15,7 +15,7 @@
 //! the roundings that its file states.
 
 use super::count::{Operations, operations};
-use super::{Entry, LinkFunction, Program, ValueId, factors, lower_without};
+use super::{Entry, LinkFunction, Program, ValueId, factors, lower};
 use crate::mechanics::Mechanics;
 use crate::scene::Scene;
 use std::fmt::Write;
@@ -105,7 +105,10 @@ pub fn worth(scene: &Scene, mechanics: &Mechanics) -> String {
     );
     let all = Pass::ALL.into_iter().filter(|pass| pass.is_counted());
     for off in std::iter::once(None).chain(all.map(Some)) {
-        let program = lower_without(off, scene, mechanics);
+        // Without a pass there may be too many values.
+        let Ok(program) = lower(off, scene, mechanics) else {
+            continue;
+        };
         let Some(motion) = program.motion() else {
             continue;
         };

@@ -69,6 +69,7 @@ impl<'a> Rebuilt<'a> {
             // The reader knows the meaning of elements of rows.
             Argument::Forces
             | Argument::Torques
+            | Argument::Prescribed(_)
             | Argument::Constants
             | Argument::Motion
             | Argument::Response

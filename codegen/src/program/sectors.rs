@@ -102,7 +102,10 @@ impl EntryList<'_, '_> {
             states.push(EntryState::Rates);
         }
         for state in states {
-            self.exact_budgets(scene, sectors, request, state);
+            self.exact_budgets(scene, sectors, request, state, false);
+        }
+        if scene.requests.forces {
+            self.exact_budgets(scene, sectors, request, EntryState::Absolute, true);
         }
         for &order in &request.angle_orders {
             self.truncated_transfers(scene, sectors, Counting::Angle, order);
@@ -118,12 +121,17 @@ impl EntryList<'_, '_> {
         sectors: &OrbitMechanics,
         request: &BudgetRequest,
         state: EntryState,
+        under: bool,
     ) {
         let mechanics = self.lowering.mechanics;
         let orbits = orbits(scene, &mechanics.coordinates);
         let values = values(self.lowering, sectors);
         let mut tree = symmetric_tree(self.lowering, &orbits, None);
-        let motion = motion(&mut tree, scene, mechanics, &values, state);
+        let mut motion = motion(&mut tree, scene, mechanics, &values, state);
+        if under {
+            let outside = entry_state::outside_torques(&mut tree, scene);
+            motion.forces = tree.sum(&motion.forces, &outside);
+        }
         let ids: Vec<SectorId> = sectors
             .sectors
             .iter()
@@ -135,7 +143,10 @@ impl EntryList<'_, '_> {
             let outputs = flattened(tree, &shares);
             found.push((
                 name,
-                Purpose::Budget(definition),
+                match under {
+                    true => Purpose::BudgetUnder(definition),
+                    false => Purpose::Budget(definition),
+                },
                 outputs,
                 Shape::Budget(count),
             ));
@@ -182,7 +193,7 @@ impl EntryList<'_, '_> {
                 );
             }
         }
-        if request.canonical {
+        if request.canonical && !under {
             let outputs = transfers(&mut tree, &values, &motion, &ids, |_| false);
             found.push((
                 "sector_transfers",
@@ -191,7 +202,7 @@ impl EntryList<'_, '_> {
                 Shape::Transfers(count),
             ));
         }
-        if request.matrix {
+        if request.matrix && !under {
             let matrix = tree.transfer_matrix(&values, &motion, &ids);
             let outputs = matrix
                 .iter()
@@ -207,13 +218,17 @@ impl EntryList<'_, '_> {
         }
         for (name, purpose, outputs, shape) in found {
             let (name, mut arguments) = match state {
+                EntryState::Absolute if under => (
+                    format!("{name}_under"),
+                    vec![Argument::Theta, Argument::Omega, Argument::Torques],
+                ),
                 EntryState::Absolute => (name.to_owned(), vec![Argument::Theta, Argument::Omega]),
                 EntryState::Rates | EntryState::Momenta(_) => (
                     format!("symmetric_{name}"),
                     vec![Argument::Coordinates, Argument::Rates],
                 ),
             };
-            if matches!(purpose, Purpose::Budget(_)) {
+            if matches!(purpose, Purpose::Budget(_) | Purpose::BudgetUnder(_)) {
                 arguments = self.timed(&arguments);
             }
             self.push(&name, purpose, &arguments, outputs, shape);

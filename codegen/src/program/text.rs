@@ -18,6 +18,7 @@ impl Argument {
             Self::Difference(_) => "difference",
             Self::DifferenceRate(_) => "difference_rate",
             Self::Torques => "torques",
+            Self::Prescribed(_) => "prescribed",
             Self::Absolute => "absolute",
             Self::Symmetric => "symmetric",
             Self::Constants => "constants",

@@ -2,19 +2,20 @@
 
 use super::entries::EntryList;
 use super::lower::Environment;
-use super::{Argument, Purpose, Shape, ValueId};
-use crate::mechanics::{Counting, Frame, Mechanics, TransferFormulas, TransferParts};
-use crate::scene::CoordinateKind;
+use super::{Argument, Cause, Purpose, Shape, ValueId};
+use crate::mechanics::{Counting, Frame, MeanTree, TransferFormulas, TransferParts};
+use crate::scene::{CoordinateKind, LinkId, Scene};
 
 impl EntryList<'_, '_> {
     pub(super) fn transfer(
         &mut self,
-        mechanics: &Mechanics,
+        scene: &Scene,
         frame: &Frame,
         number: usize,
         transfer: &TransferFormulas,
     ) {
         use Argument::{Coordinates, Momenta, Rates};
+        let mechanics = self.lowering.mechanics;
         let several = mechanics
             .coordinates
             .iter()
@@ -101,6 +102,11 @@ impl EntryList<'_, '_> {
                 Shape::Transfer,
             );
         }
+        if let (Some(split), Some(mean_tree)) = (&transfer.split, &mechanics.mean_tree) {
+            let split = (split, mean_tree);
+            self.split(number, &place, &canonical, split, &mut phase);
+            self.split(number, &place, &[Coordinates, Rates], split, &mut motion);
+        }
         if !transfer.friction.is_zero() {
             let power = self.lowering.expr(&mut motion, &transfer.friction);
             self.push(
@@ -119,6 +125,63 @@ impl EntryList<'_, '_> {
                 &[Argument::Time, Coordinates, Rates],
                 vec![power],
                 Shape::Scalar,
+            );
+        }
+        if scene.requests.forces {
+            let velocity = self.lowering.expr(&mut motion, &transfer.velocity);
+            let builder = &mut self.lowering.builder;
+            let mut torque = builder.integer(0);
+            for &(LinkId(link), weight) in &mechanics.coordinates[transfer.coordinate].weights {
+                let (weight, own) = (
+                    builder.integer(weight),
+                    builder.input(Argument::Torques, link),
+                );
+                let part = builder.mul(weight, own);
+                torque = builder.add(torque, part);
+            }
+            let power = builder.mul(velocity, torque);
+            self.push(
+                &format!("antiphase_outside_power{place}"),
+                Purpose::AntiphaseOutsidePower(number),
+                &[Coordinates, Rates, Argument::Torques],
+                vec![power],
+                Shape::Scalar,
+            );
+        }
+    }
+
+    /// W by what the mean tree does and what the mismatch of the copies adds.
+    fn split(
+        &mut self,
+        number: usize,
+        place: &str,
+        arguments: &[Argument; 2],
+        ([growth, forcing], mean_tree): (&[TransferParts; 2], &MeanTree),
+        environment: &mut Environment<'_>,
+    ) {
+        let forcing = self.parts(environment, forcing);
+        // At the same momenta the mean tree has other velocities.
+        let mut mean = Environment::new(&mean_tree.frame, arguments[0], None, environment.momenta);
+        if environment.momenta.is_none() {
+            let added = self.lowering.added(environment, mean_tree);
+            for (&symbol, added) in environment.frame.velocities.iter().zip(added) {
+                let whole = self.lowering.symbol(environment, symbol);
+                let own = self.lowering.builder.sub(whole, added);
+                mean.supply(symbol, own);
+            }
+        }
+        let growth = self.parts(&mut mean, growth);
+        let source = match environment.momenta {
+            Some(_) => "",
+            None => "_from_rates",
+        };
+        for (cause, outputs) in [(Cause::MeanTree, growth), (Cause::Mismatch, forcing)] {
+            self.push(
+                &format!("transfer_{}{source}{place}", cause.name()),
+                Purpose::SplitTransfer(number, cause),
+                arguments,
+                outputs,
+                Shape::Transfer,
             );
         }
     }

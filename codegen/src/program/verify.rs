@@ -116,7 +116,9 @@ impl Program {
                 Shape::Rows(length) => {
                     !entry.outputs.is_empty() && entry.outputs.len() % length == 0
                 }
-                Shape::Split(first) => (1..entry.outputs.len()).contains(&first),
+                Shape::Arrays(first) | Shape::Split(first) => {
+                    (1..entry.outputs.len()).contains(&first)
+                }
                 Shape::Transfer => entry.outputs.len() == 2,
                 Shape::Transfers(count) => entry.outputs.len() == 2 * count,
                 Shape::Budget(count) => entry.outputs.len() == 3 * count,

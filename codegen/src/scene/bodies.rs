@@ -8,7 +8,7 @@ use super::{Offset, Quantity, Sign};
 use crate::exact::ExactError;
 
 /// A link without its place in the tree.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Body {
     /// kg
     pub(super) mass: Quantity,

@@ -1,5 +1,5 @@
-//! Symmetric coordinates (physics §3): for identical sibling subtrees, the
-//! mean of the copies and their orthogonal differences, from the leaves up.
+//! Symmetric coordinates (physics §3): for copies side by side, their mean and their
+//! orthogonal differences, from the leaves up. Copies that differ have the same ones.
 
 use super::{Group, LinkId, OrbitId, Scene};
 use std::collections::BTreeMap;
@@ -7,10 +7,9 @@ use std::collections::BTreeMap;
 /// Place of a symmetric coordinate in the tree.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CoordinateKind {
-    /// Mean angle of all links of an orbit; the link's own angle where the
-    /// orbit has one link.
+    /// Mean angle of all copies of a node; the link's own angle where there is one.
     Mean {
-        /// The orbit.
+        /// The orbit of the first of them.
         orbit: OrbitId,
     },
     /// Difference number `index` (from 1) between the copies of a group, in
@@ -20,7 +19,7 @@ pub enum CoordinateKind {
         group: usize,
         /// Number of the difference, 1 to copies − 1.
         index: usize,
-        /// The orbit whose links differ.
+        /// The orbit of the first of the links.
         orbit: OrbitId,
         /// Σ of the squared weights: the factor between the mass matrix of one
         /// copy and that of the difference (2 for a pair).
@@ -189,14 +188,11 @@ fn name_coordinates(scene: &Scene, coordinates: &mut [Coordinate]) {
     let link_names: Vec<&String> = scene.links.iter().map(|l| &l.name).collect();
     for coordinate in coordinates.iter_mut() {
         coordinate.name = match &coordinate.kind {
-            CoordinateKind::Mean { orbit } => {
-                let orbit = &scene.orbits[orbit.0];
-                match (orbit.links.len(), one_strand) {
-                    (1, _) => scene.links[orbit.links[0].0].name.clone(),
-                    (_, true) => "m".into(),
-                    _ => format!("{}_m", orbit.name),
-                }
-            }
+            CoordinateKind::Mean { orbit } => match (coordinate.weights.as_slice(), one_strand) {
+                ([(link, _)], _) => scene.links[link.0].name.clone(),
+                (_, true) => "m".into(),
+                _ => format!("{}_m", scene.orbits[orbit.0].node),
+            },
             CoordinateKind::Difference {
                 group,
                 index,
@@ -212,9 +208,9 @@ fn name_coordinates(scene: &Scene, coordinates: &mut [Coordinate]) {
                 if one_strand {
                     format!("d{number}")
                 } else {
-                    let root = &scene.orbits[scene.links[group.copies[0].0].orbit.0].name;
+                    let root = &scene.orbits[scene.links[group.copies[0].0].orbit.0].node;
                     let place = group.name.strip_prefix(root.as_str()).unwrap_or("");
-                    format!("{}{place}_d{number}", scene.orbits[orbit.0].name)
+                    format!("{}{place}_d{number}", scene.orbits[orbit.0].node)
                 }
             }
         };

@@ -99,6 +99,7 @@ pub(super) fn resolve_drive(
         match value {
             Value::Single(value) => *part = signal(value, &usage, values, report),
             Value::Pair(..) => report.error(span, TreeMessage::NotAPoint { name: text }),
+            Value::Each { span, .. } => report.error(*span, ValueMessage::EachWithoutCopies),
         }
     }
     Some(resolved)

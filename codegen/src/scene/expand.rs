@@ -56,12 +56,17 @@ pub(super) fn expand(templates: &[Template]) -> ExpandedTree {
             continue;
         };
         let id = LinkId(expansion.links.len());
-        expansion.links.push(link(template, &pending));
+        let own = link(template, &pending);
         if let Some(orbit) = expansion.orbits.get_mut(pending.template) {
+            // Copies that differ cannot share the name of their node.
+            if orbit.name.is_empty() {
+                orbit.name.clone_from(&own.name);
+            }
             orbit.links.push(id);
         }
-        if template.copies > 1 {
-            let key = (pending.parent, pending.template);
+        expansion.links.push(own);
+        if template.copies > 1 || template.number.is_some() {
+            let key = (pending.parent, template.origin);
             let index = *groups.entry(key).or_insert_with(|| {
                 expansion.groups.push(Group {
                     name: group_name(template, &pending.suffix),
@@ -75,10 +80,16 @@ pub(super) fn expand(templates: &[Template]) -> ExpandedTree {
             }
         }
         for &child in children.get(pending.template).into_iter().flatten() {
-            let copies = templates.get(child).map_or(0, |child| child.copies);
-            for copy in (1..=copies).rev() {
+            let Some(below) = templates.get(child) else {
+                continue;
+            };
+            let numbers = match below.number {
+                Some(number) => number..=number,
+                None => 1..=below.copies,
+            };
+            for copy in numbers.rev() {
                 let mut suffix = pending.suffix.clone();
-                if copies > 1 {
+                if below.copies > 1 || below.number.is_some() {
                     suffix.push_str(&format!("_{copy}"));
                 }
                 stack.push(Pending {
@@ -120,15 +131,18 @@ fn link(template: &Template, pending: &Pending) -> Link {
     }
 }
 
-/// The orbits of the templates, still without links. Templates stand in the
-/// order of their first link.
+/// The orbits of the templates, still without links, and without names where copies of
+/// their node or of one above it differ. Templates stand in the order of their first link.
 fn orbits(templates: &[Template]) -> Vec<Orbit> {
     let mut orbits: Vec<Orbit> = Vec::with_capacity(templates.len());
     for template in templates {
         let above = template.parent.and_then(|parent| orbits.get(parent));
         let depth = above.map_or(0, |parent| parent.depth + 1);
+        let differ = template.number.is_some() || above.is_some_and(|above| above.name.is_empty());
+        let node = template.name.clone();
         orbits.push(Orbit {
-            name: template.name.clone(),
+            name: if differ { String::new() } else { node.clone() },
+            node,
             depth,
             links: Vec::new(),
         });
@@ -189,8 +203,8 @@ pub(super) fn check_pairs(links: &[Link], span: Span, report: &mut Report) -> bo
     pairs <= MAX_PAIRS
 }
 
-/// Reports names of links, orbits and groups that two templates share, and
-/// returns the names of all, each with its template.
+/// Reports names of links, orbits and groups that two nodes share, and returns the names
+/// of all, each with the node's first template.
 pub(super) fn check_names(
     expansion: &ExpandedTree,
     templates: &[Template],
@@ -204,7 +218,7 @@ pub(super) fn check_names(
     let of_orbits = orbits
         .iter()
         .enumerate()
-        .map(|(orbit, Orbit { name, .. })| (name, orbit));
+        .flat_map(|(orbit, Orbit { name, node, .. })| [(name, orbit), (node, orbit)]);
     let of_links = links.iter().map(|Link { name, orbit, .. }| (name, orbit.0));
     let of_groups = groups.iter().filter_map(|Group { name, copies, .. }| {
         let first = copies.first()?;
@@ -213,6 +227,7 @@ pub(super) fn check_names(
     let mut owners: BTreeMap<String, usize> = BTreeMap::new();
     let mut reported = vec![false; templates.len()];
     for (name, template) in of_orbits.chain(of_links).chain(of_groups) {
+        let template = templates.get(template).map_or(template, |own| own.origin);
         let owner = *owners.entry(name.clone()).or_insert(template);
         if owner == template {
             continue;

@@ -44,6 +44,7 @@ pub enum Layout {
 pub(super) struct Asked<'a> {
     pub(super) resolved: &'a Resolved,
     pub(super) observables: bool,
+    pub(super) prescribed: bool,
 }
 
 /// How the code of a rule would be laid out that is not reduced.
@@ -182,7 +183,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         taylor,
         positions: _,
         transverse,
-        forces,
+        forces: _,
         solve,
     } = &asked.resolved.requests;
     // Loops are the recursion.
@@ -195,8 +196,8 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         (budget.is_some(), "`emit(budget)`"),
         (*taylor, "`emit(taylor)`"),
         (*transverse, "`emit(transverse)`"),
-        (*forces, "`emit(forces)`"),
         (asked.observables, "`observe(…)`"),
+        (asked.prescribed, "`prescribed(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),
     ];

@@ -21,6 +21,7 @@ mod link_properties;
 mod names;
 mod observable_text;
 mod observables;
+mod prescribed;
 mod probe;
 mod properties;
 mod quantity;
@@ -35,6 +36,7 @@ mod symbols;
 mod template;
 mod text;
 mod transverse;
+mod unequal;
 mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
@@ -50,6 +52,7 @@ pub use quantity::Quantity;
 pub use resolve::resolve;
 pub use sectors::{SectorVariables, sectors};
 pub use transverse::TransverseSector;
+pub use unequal::UnequalNode;
 
 use crate::exact::Rational;
 
@@ -79,7 +82,7 @@ pub struct Scene {
     /// Links that are copies of one node of the description, in the order of
     /// their first link.
     pub orbits: Vec<Orbit>,
-    /// Identical sibling subtrees, in the order of their first link.
+    /// Sibling subtrees that are copies, in the order of their first link.
     pub groups: Vec<Group>,
     /// The drive, if the tree has one.
     pub drive: Option<Drive>,
@@ -95,6 +98,9 @@ pub struct Scene {
     /// Quantities of the user's own. One that is written in symmetric
     /// coordinates comes with `requests.symmetric`.
     pub observables: Vec<Observable>,
+    /// Links whose motion the caller states, those of each set together. They come with
+    /// `requests.forces`.
+    pub prescribed: Vec<PrescribedLinks>,
     /// How the links stand for those of the whole tree, where the description makes it
     /// smaller.
     pub reduction: Option<Reduction>,
@@ -183,12 +189,14 @@ pub struct Offset {
     pub lateral: Quantity,
 }
 
-/// The links that are copies of one node of the description. All their
-/// properties are equal.
+/// The links that are equal copies of one node of the description. Copies that differ
+/// are of several orbits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Orbit {
-    /// Name of the node: `child`, or `name_2` for a generation of a rule.
+    /// Name of the node, or of the first link where copies of the node differ.
     pub name: String,
+    /// Name of the node: `child`, or `name_2` for a generation of a rule.
+    pub node: String,
     /// Number of links between these and the ground, without themselves; 0 for
     /// the root.
     pub depth: usize,
@@ -196,11 +204,11 @@ pub struct Orbit {
     pub links: Vec<LinkId>,
 }
 
-/// Identical sibling subtrees, from a multiplicity or a generation rule and
-/// never guessed from equal numbers.
+/// Sibling subtrees that are copies of one node, from a multiplicity or a generation rule
+/// and never guessed from equal numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
-    /// Name of the orbit of the copies, with the numbers of the copy it hangs
+    /// Name of the node of the copies, with the numbers of the copy it hangs
     /// in: `hand_1` for the two hands of `arm_1`.
     pub name: String,
     /// The link that the copies hang from. Always present today, since a scene
@@ -208,6 +216,15 @@ pub struct Group {
     pub parent: Option<LinkId>,
     /// The roots of the copies, two or more.
     pub copies: Vec<LinkId>,
+}
+
+/// Links whose motion is handed over together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PrescribedLinks {
+    /// Their names, joined: part of the name of their function.
+    pub name: String,
+    /// The links, in the order written.
+    pub links: Vec<LinkId>,
 }
 
 /// Whole tree of a description whose scene is smaller than it.

@@ -138,7 +138,7 @@ pub const OBSERVABLE_SUFFIXES: [&str; 5] = [
 /// list against the fixtures.
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
-    "accelerations", "accelerations_into", "accelerations_under", "accelerations_under_into", "canonical_rates", "cast", "centre_torques",
+    "accelerations", "accelerations_into", "canonical_rates", "cast", "centre_torques",
     "centre_velocities", "centres", "children", "clone", "default", "degrees_of_freedom",
     "end_torques", "end_velocities", "ends", "eq", "evaluate", "fmt", "from",
     "from_parameters_unchecked", "from_symmetric", "hamiltonian", "into", "kinetic_energy",
@@ -152,18 +152,24 @@ const METHODS: &[&str] = &[
 
 /// Beginnings of names of methods that are many.
 const METHOD_FAMILIES: &[&str] = &[
+    "accelerations_prescribed",
+    "accelerations_under",
     "antiphase_drive_power",
     "antiphase_energy",
     "antiphase_friction_power",
+    "antiphase_outside_power",
     "budget_",
     "drive_power",
     "friction_power",
+    "outside_power",
     "sector_transfers",
     "symmetric_",
     "transverse_",
     "transfer_amplitude_",
     "transfer_angle_",
     "transfer_exact",
+    "transfer_forcing",
+    "transfer_growth",
     "transfer_matrix",
     "transfer_quadratic_form",
 ];

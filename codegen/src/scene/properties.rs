@@ -347,6 +347,8 @@ fn evaluate(
             report.error(property.name.span(), TreeMessage::NotAPoint { name });
             None
         }
+        // Reported with the copies.
+        Value::Each { .. } => None,
     }
 }
 

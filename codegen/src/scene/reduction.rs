@@ -16,7 +16,9 @@ use super::values::{Usage, Values};
 use super::{Quantity, Reduction, Sign, WholeMotion, WholeOrbit, WholeOrder};
 use crate::description::{Expression, LockedClause, Reductions};
 use crate::exact::Rational;
-use crate::report::{OutputMessage, Report, SizeMessage, TreeMessage, ValueMessage, nearest};
+use crate::report::{
+    OutputMessage, Report, SizeMessage, TreeMessage, UnequalUse, ValueMessage, nearest,
+};
 
 /// Most links of a whole tree: what an index of 32 bits counts.
 const MOST_WHOLE: usize = 1 << 32;
@@ -36,6 +38,15 @@ pub(super) fn reduce(
     let TreeBuilder {
         templates, values, ..
     } = builder;
+    if let Some(unequal) = templates.iter().find(|known| known.number.is_some()) {
+        let in_phase = reductions.in_phase.iter().map(Ident::span);
+        let locked = reductions.locked.iter().map(|clause| clause.link.span());
+        for span in in_phase.chain(locked) {
+            let (node, wanted) = (unequal.name.clone(), UnequalUse::Reduction);
+            report.error(span, OutputMessage::UnequalCopies { node, wanted });
+        }
+        return None;
+    }
     let locks = locks(&reductions.locked, templates, values, report);
     let alike = alike(&reductions.in_phase, templates, report);
     if report.diagnostics().len() > before {

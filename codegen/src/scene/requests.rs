@@ -10,7 +10,7 @@ use super::expand::ExpandedTree;
 use super::sectors::sectors;
 use super::{BudgetRequest, LinkId, Requests, Scene, Solve, TransferRequest};
 use crate::description::{Request, RequestForm};
-use crate::report::{OutputMessage, Report, SyntaxMessage, nearest};
+use crate::report::{OutputMessage, Report, SyntaxMessage, UnequalUse, nearest};
 
 /// All outputs.
 const OUTPUTS: &[&str] = &[
@@ -52,6 +52,8 @@ pub(super) struct Resolved {
     pub(super) requests: Requests,
     symmetric: Option<Span>,
     transfer: Option<Span>,
+    /// Place of the first order of the transfer that is written.
+    transfer_order: Option<Span>,
     budget: Option<Span>,
     /// Place of `transverse`.
     pub(super) transverse: Option<Span>,
@@ -65,6 +67,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         requests: Requests::default(),
         symmetric: None,
         transfer: None,
+        transfer_order: None,
         budget: None,
         transverse: None,
         small: Vec::new(),
@@ -104,6 +107,8 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             "transfer" => {
                 wanted.transfer = Some(transfer(span, forms.as_deref(), *damaged, report));
                 resolved.transfer = Some(span);
+                let mut orders = forms.iter().flatten().filter(|form| form.name != "exact");
+                resolved.transfer_order = orders.next().map(|form| form.name.span());
             }
             "budget" => {
                 let small = &mut resolved.small;
@@ -346,9 +351,35 @@ fn transfer(
     request
 }
 
-/// Checks that the tree has the identical siblings that the requests need.
-pub(super) fn check_symmetry(resolved: &Resolved, expansion: &ExpandedTree, report: &mut Report) {
-    let ExpandedTree { links, groups, .. } = expansion;
+/// Checks that the tree has the identical siblings that the requests need. Leaves the forms
+/// of the transfer that hold between unequal copies where none is named.
+pub(super) fn check_symmetry(
+    resolved: &mut Resolved,
+    expansion: &ExpandedTree,
+    report: &mut Report,
+) {
+    let ExpandedTree {
+        links,
+        groups,
+        orbits,
+    } = expansion;
+    let unequal = orbits.iter().find(|orbit| orbit.is_of_unequal());
+    if let Some(orbit) = unequal {
+        let places = [
+            (resolved.transfer_order, UnequalUse::Order),
+            (resolved.budget, UnequalUse::Budget),
+        ];
+        for (span, wanted) in places {
+            if let Some(span) = span {
+                let node = orbit.node.clone();
+                report.error(span, OutputMessage::UnequalCopies { node, wanted });
+            }
+        }
+        if let Some(transfer) = &mut resolved.requests.transfer {
+            transfer.angle_orders.clear();
+            transfer.amplitude_orders.clear();
+        }
+    }
     if groups.is_empty() {
         let needy = [
             (resolved.symmetric, "symmetric"),

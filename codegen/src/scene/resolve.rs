@@ -6,6 +6,7 @@ use super::drive::resolve_drive;
 use super::expand::{check_names, check_pairs, check_size, expand};
 use super::layout::{self, Asked, Layout};
 use super::observables::resolve_observables;
+use super::prescribed::resolve_prescribed;
 use super::reduction::reduce;
 use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_solve};
 use super::rule::resolve_code;
@@ -14,7 +15,7 @@ use super::template::TreeBuilder;
 use super::values::{Usage, Values, check_used};
 use super::{CratePath, Quantity, Scene, Sign};
 use crate::description::{Description, Node, Property, Value};
-use crate::report::{OutputMessage, Report, SyntaxMessage, TreeMessage};
+use crate::report::{OutputMessage, Report, SyntaxMessage, TreeMessage, ValueMessage};
 
 /// Checks a description and writes it out link by link.
 ///
@@ -33,12 +34,14 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     let drive = resolve_drive(description.drive.as_ref(), &mut builder.values, report);
     let mut resolved = resolve_requests(&description.requests, report);
     resolved.requests.solve = resolve_solve(description.solve.as_ref(), report);
+    resolved.requests.forces |= !description.prescribed.is_empty();
     if description.roots.len() > 1 {
         return None;
     }
     let asked = Asked {
         resolved: &resolved,
         observables: !description.observables.is_empty(),
+        prescribed: !description.prescribed.is_empty(),
     };
     let readable = !description.damaged && !description.roots.iter().any(Node::is_damaged);
     let reduction = readable
@@ -81,8 +84,12 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         }
     }
     // Copies may have stood where the tree was unreadable.
+    let mut prescribed = Vec::new();
     if readable {
-        check_symmetry(&resolved, &expansion, report);
+        check_symmetry(&mut resolved, &expansion, report);
+        if layout == Layout::Unrolled {
+            prescribed = resolve_prescribed(&description.prescribed, &expansion, report);
+        }
     }
     let mut scene = Scene {
         name: description.item.ident.to_string(),
@@ -97,6 +104,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
         requirements: values.requirements,
         requests: resolved.requests,
         observables: Vec::new(),
+        prescribed,
         reduction,
         layout,
     };
@@ -137,6 +145,13 @@ fn gravity(
             value: Value::Single(value),
             ..
         }) => values.evaluate(value, &usage, report),
+        Some(Property {
+            value: Value::Each { span, .. },
+            ..
+        }) => {
+            report.error(*span, ValueMessage::EachWithoutCopies);
+            None
+        }
         Some(Property {
             name,
             value: Value::Pair(..),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coordinates::symmetric_coordinates;
 use super::observables::{CoordinateIndex, Observed, Variable, VariableKind};
-use super::{LinkId, ParameterId, Quantity, Scene};
+use super::{Link, LinkId, ParameterId, Quantity, Scene};
 
 /// The meaning of a name.
 pub(super) enum Meaning {
@@ -116,42 +116,69 @@ impl ObservableSymbols {
 /// The names of the model's constants, those included that turn out to be zero.
 fn constants(scene: &Scene) -> Vec<String> {
     let mut names = Vec::new();
-    let orbit_name = |LinkId(link): LinkId| {
-        let orbit = scene.links.get(link).map(|link| link.orbit);
-        orbit
-            .and_then(|orbit| scene.orbits.get(orbit.0))
-            .map(|orbit| &orbit.name)
-    };
-    for orbit in &scene.orbits {
-        let Some(link) = orbit
-            .links
-            .first()
-            .and_then(|first| scene.links.get(first.0))
-        else {
+    let orbit = |link: LinkId| &scene.orbits[scene.links[link.0].orbit.0];
+    for own in &scene.orbits {
+        let Some(&first) = own.links.first() else {
             continue;
         };
-        let name = &orbit.name;
-        for word in ["inertia", "gravity", "lateral_gravity"] {
-            names.push(format!("{word}_{name}"));
-        }
-        for (word, value) in [
-            ("friction", &link.friction),
-            ("drag", &link.drag),
-            ("spring", &link.spring),
-            ("rest", &link.rest),
-        ] {
-            if value.is_some() {
-                names.push(format!("{word}_{name}"));
-            }
-        }
-        let mut above = link.parent;
-        while let Some(ancestor) = above {
-            if let Some(other) = orbit_name(ancestor) {
-                names.push(format!("coupling_{name}_{other}"));
-                names.push(format!("lateral_coupling_{name}_{other}"));
-            }
-            above = scene.links.get(ancestor.0).and_then(|link| link.parent);
+        add_constants(
+            scene,
+            &own.name,
+            &[first],
+            |link| &orbit(link).name,
+            &mut names,
+        );
+    }
+    if !scene.has_unequal_copies() {
+        return names;
+    }
+    let coordinates = symmetric_coordinates(scene);
+    for node in scene.unequal_nodes(&coordinates) {
+        let add = |own: &str, names: &mut Vec<String>| {
+            add_constants(scene, own, &node.links, |link| &orbit(link).node, names);
+        };
+        add(&node.name, &mut names);
+        for &index in node.coordinates.iter().skip(1) {
+            let mut mismatches = Vec::new();
+            add(&coordinates[index].name, &mut mismatches);
+            names.extend(mismatches.iter().map(|name| format!("mismatch_{name}")));
         }
     }
     names
+}
+
+/// Adds the names of the constants of links, of which `own` says what they are called;
+/// `other` says so of links above them.
+fn add_constants<'a>(
+    scene: &'a Scene,
+    own: &str,
+    links: &[LinkId],
+    other: impl Fn(LinkId) -> &'a String,
+    names: &mut Vec<String>,
+) {
+    for word in ["inertia", "gravity", "lateral_gravity"] {
+        names.push(format!("{word}_{own}"));
+    }
+    type Force = fn(&Link) -> &Option<Quantity>;
+    let forces: [(&str, Force); 4] = [
+        ("friction", |link| &link.friction),
+        ("drag", |link| &link.drag),
+        ("spring", |link| &link.spring),
+        ("rest", |link| &link.rest),
+    ];
+    for (word, force) in forces {
+        if links
+            .iter()
+            .any(|link| force(&scene.links[link.0]).is_some())
+        {
+            names.push(format!("{word}_{own}"));
+        }
+    }
+    let mut above = links.first().and_then(|first| scene.links[first.0].parent);
+    while let Some(ancestor) = above {
+        let other = other(ancestor);
+        names.push(format!("coupling_{own}_{other}"));
+        names.push(format!("lateral_coupling_{own}_{other}"));
+        above = scene.links[ancestor.0].parent;
+    }
 }

@@ -6,6 +6,7 @@ use super::bodies::{Body, GivenProperties};
 use super::names::check_link;
 use super::properties::Properties;
 use super::rule::{Code, GenerationRule};
+use super::unequal::unequal_copies;
 use super::values::{Usage, Values};
 use super::{Offset, Quantity, Sign};
 use crate::description::Node;
@@ -14,7 +15,7 @@ use crate::report::{Report, SizeMessage, TreeMessage};
 /// Most links that a scene may have, copies included.
 pub(super) const MAX_LINKS: usize = 4096;
 
-/// A link of the description, for all its copies.
+/// A link of the description, for all its copies that are equal.
 #[derive(Debug)]
 pub(super) struct Template {
     pub(super) name: String,
@@ -25,6 +26,11 @@ pub(super) struct Template {
     pub(super) parent: Option<usize>,
     /// Copies under each copy of the parent.
     pub(super) copies: usize,
+    /// Number of this copy among those of its node, where they differ: then each has a
+    /// template of its own.
+    pub(super) number: Option<usize>,
+    /// Template of the first copy of the node; its own index where copies are equal.
+    pub(super) origin: usize,
     pub(super) body: Body,
     /// The pivot on the parent; zero for the root.
     pub(super) pivot: Offset,
@@ -54,7 +60,6 @@ pub(super) struct WholeRule {
 }
 
 /// The joint from which a link hangs.
-#[derive(Clone)]
 struct Parent {
     index: usize,
     joint: Offset,
@@ -70,33 +75,98 @@ impl TreeBuilder {
         self.add(node, None, report);
     }
 
-    /// Adds a link or a rule, and its children.
-    fn add(&mut self, node: &Node, parent: Option<Parent>, report: &mut Report) {
+    /// Adds a link or a rule, and its children: once for all copies, or for each where
+    /// they differ.
+    fn add(&mut self, node: &Node, parent: Option<&Parent>, report: &mut Report) {
+        // Too many already, which the check of the tree's size reports.
+        if self.templates.len() > MAX_LINKS {
+            return;
+        }
+        let before = report.diagnostics().len();
         check_link(&node.name, report);
         if let Some(copies) = node.copies.filter(|copies| copies.count == 0) {
             report.error(copies.span, TreeMessage::ZeroCopies);
         }
-        let is_rule = node
-            .shape
-            .as_ref()
-            .is_some_and(|shape| shape == "generations");
-        let properties = Properties::read(node, is_rule, &mut self.values, report);
-        let pivot = self.pivot(node, parent.as_ref(), &properties.given, report);
-        let [friction, drag, spring, rest] = forces(&properties.given);
         check_rest(node, report);
-        let first = Template {
+        let shape = node.shape.as_ref();
+        let is_rule = shape.is_some_and(|shape| shape == "generations");
+        let right = |report: &Report| report.diagnostics().len() == before;
+        let unequal = match right(report) {
+            true => unequal_copies(node, is_rule, report),
+            false => None,
+        };
+        let mut links = Vec::new();
+        for copy in unequal.as_deref().unwrap_or(std::slice::from_ref(node)) {
+            let (mut template, properties) = self.described(copy, is_rule, parent, report);
+            template.name = node.name.to_string();
+            template.node.clone_from(&template.name);
+            links.push((template, properties));
+            // Further copies would say the same again.
+            if !right(report) {
+                break;
+            }
+        }
+        let differ = |pair: &[(Template, _)]| !pair[0].0.is_like(&pair[1].0);
+        if !links.windows(2).any(differ) {
+            links.truncate(1);
+        }
+        let (start, several) = (self.templates.len(), links.len() > 1);
+        for (index, (mut template, properties)) in links.into_iter().enumerate() {
+            if several {
+                template.copies = 1;
+                template.number = Some(index + 1);
+            }
+            let own = self.templates.len();
+            self.add_link(node, template, &properties, report);
+            for later in own..self.templates.len() {
+                let first = self.templates.get(later - own + start);
+                if let Some(origin) = first.map(|first| first.origin) {
+                    self.templates[later].origin = origin;
+                }
+            }
+            if !right(report) {
+                break;
+            }
+        }
+    }
+
+    /// The template of a link without those below it.
+    fn described(
+        &mut self,
+        node: &Node,
+        is_rule: bool,
+        parent: Option<&Parent>,
+        report: &mut Report,
+    ) -> (Template, Properties) {
+        let properties = Properties::read(node, is_rule, &mut self.values, report);
+        let [friction, drag, spring, rest] = forces(&properties.given);
+        let template = Template {
             name: node.name.to_string(),
             node: node.name.to_string(),
             span: node.name.span(),
             parent: parent.map(|parent| parent.index),
             copies: node.copies.map_or(1, |copies| copies.count as usize),
+            number: None,
+            origin: self.templates.len(),
             body: properties.body.clone(),
-            pivot,
+            pivot: self.pivot(node, parent, &properties.given, report),
             friction,
             drag,
             spring,
             rest,
         };
+        (template, properties)
+    }
+
+    /// Adds a link or a rule of known properties, and its children.
+    fn add_link(
+        &mut self,
+        node: &Node,
+        mut first: Template,
+        properties: &Properties,
+        report: &mut Report,
+    ) {
+        first.origin = self.templates.len();
         if let Some(rule) = &properties.rule {
             match first.parent {
                 None => {
@@ -115,7 +185,7 @@ impl TreeBuilder {
             if let Some(child) = node.children.first() {
                 report.error(child.name.span(), TreeMessage::RuleChildren);
             }
-            self.add_generations(node, first, &properties, rule, report);
+            self.add_generations(node, first, properties, rule, report);
             return;
         }
         let joint = first.body.joint.clone();
@@ -129,7 +199,7 @@ impl TreeBuilder {
         };
         self.templates.push(first);
         for child in &node.children {
-            self.add(child, Some(parent.clone()), report);
+            self.add(child, Some(&parent), report);
         }
     }
 
@@ -191,6 +261,8 @@ impl TreeBuilder {
                 } else {
                     first.copies
                 },
+                number: None,
+                origin: self.templates.len(),
                 body,
                 pivot: hanging.unwrap_or_else(|| first.pivot.clone()),
                 friction,

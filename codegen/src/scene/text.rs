@@ -22,6 +22,7 @@ impl Display for Scene {
             requirements,
             requests,
             observables,
+            prescribed,
             reduction,
             layout,
         } = self;
@@ -65,7 +66,13 @@ impl Display for Scene {
         for link in links {
             self.write_link(link, f)?;
         }
-        for Orbit { name, depth, links } in orbits {
+        for Orbit {
+            name,
+            node: _,
+            depth,
+            links,
+        } in orbits
+        {
             let links = self.names(links.iter().map(|link| link.0));
             writeln!(f, "orbit {name}, depth {depth}: {links}")?;
         }
@@ -83,6 +90,10 @@ impl Display for Scene {
         }
         for (name, signal, unit) in drive.iter().flat_map(Drive::parts) {
             writeln!(f, "drive {name} {} {unit}", signal.display(parameters))?;
+        }
+        for set in prescribed {
+            let links = set.links.iter().map(|link| link.0);
+            writeln!(f, "prescribed {}", self.names(links))?;
         }
         writeln!(f, "requests {requests}")?;
         for Observable { name, value } in observables {

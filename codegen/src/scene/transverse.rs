@@ -36,7 +36,7 @@ impl Scene {
                 .filter(|above| above.in_phase)
                 .map(|above| above.copies);
             let holders: usize = holders.product();
-            let of_orbit = |known: &&super::Orbit| known.name == orbit.name;
+            let of_orbit = |known: &&super::Orbit| known.node == orbit.name;
             for &first in self
                 .orbits
                 .iter()

@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use branched_pendulum::integrate::{DenseError, Tolerance};
+use branched_pendulum::integrate::{DenseError, RunError, Tolerance};
 use branched_pendulum::prelude::{
-    DenseStep, Dop853, IntegrationError, Ode, Options, Real, State, SymmetricCoordinates,
+    DenseStep, Dop853, Integrator, Ode, Options, Real, State, SymmetricCoordinates,
 };
 
 use super::apparatus::{Apparatus, Flow, Sample};
@@ -96,7 +96,7 @@ fn integrate<T: Real>(
     arguments: &Arguments,
     apparatus: &Apparatus,
     mut progress: impl FnMut(f64),
-) -> Result<Run, IntegrationError<T>> {
+) -> Result<Run, RunError<T, DenseError<T>>> {
     let start = State::at_rest(
         T::ZERO,
         &[
@@ -114,25 +114,11 @@ fn integrate<T: Real>(
         step_limit: u64::MAX,
         ..Options::with_tolerance(T::from_f64(arguments.tolerance))
     };
-    let mut failure = None;
-    let solution = Dop853::new(options).integrate(ode, &start, T::from_f64(end), |step| {
+    let solution = Dop853::new(options).try_integrate(ode, &start, T::from_f64(end), |step| {
         progress(step.end_time().to_f64() / end);
-        match recorder.step(step) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                failure = Some(error);
-                ControlFlow::Break(())
-            }
-        }
+        recorder.step(step)?;
+        Ok(ControlFlow::Continue(()))
     })?;
-    if let Some(DenseError::NonFinite { time, values }) = failure {
-        return Err(IntegrationError::NonFinite {
-            time,
-            values,
-            last: solution.state,
-            report: solution.report,
-        });
-    }
     let report = solution.report;
     Ok(Run {
         angle_deg,

@@ -4,8 +4,8 @@
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
-use branched_pendulum::data::{Cell, Column};
 use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
+use branched_pendulum_data::{Cell, Column};
 
 use super::apparatus::DIFFERENCE;
 use super::arguments::Arguments;

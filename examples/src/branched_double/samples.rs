@@ -1,6 +1,6 @@
 //! Samples as CSV, one file for each initial angle.
 
-use branched_pendulum::data::Column;
+use branched_pendulum_data::Column;
 
 use super::apparatus::{FORMS, Sample};
 use super::experiment::Run;

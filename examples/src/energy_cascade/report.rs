@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use branched_pendulum::analysis::SectorModes;
-use branched_pendulum::data::Column;
+use branched_pendulum_data::Column;
 
 use super::arguments::Arguments;
 use super::run::{Cascade, DEFINITIONS, PARSEVAL};

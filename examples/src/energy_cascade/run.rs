@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::Budget;
 use branched_pendulum::integrate::DenseError;
-use branched_pendulum::prelude::{DenseStep, Dop853, Options, State, SymmetricCoordinates};
+use branched_pendulum::prelude::{
+    DenseStep, Dop853, Integrator, Options, State, SymmetricCoordinates,
+};
 
 use super::arguments::Arguments;
 use super::scene::{LINKS, SECTORS, Tree, TreeParameters};
@@ -73,28 +75,19 @@ impl Cascade {
         let start = State::at_rest(0.0, &release(arguments.difference));
         let mut recorder = Recorder::new(&tree, arguments.duration);
         recorder.sample(0.0, &start.values);
-        let mut failure: Option<DenseError<f64>> = None;
         let options = Options::with_tolerance(arguments.tolerance);
         let solution = Dop853::new(options)
-            .integrate(
+            .try_integrate(
                 &SymmetricCoordinates(&tree),
                 &start,
                 arguments.duration,
                 |step| {
                     progress(step.end_time() / arguments.duration);
-                    match recorder.step(step) {
-                        Ok(()) => ControlFlow::Continue(()),
-                        Err(error) => {
-                            failure = Some(error);
-                            ControlFlow::Break(())
-                        }
-                    }
+                    recorder.step(step)?;
+                    Ok::<_, DenseError<f64>>(ControlFlow::Continue(()))
                 },
             )
             .map_err(|error| Failure::integration(0.0, error))?;
-        if let Some(error) = failure {
-            return Err(Failure::integration(0.0, error));
-        }
         Ok(Self {
             samples: recorder.samples,
             work: Work {

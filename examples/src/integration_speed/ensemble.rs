@@ -42,13 +42,20 @@ pub fn near_threshold(count: u32) -> Vec<State<f64>> {
 ///
 /// # Errors
 /// None: the parameters are possible.
-pub fn friction_scan(count: u32) -> Result<Vec<(Damped, State<f64>)>, ParameterError> {
+pub fn friction_scan(
+    count: u32,
+) -> Result<Vec<(AbsoluteAngles<Damped>, State<f64>)>, ParameterError> {
     let step = FRICTION / f64::from(count.max(2) - 1);
     (0..count)
         .map(|i| DampedParameters {
             friction: step * f64::from(i),
         })
-        .map(|parameters| Ok((Damped::new(parameters)?, released(50_f64.to_radians()))))
+        .map(|parameters| {
+            Ok((
+                AbsoluteAngles(Damped::new(parameters)?),
+                released(50_f64.to_radians()),
+            ))
+        })
         .collect()
 }
 
@@ -70,17 +77,17 @@ pub fn speeds(
     tolerance: f64,
     repeats: usize,
 ) -> Result<Vec<Speed>, IntegrationError<f64>> {
-    let model = Ideal::new();
+    let system = AbsoluteAngles(Ideal::new());
     let Methods {
         ensemble,
         dop853,
         verner98,
         taylor,
     } = Methods::new(tolerance);
-    let plain = || ensemble.integrate(&dop853, &AbsoluteAngles(&model), black_box(starts), end);
-    let lanes = || ensemble.integrate_in_lanes(&dop853, &model, black_box(starts), end);
-    let ninth = || ensemble.integrate_in_lanes(&verner98, &model, black_box(starts), end);
-    let series = || ensemble.integrate_in_lanes(&taylor, &model, black_box(starts), end);
+    let plain = || ensemble.integrate(&dop853, &system, black_box(starts), end);
+    let lanes = || ensemble.integrate_in_lanes(&dop853, &system, black_box(starts), end);
+    let ninth = || ensemble.integrate_in_lanes(&verner98, &system, black_box(starts), end);
+    let series = || ensemble.integrate_in_lanes(&taylor, &system, black_box(starts), end);
     best(
         &[
             ("Dop853, one by one", &plain),
@@ -97,7 +104,7 @@ pub fn speeds(
 /// # Errors
 /// Those of the integration.
 pub fn scan_speeds(
-    releases: &[(Damped, State<f64>)],
+    releases: &[(AbsoluteAngles<Damped>, State<f64>)],
     end: f64,
     tolerance: f64,
     repeats: usize,
@@ -109,9 +116,9 @@ pub fn scan_speeds(
         taylor,
     } = Methods::new(tolerance);
     let plain = || {
-        ensemble.map(black_box(releases), |_, (model, start)| {
+        ensemble.map(black_box(releases), |_, (system, start)| {
             let run_on = |_: &mut DenseStep<'_, f64>| std::ops::ControlFlow::Continue(());
-            dop853.integrate(&AbsoluteAngles(model), start, end, run_on)
+            dop853.integrate(system, start, end, run_on)
         })
     };
     let lanes = || ensemble.integrate_models_in_lanes(&dop853, black_box(releases), end);

@@ -103,9 +103,12 @@ fn repeated(
         let value = value.as_str().unwrap_or_default();
         let argument = command.get_arguments().find(|a| a.get_id() == id.as_str());
         let argument = argument.ok_or_else(|| format!("{shown}: there is no option `{id}`"))?;
-        words.push(match argument.get_long() {
-            Some(long) => format!("--{long}={value}").into(),
-            None => value.into(),
+        words.extend(match argument.get_long() {
+            Some(long) if argument.get_action().takes_values() => {
+                Some(format!("--{long}={value}").into())
+            }
+            Some(long) => (value == "true").then(|| format!("--{long}").into()),
+            None => Some(value.into()),
         });
     }
     if let Some(folder) = matches.get_one::<PathBuf>(OUTPUT) {

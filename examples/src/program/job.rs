@@ -7,8 +7,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-use branched_pendulum::data::{Column, CsvError, CsvWriter};
 use branched_pendulum_charts::Chart;
+use branched_pendulum_data::{Column, CsvError, CsvWriter};
 use serde_json::{Map, Value, json};
 
 use super::files::{Ledger, Part, SharedLedger, locked};

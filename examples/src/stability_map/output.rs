@@ -1,8 +1,8 @@
 //! Maps, CSV file and charts.
 
-use branched_pendulum::data::{Cell, Column};
 use branched_pendulum::prelude::*;
 use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series};
+use branched_pendulum_data::{Cell, Column};
 
 use super::verdict::{DAMPED_ANGLE, Verdict, damped, damped_model, damped_reference, ideal};
 use crate::failure::Failure;

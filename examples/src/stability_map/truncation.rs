@@ -2,10 +2,10 @@
 //! against the size of the motion that feeds it.
 
 use branched_pendulum::analysis::truncation::{Background, PhaseAverage, logarithmic};
-use branched_pendulum::data::{Cell, Column};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::{TransferForm, TransferForms};
 use branched_pendulum_charts::{Axis, Chart, Panel};
+use branched_pendulum_data::{Cell, Column};
 
 use crate::failure::Failure;
 use crate::program::Job;
@@ -13,6 +13,9 @@ use crate::transfer_orders::Apparatus;
 
 /// Random states at each place.
 const STATES: usize = 400;
+
+/// Seed of their random numbers.
+const SEED: u64 = 0;
 
 /// Time after the release over which the in-phase motion is looked at, s.
 const BACKGROUND: f64 = 10.0;
@@ -73,6 +76,7 @@ pub fn map(job: &Job) -> Result<Vec<FormError>, Failure> {
     let releases: Vec<f64> = (1..=11).map(|k| 15.0 * f64::from(k)).collect();
     let progress = job.progress(releases.len());
     progress.begin("truncation");
+    job.report("seed", SEED);
     let places = Ensemble::new().map(&releases, |_, &release| {
         let places = after(release);
         progress.next();
@@ -92,6 +96,7 @@ pub fn after(release: f64) -> Result<Vec<FormError>, Failure> {
     let average = PhaseAverage {
         amplitudes: logarithmic([0.01, 1.5], 20),
         states: STATES,
+        seed: SEED,
         background: Background::visited(&model, &start, BACKGROUND)?,
     };
     let mut places = Vec::new();

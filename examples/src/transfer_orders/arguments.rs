@@ -14,6 +14,9 @@ pub struct Arguments {
     /// random states for each amplitude, 10 to 1000000
     #[arg(long, value_name = "N", default_value = "20000", value_parser = read_states)]
     pub states: usize,
+    /// seed of the random states
+    #[arg(long, value_name = "SEED", default_value = "0")]
+    pub seed: u64,
     /// Folder of results.
     #[command(flatten)]
     pub results: Results,

@@ -32,10 +32,11 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let progress = job.progress(2 * study::PARTS);
     let paper = Study::of(
         &Apparatus::new(),
-        scenes::apparatus(arguments.states)?,
+        scenes::apparatus(arguments.states)?.seeded(arguments.seed),
         &progress,
     )?;
     output::deliver(job, &paper)?;
-    let arms = Study::of(&Arms::new(), scenes::arms(arguments.states)?, &progress)?;
+    let arms = scenes::arms(arguments.states)?.seeded(arguments.seed);
+    let arms = Study::of(&Arms::new(), arms, &progress)?;
     output::deliver(job, &arms)
 }

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use branched_pendulum::analysis::truncation::ErrorCurve;
-use branched_pendulum::data::{Cell, Column};
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
+use branched_pendulum_data::{Cell, Column};
 
 use super::study::{AMPLITUDES, Study};
 use crate::failure::Failure;

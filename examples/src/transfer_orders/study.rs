@@ -57,6 +57,7 @@ impl Settings {
             phase_average: PhaseAverage {
                 amplitudes: logarithmic(AMPLITUDES, POINTS),
                 states,
+                seed: 0,
                 background: Background::visited(model, release, BACKGROUND)?,
             },
             trajectories: AlongTrajectories {
@@ -68,6 +69,13 @@ impl Settings {
                 bins: POINTS,
             },
         })
+    }
+
+    /// With random states of another seed.
+    #[must_use]
+    pub fn seeded(mut self, seed: u64) -> Self {
+        self.phase_average.seed = seed;
+        self
     }
 }
 

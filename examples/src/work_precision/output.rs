@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use branched_pendulum::data::{Cell, Column};
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
+use branched_pendulum_data::{Cell, Column};
 
 use super::measure::{EnergyDrift, METHODS, Measurement, time_to_error};
 use crate::failure::Failure;

@@ -1,10 +1,12 @@
 //! From matrices and trajectories to physics: linear modes, of a whole tree and
-//! sector by sector, spectra, the growth of deviations, and how far truncated
-//! transfers reach.
+//! sector by sector, spectra, motions estimated from data, the growth of deviations, and
+//! how far truncated transfers reach; and which model and method to take ([`advice`]).
 
+pub mod advice;
 pub mod equilibrium;
 pub mod modes;
 pub mod sector_modes;
+pub mod smoothing;
 pub mod spectrum;
 pub mod truncation;
 pub mod variational;
@@ -12,4 +14,7 @@ pub mod variational;
 pub use equilibrium::{AtRest, EquilibriumError, equilibrium};
 pub use modes::{Modes, ModesError};
 pub use sector_modes::{SectorBlock, SectorModes, SectorModesError};
+pub use smoothing::{
+    Bands, KinematicSmoother, ModelSmoother, SmoothedMotion, SmoothingError, bands,
+};
 pub use spectrum::{Peak, Spectrum, SpectrumError, SpectrumOptions, Window};

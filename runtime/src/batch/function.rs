@@ -6,9 +6,8 @@ use super::{Batch, BatchError};
 use crate::model::Transfer;
 use crate::scalar::{Lane, Scalar};
 use crate::sectors::Budget;
-use crate::simd::dispatch;
-use crate::simd::{Kernel, Simd};
-use crate::system::Cast;
+use crate::simd::{Kernel, Simd, dispatch};
+use crate::system::{Cast, Forced};
 
 /// A function of one state of a pendulum `P`, on any scalar, of `A` arguments with a
 /// number for each link: [`state_function!`](crate::state_function) writes it.
@@ -188,7 +187,7 @@ impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
         let lengths = values.iter_mut().map(|s| s.as_mut().len());
         super::check(found, count, "values", found, lengths)?;
         let states = FunctionOfStates {
-            function: PhantomData::<F>,
+            function: PhantomData::<ValuesOf<F, A>>,
             pendulum: self.pendulum,
             time,
             count,
@@ -197,6 +196,100 @@ impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
         };
         dispatch::run_in_registers(self.instructions, states);
         Ok(())
+    }
+
+    /// Writes the angular accelerations (rad/s²) at `time` (s) of states with torques
+    /// from outside (N m): slices as for [`accelerations`](Self::accelerations).
+    ///
+    /// Each state gets the same bits whatever its place in the batch. Allocates some
+    /// numbers for each link.
+    ///
+    /// # Errors
+    /// As for [`accelerations`](Self::accelerations).
+    pub fn accelerations_under(
+        &mut self,
+        time: T,
+        [theta, omega, torques]: [&[impl AsRef<[T]>]; 3],
+        alpha: &mut [impl AsMut<[T]>],
+    ) -> Result<(), BatchError>
+    where
+        P: Forced<T>,
+    {
+        let count = theta.first().map_or(0, |states| states.as_ref().len());
+        for (name, argument) in [("theta", theta), ("omega", omega), ("torques", torques)] {
+            let lengths = argument.iter().map(|s| s.as_ref().len());
+            super::check(P::LINKS, count, name, argument.len(), lengths)?;
+        }
+        let found = alpha.len();
+        let lengths = alpha.iter_mut().map(|s| s.as_mut().len());
+        super::check(P::LINKS, count, "alpha", found, lengths)?;
+        let states = FunctionOfStates {
+            function: PhantomData::<Under>,
+            pendulum: self.pendulum,
+            time,
+            count,
+            arguments: [theta, omega, torques],
+            values: alpha,
+        };
+        dispatch::run_in_registers(self.instructions, states);
+        Ok(())
+    }
+}
+
+/// A function of states in registers.
+trait RegisterFunction<P: Cast<T>, T: Scalar> {
+    /// Tells the values with their indices; `alpha` is room for one number a link. None
+    /// where there are fewer arguments than it takes.
+    fn tell<S: Scalar>(
+        pendulum: &P::Of<S>,
+        time: S,
+        arguments: &[S],
+        alpha: &mut [S],
+        put: &mut impl FnMut(usize, S),
+    ) -> Option<()>;
+}
+
+/// What a [`StateFunction`] returns.
+struct ValuesOf<F, const A: usize>(PhantomData<F>);
+
+impl<P, T, F, const A: usize> RegisterFunction<P, T> for ValuesOf<F, A>
+where
+    P: Cast<T>,
+    T: Scalar,
+    F: StateFunction<P, T, A>,
+{
+    #[inline(always)]
+    fn tell<S: Scalar>(
+        pendulum: &P::Of<S>,
+        time: S,
+        arguments: &[S],
+        _: &mut [S],
+        put: &mut impl FnMut(usize, S),
+    ) -> Option<()> {
+        F::call::<S>(pendulum, time, arguments)?.tell(0, put);
+        Some(())
+    }
+}
+
+/// Accelerations under torques.
+struct Under;
+
+impl<P: Forced<T>, T: Scalar> RegisterFunction<P, T> for Under {
+    #[inline(always)]
+    fn tell<S: Scalar>(
+        pendulum: &P::Of<S>,
+        time: S,
+        arguments: &[S],
+        alpha: &mut [S],
+        put: &mut impl FnMut(usize, S),
+    ) -> Option<()> {
+        let (theta, others) = arguments.split_at_checked(P::LINKS)?;
+        let (omega, torques) = others.split_at_checked(P::LINKS)?;
+        P::accelerations_under_of(pendulum, time, theta, omega, torques, alpha);
+        for (link, &value) in alpha.iter().enumerate() {
+            put(link, value);
+        }
+        Some(())
     }
 }
 
@@ -218,7 +311,7 @@ struct FunctionOfStates<'a, F, P, T, In, Out, const A: usize> {
 
 impl<F, P, T, In, Out, const A: usize> Kernel<T> for FunctionOfStates<'_, F, P, T, In, Out, A>
 where
-    F: StateFunction<P, T, A>,
+    F: RegisterFunction<P, T>,
     P: Cast<T>,
     T: Lane,
     In: AsRef<[T]>,
@@ -233,6 +326,7 @@ where
         let pendulum = self.pendulum.cast(R::splat);
         let time = R::splat(self.time);
         let mut arguments = alloc::vec![R::splat(T::from_f64(0.0)); A * P::LINKS];
+        let mut alpha = alloc::vec![R::splat(T::from_f64(0.0)); P::LINKS];
         // Where there are fewer states than lanes.
         let mut few = alloc::vec![T::from_f64(0.0); R::LANES];
         let mut next = 0;
@@ -242,10 +336,7 @@ where
             for (place, slice) in arguments.iter_mut().zip(slices) {
                 *place = R::load_front(slice.as_ref().get(start..).unwrap_or_default());
             }
-            let Some(values) = F::call(&pendulum, time, &arguments) else {
-                return;
-            };
-            values.tell(0, &mut |index, value: R| {
+            let mut put = |index: usize, value: R| {
                 let slice = self.values.get_mut(index).map(AsMut::as_mut);
                 let states = slice.and_then(|slice| slice.get_mut(start..));
                 let states = states.unwrap_or_default();
@@ -257,7 +348,10 @@ where
                         *state = *lane;
                     }
                 }
-            });
+            };
+            if F::tell::<R>(&pendulum, time, &arguments, &mut alpha, &mut put).is_none() {
+                return;
+            }
             next = start + R::LANES;
         }
     }

@@ -1,4 +1,4 @@
-//! Integration of many pendulums in the lanes of vector registers.
+//! Integration of many systems in the lanes of vector registers.
 
 use std::slice::ChunksExact;
 
@@ -6,20 +6,22 @@ use super::Ensemble;
 use crate::integrate::lanes::{self, Cases, Outcome, Task};
 use crate::integrate::{IntegrationError, LaneMethod, Solution};
 use crate::scalar::{InstructionSet, Lane};
-use crate::system::{Cast, State};
+use crate::system::{LaneOde, State};
 
 impl Ensemble<'_> {
-    /// Integrates a pendulum from every start to the time `end`, as many starts
+    /// Integrates a system from every start to the time `end`, as many starts
     /// at a time on each thread as the widest vector registers of the machine
     /// have lanes: eight in `f64` with AVX-512.
     ///
-    /// The method is [`Taylor`](crate::integrate::Taylor), for models that say
-    /// `emit(taylor)`, or [`Dop853`](crate::integrate::Dop853),
-    /// [`Dopri5`](crate::integrate::Dopri5) or
-    /// [`Verner98`](crate::integrate::Verner98).
+    /// The system is any [`LaneOde`]: a model in
+    /// [`AbsoluteAngles`](crate::system::AbsoluteAngles), under torques
+    /// ([`UnderTorques`](crate::system::UnderTorques)), with the small differences
+    /// between its copies ([`TransverseOde`](crate::system::TransverseOde)). The method
+    /// is [`Dop853`](crate::integrate::Dop853), [`Dopri5`](crate::integrate::Dopri5) or
+    /// [`Verner98`](crate::integrate::Verner98), for absolute angles of models that say
+    /// `emit(taylor)` [`Taylor`](crate::integrate::Taylor) too.
     ///
-    /// States are absolute angles (rad), then angular velocities (rad/s), as for
-    /// [`AbsoluteAngles`](crate::system::AbsoluteAngles). Each trajectory has its own steps, chosen by the rules
+    /// Each trajectory has its own steps, chosen by the rules
     /// of `method` from its own errors, and its own errors and account, as
     /// [`integrate`](Self::integrate) gives them. Its bits depend on its start
     /// alone: not on its place, the other starts or the number of threads. They
@@ -45,41 +47,42 @@ impl Ensemble<'_> {
     ///     .map(|i| State::at_rest(0.0, &[0.03 * f64::from(i)]))
     ///     .collect();
     /// let method = Dop853::new(Options::with_tolerance(1e-10));
-    /// let lanes = Ensemble::new().integrate_in_lanes(&method, &rod, &starts, 10.0);
-    /// let plain = Ensemble::new().integrate(&method, &AbsoluteAngles(&rod), &starts, 10.0);
+    /// let system = AbsoluteAngles(&rod);
+    /// let lanes = Ensemble::new().integrate_in_lanes(&method, &system, &starts, 10.0);
+    /// let plain = Ensemble::new().integrate(&method, &system, &starts, 10.0);
     /// for (lane, plain) in lanes.into_iter().zip(plain) {
     ///     let (lane, plain) = (lane?.state.values[0], plain?.state.values[0]);
     ///     assert!((lane - plain).abs() < 1e-7);
     /// }
     /// # Ok::<(), IntegrationError<f64>>(())
     /// ```
-    pub fn integrate_in_lanes<T, P, M>(
+    pub fn integrate_in_lanes<T, O, M>(
         &self,
         method: &M,
-        pendulum: &P,
+        system: &O,
         starts: &[State<T>],
         end: T,
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        P: Cast<T> + Sync,
-        M: LaneMethod<P, T>,
+        O: LaneOde<T> + Sync,
+        M: LaneMethod<O, T>,
     {
-        self.ends(method, Cases::Starts(pendulum, starts), end)
+        self.ends(method, Cases::Starts(system, starts), end)
     }
 
-    /// Integrates pendulums that differ in their parameters, each from its own
+    /// Integrates systems that differ in their constants, each from its own
     /// start, in lanes as [`integrate_in_lanes`](Self::integrate_in_lanes): scans
     /// over friction, masses, lengths, drives.
     ///
-    /// Every lane has the constants of its own pendulum; a trajectory has the bits
+    /// Every lane has the constants of its own system; a trajectory has the bits
     /// that [`integrate_in_lanes`](Self::integrate_in_lanes) gives it with that
-    /// pendulum. One whose parameters have no answer, at once or later, fails
-    /// alone, with its last good state. It costs as much as many starts of one pendulum,
+    /// system. One whose parameters have no answer, at once or later, fails
+    /// alone, with its last good state. It costs as much as many starts of one system,
     /// but for putting the constants of the next one into a lane.
     ///
-    /// The pendulums are of one type, and differ in nothing but the constants that
-    /// [`Cast::cast`] converts.
+    /// The systems are of one type, and differ in nothing but the constants that
+    /// [`LaneOde::on_scalar`] converts.
     ///
     /// # Examples
     ///
@@ -99,31 +102,30 @@ impl Ensemble<'_> {
     /// let release = State::at_rest(0.0, &[1.0]);
     /// let scan = (0..30)
     ///     .map(|i| Rod::new(RodParameters { friction: 1e-4 * f64::from(i) }))
-    ///     .map(|rod| Ok((rod?, release.clone())))
+    ///     .map(|rod| Ok((AbsoluteAngles(rod?), release.clone())))
     ///     .collect::<Result<Vec<_>, ParameterError>>()?;
     /// let method = Dop853::new(Options::with_tolerance(1e-10));
     /// let ends = Ensemble::new().integrate_models_in_lanes(&method, &scan, 10.0);
-    /// let seventh = AbsoluteAngles(&scan[7].0);
-    /// let plain = Ensemble::new().integrate(&method, &seventh, &[release], 10.0);
+    /// let plain = Ensemble::new().integrate(&method, &scan[7].0, &[release], 10.0);
     /// let speeds = [&ends[7], &plain[0]].map(|end| end.as_ref().unwrap().state.values[1]);
     /// assert!((speeds[0] - speeds[1]).abs() < 1e-7);
     /// # Ok::<(), ParameterError>(())
     /// ```
-    pub fn integrate_models_in_lanes<T, P, M>(
+    pub fn integrate_models_in_lanes<T, O, M>(
         &self,
         method: &M,
-        releases: &[(P, State<T>)],
+        releases: &[(O, State<T>)],
         end: T,
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        P: Cast<T> + Sync,
-        M: LaneMethod<P, T>,
+        O: LaneOde<T> + Sync,
+        M: LaneMethod<O, T>,
     {
         self.ends(method, Cases::Pairs(releases), end)
     }
 
-    /// The states of a pendulum at the given times, from every start, in lanes as
+    /// The states of a system at the given times, from every start, in lanes as
     /// [`integrate_in_lanes`](Self::integrate_in_lanes).
     ///
     /// Times run one way from every start; those equal to it give the start itself.
@@ -148,69 +150,71 @@ impl Ensemble<'_> {
     /// let starts = [0.1, f64::NAN, 0.2].map(|angle| State::at_rest(0.0, &[angle]));
     /// let times: Vec<f64> = (0..=100).map(|i| 0.1 * f64::from(i)).collect();
     /// let method = Dop853::new(Options::with_tolerance(1e-10));
-    /// let samples = Ensemble::new().sample_in_lanes(&method, &Rod::new(), &starts, &times);
+    /// let rod = AbsoluteAngles(Rod::new());
+    /// let samples = Ensemble::new().sample_in_lanes(&method, &rod, &starts, &times);
     /// assert_eq!(samples[0].states().len(), 101);
     /// assert_eq!(samples[0].states().next(), Some([0.1, 0.0].as_slice()));
     /// assert_eq!(samples[1].states().len(), 0);
     /// assert!(samples[1].end.is_err() && samples[2].end.is_ok());
     /// ```
-    pub fn sample_in_lanes<T, P, M>(
+    pub fn sample_in_lanes<T, O, M>(
         &self,
         method: &M,
-        pendulum: &P,
+        system: &O,
         starts: &[State<T>],
         times: &[T],
     ) -> Vec<Samples<T>>
     where
         T: Lane,
-        P: Cast<T> + Sync,
-        M: LaneMethod<P, T>,
+        O: LaneOde<T> + Sync,
+        M: LaneMethod<O, T>,
     {
-        self.samples(method, Cases::Starts(pendulum, starts), times)
+        self.samples(method, Cases::Starts(system, starts), times)
     }
 
-    /// The states at the given times of pendulums that differ in their parameters,
+    /// The states at the given times of systems that differ in their constants,
     /// each from its own start: as [`sample_in_lanes`](Self::sample_in_lanes), for
     /// what [`integrate_models_in_lanes`](Self::integrate_models_in_lanes) takes.
-    pub fn sample_models_in_lanes<T, P, M>(
+    pub fn sample_models_in_lanes<T, O, M>(
         &self,
         method: &M,
-        releases: &[(P, State<T>)],
+        releases: &[(O, State<T>)],
         times: &[T],
     ) -> Vec<Samples<T>>
     where
         T: Lane,
-        P: Cast<T> + Sync,
-        M: LaneMethod<P, T>,
+        O: LaneOde<T> + Sync,
+        M: LaneMethod<O, T>,
     {
         self.samples(method, Cases::Pairs(releases), times)
     }
 
-    fn ends<T, P, M>(
+    fn ends<T, O, M>(
         &self,
         method: &M,
-        cases: Cases<'_, P, T>,
+        cases: Cases<'_, O, T>,
         end: T,
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
-        P: Cast<T> + Sync,
-        M: LaneMethod<P, T>,
+        O: LaneOde<T> + Sync,
+        M: LaneMethod<O, T>,
     {
         let outcomes = self.in_lanes(method, cases, &[], Some(end));
         outcomes.map(|outcome| outcome.end).collect()
     }
 
-    fn samples<T, P, M>(&self, method: &M, cases: Cases<'_, P, T>, times: &[T]) -> Vec<Samples<T>>
+    fn samples<T, O, M>(&self, method: &M, cases: Cases<'_, O, T>, times: &[T]) -> Vec<Samples<T>>
     where
         T: Lane,
-        P: Cast<T> + Sync,
-        M: LaneMethod<P, T>,
+        O: LaneOde<T> + Sync,
+        M: LaneMethod<O, T>,
     {
+        let dimension = cases.get(0).map_or(0, |(system, _)| system.dimension());
         let outcomes = self.in_lanes(method, cases, times, times.last().copied());
         outcomes
             .map(|Outcome { end, samples }| Samples {
-                dimension: 2 * P::LINKS,
+                dimension,
                 values: samples,
                 end,
             })
@@ -218,17 +222,17 @@ impl Ensemble<'_> {
     }
 
     /// Takes every case through the times to the end, in their order.
-    fn in_lanes<T, P, M>(
+    fn in_lanes<T, O, M>(
         &self,
         method: &M,
-        cases: Cases<'_, P, T>,
+        cases: Cases<'_, O, T>,
         times: &[T],
         end: Option<T>,
-    ) -> impl Iterator<Item = Outcome<T>> + use<T, P, M>
+    ) -> impl Iterator<Item = Outcome<T>> + use<T, O, M>
     where
         T: Lane,
-        P: Cast<T> + Sync,
-        M: LaneMethod<P, T>,
+        O: LaneOde<T> + Sync,
+        M: LaneMethod<O, T>,
     {
         let task = Task {
             instructions: InstructionSet::widest(),

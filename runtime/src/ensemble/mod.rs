@@ -5,9 +5,9 @@
 //! The caller chooses the type of a result; an item that fails with an error is
 //! one `Err` among the results, and the others run on.
 //!
-//! Pendulums can be integrated in the lanes of vector registers, several
-//! trajectories at a time on each thread: many starts of one model
-//! ([`Ensemble::integrate_in_lanes`]) or models that differ in their parameters
+//! Models can be integrated in the lanes of vector registers, several
+//! trajectories at a time on each thread: many starts of one system
+//! ([`Ensemble::integrate_in_lanes`]) or systems that differ in their constants
 //! ([`Ensemble::integrate_models_in_lanes`]).
 //!
 //! A trajectory is computed by one thread from its own input alone, so that

@@ -15,6 +15,8 @@
 //!
 //! [`Projected`] holds the state of [`Gauss`] and [`Rk4`] to a first integral.
 //!
+//! [`Frames`] is for real time: it cannot fail.
+//!
 //! [`Method`] is a method by its name, as users of a program write it.
 //!
 //! Every run ends with a [`Report`]; a run that fails ends with an
@@ -27,6 +29,7 @@ mod evaluator;
 mod events;
 mod explicit;
 mod fixed;
+mod frames;
 mod integrator;
 #[cfg(feature = "std")]
 pub(crate) mod lanes;
@@ -45,7 +48,9 @@ pub use dense::{DenseError, DenseStep};
 pub use error::{InputError, Inseparable, IntegrationError, RunError};
 pub use events::{Crossing, Event, Occurrence};
 pub use explicit::*;
+pub(crate) use fixed::Factored;
 pub use fixed::{Gauss, GaussOrder, Projected, Rk4, Solver, StoermerVerlet};
+pub use frames::{Frames, longest_sub_step};
 pub use integrator::Integrator;
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;

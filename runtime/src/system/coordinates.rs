@@ -1,7 +1,8 @@
 //! Pendulums as first-order systems.
 
-use super::{Cast, CastOde, Ode, Pendulum, SymmetricPendulum, Workspace};
-use crate::scalar::Scalar;
+use super::cast::put;
+use super::{Cast, CastOde, LaneOde, Ode, Pendulum, SymmetricPendulum, Workspace};
+use crate::scalar::{Scalar, at};
 
 /// A pendulum as a first-order system in absolute angles: the state is the
 /// angles followed by the angular velocities. Holds a pendulum, or a reference to
@@ -59,6 +60,36 @@ impl<T: Scalar, S: Scalar, P: Cast<T>> CastOde<T, S> for AbsoluteAngles<P> {
 
     fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
         AbsoluteAngles(self.0.cast(convert))
+    }
+}
+
+impl<T: Scalar, P: Cast<T>> LaneOde<T> for AbsoluteAngles<P> {
+    type Of<S: Scalar> = P::Of<S>;
+
+    const DIMENSION: Option<usize> = Some(2 * P::LINKS);
+
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> P::Of<S> {
+        self.0.cast(convert)
+    }
+
+    #[inline(always)]
+    fn rates_of<S: Scalar>(pendulum: &P::Of<S>, time: S, state: &[S], rates: &mut [S]) {
+        // As many as the compiler knows them to be.
+        let (Some(state), Some(rates)) = (state.get(..2 * P::LINKS), rates.get_mut(..2 * P::LINKS))
+        else {
+            return;
+        };
+        let (theta, omega) = state.split_at(P::LINKS);
+        let (velocities, alpha) = rates.split_at_mut(P::LINKS);
+        for (rate, velocity) in velocities.iter_mut().zip(omega) {
+            *rate = *velocity;
+        }
+        pendulum.evaluate(
+            time,
+            |link| at(theta, link),
+            |link| at(omega, link),
+            |link, value| put(alpha, link, value),
+        );
     }
 }
 

@@ -1,9 +1,11 @@
 //! Pendulums under torques from outside.
 
+mod fused;
+
+use alloc::vec::Vec;
 use core::fmt;
 
-use super::by_reference::by_reference;
-use super::{Ode, Pendulum};
+use super::{Cast, LaneOde, Ode, Workspace};
 use crate::scalar::Scalar;
 
 /// Equations of motion with torques that the caller hands over: wind, a hand, a motor,
@@ -12,14 +14,16 @@ use crate::scalar::Scalar;
     message = "`{Self}` takes no torques from outside",
     note = "a model takes them with `emit(forces)` in its attribute"
 )]
-pub trait Forced<T: Scalar>: Pendulum<T> {
+pub trait Forced<T: Scalar>: Cast<T> + Sized {
     /// Writes the angular accelerations, in rad/s², as
     /// [`Pendulum::accelerations_into`] does, with generalized torques Q (N m) on top of
     /// all others: M θ̈ + b = Q. Their power is Q·ω. All slices have length
-    /// [`LINKS`](Pendulum::LINKS); for others the results are NaN.
+    /// [`LINKS`](super::Pendulum::LINKS); for others the results are NaN.
     ///
     /// Q_i is a couple on link i. Forces on links have the torques that
-    /// [`Positions`](super::Positions) tells.
+    /// [`Positions`](super::Positions) tells. On a link that stands for several of a
+    /// whole tree it is the sum of the torques on these:
+    /// [`WholeTree::torques`](super::WholeTree::torques).
     fn accelerations_under_into(
         &self,
         time: T,
@@ -28,14 +32,170 @@ pub trait Forced<T: Scalar>: Pendulum<T> {
         torques: &[T],
         alpha: &mut [T],
     );
+
+    /// Writes the same accelerations, in memory that the caller keeps, as
+    /// [`Pendulum::accelerations_with`](super::Pendulum::accelerations_with): models in
+    /// `f64` and `f32` of up to 64 links fuse products with sums where the machine can.
+    /// Integrators call this one.
+    #[inline]
+    fn accelerations_under_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        torques: &[T],
+        alpha: &mut [T],
+    ) {
+        let _ = workspace;
+        if !fused::under_in_fused(self, time, [theta, omega, torques], alpha) {
+            self.accelerations_under_into(time, theta, omega, torques, alpha);
+        }
+    }
+
+    /// Writes the accelerations of this pendulum on other scalars, in their arithmetic:
+    /// of as many states at a time as a vector register holds.
+    ///
+    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
+    /// compiled for.
+    fn accelerations_under_of<S: Scalar>(
+        pendulum: &Self::Of<S>,
+        time: S,
+        theta: &[S],
+        omega: &[S],
+        torques: &[S],
+        alpha: &mut [S],
+    );
 }
 
-by_reference! {
-    impl<T: Scalar> Forced<T> for &P {
-        fn accelerations_under_into(
-            &self, time: T, theta: &[T], omega: &[T], torques: &[T], alpha: &mut [T]
-        );
+impl<T: Scalar, P: Forced<T>> Forced<T> for &P {
+    #[inline]
+    fn accelerations_under_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        torques: &[T],
+        alpha: &mut [T],
+    ) {
+        (**self).accelerations_under_with(workspace, time, theta, omega, torques, alpha);
     }
+
+    #[inline(always)]
+    fn accelerations_under_of<S: Scalar>(
+        pendulum: &Self::Of<S>,
+        time: S,
+        theta: &[S],
+        omega: &[S],
+        torques: &[S],
+        alpha: &mut [S],
+    ) {
+        P::accelerations_under_of(pendulum, time, theta, omega, torques, alpha);
+    }
+
+    #[inline]
+    fn accelerations_under_into(
+        &self,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        torques: &[T],
+        alpha: &mut [T],
+    ) {
+        (**self).accelerations_under_into(time, theta, omega, torques, alpha);
+    }
+}
+
+/// Generalized torques from outside, as a function of time, angles and velocities.
+/// Functions `|time, theta, omega, torques| …` are some.
+pub trait Torques<T> {
+    /// Writes the torques (N m) at `time` (s), angles `theta` (rad) and angular
+    /// velocities `omega` (rad/s).
+    fn torques_into(&self, time: T, theta: &[T], omega: &[T], torques: &mut [T]);
+}
+
+impl<T, F: Fn(T, &[T], &[T], &mut [T])> Torques<T> for F {
+    #[inline]
+    fn torques_into(&self, time: T, theta: &[T], omega: &[T], torques: &mut [T]) {
+        self(time, theta, omega, torques);
+    }
+}
+
+/// Torques that stay as they are until the caller changes them, one for each link.
+impl<T: Scalar> Torques<T> for Vec<T> {
+    #[inline]
+    fn torques_into(&self, _: T, _: &[T], _: &[T], torques: &mut [T]) {
+        if self.len() == torques.len() {
+            torques.copy_from_slice(self);
+        } else {
+            torques.fill(T::from_f64(f64::NAN));
+        }
+    }
+}
+
+/// Torques whose constants can be taken to any scalar, for ensembles in lanes.
+///
+/// # Examples
+///
+/// Twigs in winds of many speeds, several in a register:
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::Cast;
+/// use branched_pendulum::system::{LaneTorques, LinkPoint, Torques, UnderTorques};
+///
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     twig: rod(mass = 0.1, length = 0.3, friction = 0.01),
+///     emit(positions, forces),
+/// )]
+/// struct Twig;
+///
+/// /// It drags at the ends of links.
+/// struct Wind<T> {
+///     twig: Twig<T>,
+///     speed: T,
+/// }
+///
+/// impl<T: Scalar> Torques<T> for Wind<T> {
+///     #[inline(always)]
+///     fn torques_into(&self, _time: T, theta: &[T], omega: &[T], torques: &mut [T]) {
+///         let mut forces = [[T::from_f64(0.0); 2]];
+///         self.twig.point_velocities_into(LinkPoint::End, theta, omega, &mut forces);
+///         let drag = T::from_f64(0.05);
+///         let forces = forces.map(|[x, y]| [drag * (self.speed - x), -(drag * y)]);
+///         self.twig.point_torques_into(LinkPoint::End, theta, &forces, torques);
+///     }
+/// }
+///
+/// impl<T: Scalar> LaneTorques<T> for Wind<T> {
+///     type Of<S: Scalar> = Wind<S>;
+///
+///     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Wind<S> {
+///         Wind { twig: self.twig.cast(&convert), speed: convert(self.speed) }
+///     }
+/// }
+///
+/// let calm = State::at_rest(0.0, &[0.0]);
+/// let winds: Vec<_> = (0..20)
+///     .map(|i| Wind { twig: Twig::new(), speed: 0.5 * f64::from(i) })
+///     .map(|wind| (UnderTorques::of(Twig::new(), wind), calm.clone()))
+///     .collect();
+/// let method = Dop853::new(Options::with_tolerance(1e-9));
+/// let ends = Ensemble::new().integrate_models_in_lanes(&method, &winds, 20.0);
+/// let angles: Vec<f64> = ends.into_iter().map(|end| Ok(end?.state.values[0])).collect::<Result<_, IntegrationError<f64>>>()?;
+/// assert!(angles[0] == 0.0 && angles.is_sorted());
+/// # Ok::<(), IntegrationError<f64>>(())
+/// ```
+pub trait LaneTorques<T: Scalar>: Torques<T> {
+    /// These torques on other scalars.
+    type Of<S: Scalar>: Torques<S>;
+
+    /// Takes every constant through `convert`, as
+    /// [`Cast::cast`](super::Cast::cast).
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 }
 
 /// A pendulum under torques as a first-order system in absolute angles: the state is
@@ -89,6 +249,23 @@ impl<P, F> UnderTorques<P, F> {
     {
         Self { pendulum, torques }
     }
+
+    /// The pendulum, or a reference to one, under [`Torques`] of a type of their own, or
+    /// under a vector of those that stay as they are.
+    pub fn of(pendulum: P, torques: F) -> Self {
+        Self { pendulum, torques }
+    }
+
+    /// The torques.
+    pub fn torques(&self) -> &F {
+        &self.torques
+    }
+
+    /// The torques, to change them: a vector between two frames of
+    /// [`Frames`](crate::integrate::Frames), for example.
+    pub fn torques_mut(&mut self) -> &mut F {
+        &mut self.torques
+    }
 }
 
 impl<P: fmt::Debug, F> fmt::Debug for UnderTorques<P, F> {
@@ -104,24 +281,77 @@ impl<P: fmt::Debug, F> fmt::Debug for UnderTorques<P, F> {
     }
 }
 
-impl<T: Scalar, P: Forced<T>, F: Fn(T, &[T], &[T], &mut [T])> Ode<T> for UnderTorques<P, F> {
+impl<T: Scalar, P: Forced<T>, F: Torques<T>> Ode<T> for UnderTorques<P, F> {
     fn dimension(&self) -> usize {
         2 * P::LINKS
     }
 
     #[inline]
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        let links = P::LINKS;
-        if state.len() != 2 * links || rates.len() != 2 * links {
-            rates.fill(T::from_f64(f64::NAN));
-            return;
-        }
-        let (theta, omega) = state.split_at(links);
-        // The torques stand where the velocities will.
-        let (torques, alpha) = rates.split_at_mut(links);
-        (self.torques)(time, theta, omega, torques);
-        self.pendulum
-            .accelerations_under_into(time, theta, omega, torques, alpha);
-        torques.copy_from_slice(omega);
+        self.rates_with(&mut Workspace::new(), time, state, rates);
     }
+
+    #[inline]
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        let Self { pendulum, torques } = self;
+        fill(
+            P::LINKS,
+            torques,
+            time,
+            state,
+            rates,
+            |[theta, omega, torques], alpha| {
+                pendulum.accelerations_under_with(workspace, time, theta, omega, torques, alpha);
+            },
+        );
+    }
+}
+
+impl<T: Scalar, P: Forced<T>, F: LaneTorques<T>> LaneOde<T> for UnderTorques<P, F> {
+    type Of<S: Scalar> = UnderTorques<P::Of<S>, F::Of<S>>;
+
+    const DIMENSION: Option<usize> = Some(2 * P::LINKS);
+
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
+        UnderTorques {
+            pendulum: self.pendulum.cast(&convert),
+            torques: self.torques.on_scalar(&convert),
+        }
+    }
+
+    #[inline(always)]
+    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
+        let UnderTorques { pendulum, torques } = system;
+        fill(
+            P::LINKS,
+            torques,
+            time,
+            state,
+            rates,
+            |[theta, omega, torques], alpha| {
+                P::accelerations_under_of(pendulum, time, theta, omega, torques, alpha);
+            },
+        );
+    }
+}
+
+/// Writes the rates of a state under torques, which stand where the velocities will.
+#[inline(always)]
+fn fill<T: Scalar>(
+    links: usize,
+    torques: &impl Torques<T>,
+    time: T,
+    state: &[T],
+    rates: &mut [T],
+    accelerate: impl FnOnce([&[T]; 3], &mut [T]),
+) {
+    if state.len() != 2 * links || rates.len() != 2 * links {
+        rates.fill(T::from_f64(f64::NAN));
+        return;
+    }
+    let (theta, omega) = state.split_at(links);
+    let (first, alpha) = rates.split_at_mut(links);
+    torques.torques_into(time, theta, omega, first);
+    accelerate([theta, omega, first], alpha);
+    first.copy_from_slice(omega);
 }

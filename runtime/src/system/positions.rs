@@ -228,6 +228,27 @@ pub fn fill<A, B, C: Copy + Unknown, const N: usize>(
     }
 }
 
+/// Takes slices as arrays; none where lengths differ.
+#[inline(always)]
+pub fn arrays<T, const N: usize, const A: usize>(slices: [&[T]; A]) -> Option<[&[T; N]; A]> {
+    const { assert!(N > 0) }
+    let mut arrays = [slices.first()?.first_chunk()?; A];
+    for (array, slice) in arrays.iter_mut().zip(slices) {
+        *array = slice.try_into().ok()?;
+    }
+    Some(arrays)
+}
+
+/// Writes values to a slice; false, and nothing written, where lengths differ.
+#[inline(always)]
+pub fn write<T: Copy>(out: &mut [T], values: &[T]) -> bool {
+    let fit = out.len() == values.len();
+    if fit {
+        out.copy_from_slice(values);
+    }
+    fit
+}
+
 /// The properties of a link of a tree that is written out.
 pub fn properties<T: Scalar>(
     parents: &[Option<usize>],

@@ -1,8 +1,8 @@
 //! Small differences between copies that move in phase.
 
-use super::by_reference::by_reference;
-use super::{Ode, Pendulum};
-use crate::scalar::Scalar;
+use super::cast::put;
+use super::{Cast, LaneOde, Ode, Workspace};
+use crate::scalar::{Scalar, at};
 
 /// Copies that move in phase, whose small differences follow equations of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub struct TransverseSector {
     pub holders: usize,
 }
 
-/// An in-phase motion at one time, as slices of [`Pendulum::LINKS`] values.
+/// An in-phase motion at one time, as slices of [`LINKS`](super::Pendulum::LINKS) values.
 #[derive(Clone, Copy, Debug)]
 pub struct InPhaseMotion<'a, T> {
     /// Angles, rad.
@@ -43,7 +43,7 @@ pub struct InPhaseMotion<'a, T> {
 ///
 /// Sectors are counted in the order of [`TRANSVERSE`](Self::TRANSVERSE). Values are NaN
 /// for a sector that does not exist and for slices of other lengths.
-pub trait Transverse<T: Scalar>: Pendulum<T> {
+pub trait Transverse<T: Scalar>: Cast<T> {
     /// The sectors.
     const TRANSVERSE: &'static [TransverseSector];
 
@@ -57,6 +57,21 @@ pub trait Transverse<T: Scalar>: Pendulum<T> {
         difference: &[T],
         difference_rate: &[T],
         accelerations: &mut [T],
+    );
+
+    /// Writes those of this model on other scalars, in their arithmetic: of as many
+    /// motions at a time as a vector register holds.
+    ///
+    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
+    /// compiled for.
+    fn transverse_accelerations_of<S: Scalar>(
+        model: &Self::Of<S>,
+        sector: usize,
+        time: S,
+        motion: InPhaseMotion<'_, S>,
+        difference: &[S],
+        difference_rate: &[S],
+        accelerations: &mut [S],
     );
 
     /// Returns the energy (in J) of the differences in the copies under one link, with
@@ -87,7 +102,8 @@ pub trait Transverse<T: Scalar>: Pendulum<T> {
 /// An in-phase motion and the small differences of one sector as a first-order system:
 /// the state is the angles, the differences, the angular velocities and the rates of
 /// the differences. Differences of any size belong to it, since their equations are
-/// linear.
+/// linear. Torques from outside that are equal on all copies change the in-phase motion
+/// alone.
 ///
 /// ```
 /// # #[cfg(feature = "macros")] {
@@ -155,48 +171,187 @@ impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
 
     #[inline]
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        let (links, half) = (P::LINKS, P::LINKS + self.sector.links);
-        if state.len() != 2 * half || rates.len() != 2 * half {
-            rates.fill(T::from_f64(f64::NAN));
-            return;
-        }
-        let (angles, velocities) = state.split_at(half);
-        let (angle_rates, accelerations) = rates.split_at_mut(half);
-        angle_rates.copy_from_slice(velocities);
-        let (theta, difference) = angles.split_at(links);
-        let (omega, difference_rate) = velocities.split_at(links);
-        let (alpha, second) = accelerations.split_at_mut(links);
-        self.model.accelerations_into(time, theta, omega, alpha);
-        let motion = InPhaseMotion {
-            theta,
-            omega,
-            alpha,
-        };
-        self.model.transverse_accelerations_into(
-            self.index,
-            time,
-            motion,
-            difference,
-            difference_rate,
-            second,
+        self.rates_with(&mut Workspace::new(), time, state, rates);
+    }
+
+    #[inline]
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        let Self {
+            model,
+            index,
+            sector,
+        } = self;
+        fill(
+            (P::LINKS, sector.links),
+            (state, rates),
+            |theta, omega, alpha| model.accelerations_with(workspace, time, theta, omega, alpha),
+            |motion, [difference, rate], second| {
+                model.transverse_accelerations_into(*index, time, motion, difference, rate, second);
+            },
         );
     }
 }
 
-by_reference! {
-    impl<T: Scalar> Transverse<T> for &P {
-        const TRANSVERSE: &'static [TransverseSector];
-        fn transverse_accelerations_into(
-            &self, sector: usize, time: T, motion: InPhaseMotion<'_, T>,
-            difference: &[T], difference_rate: &[T], accelerations: &mut [T]
+impl<T: Scalar, P: Transverse<T>> LaneOde<T> for TransverseOde<P> {
+    type Of<S: Scalar> = TransverseOde<P::Of<S>>;
+
+    const DIMENSION: Option<usize> = match common_links(P::TRANSVERSE) {
+        Some(links) => Some(2 * (P::LINKS + links)),
+        None => None,
+    };
+
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
+        TransverseOde {
+            model: self.model.cast(convert),
+            index: self.index,
+            sector: self.sector,
+        }
+    }
+
+    #[inline(always)]
+    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
+        let TransverseOde {
+            model,
+            index,
+            sector,
+        } = system;
+        fill(
+            (P::LINKS, sector.links),
+            (state, rates),
+            |theta, omega, alpha| {
+                model.evaluate(
+                    time,
+                    |link| at(theta, link),
+                    |link| at(omega, link),
+                    |link, value| put(alpha, link, value),
+                );
+            },
+            |motion, [difference, rate], second| {
+                P::transverse_accelerations_of(
+                    model, *index, time, motion, difference, rate, second,
+                );
+            },
         );
-        fn transverse_energy_of(
-            &self, sector: usize, theta: &[T], difference: &[T], difference_rate: &[T]
-        ) -> T;
-        fn transverse_transfer_of(
-            &self, sector: usize, time: T, motion: InPhaseMotion<'_, T>,
-            difference: &[T], difference_rate: &[T]
-        ) -> T;
-        fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T;
+    }
+
+    fn shape(&self) -> usize {
+        self.index
+    }
+}
+
+/// Returns the number of links that all sectors have, if it is one.
+const fn common_links(sectors: &[TransverseSector]) -> Option<usize> {
+    let mut index = 0;
+    while index < sectors.len() {
+        if sectors[index].links != sectors[0].links {
+            return None;
+        }
+        index += 1;
+    }
+    match sectors {
+        [] => None,
+        [first, ..] => Some(first.links),
+    }
+}
+
+/// Writes the rates of an in-phase motion of so many links and so many differences: the
+/// accelerations of the one, from which those of the others follow.
+#[inline(always)]
+fn fill<T: Scalar>(
+    (links, differences): (usize, usize),
+    (state, rates): (&[T], &mut [T]),
+    accelerate: impl FnOnce(&[T], &[T], &mut [T]),
+    differ: impl FnOnce(InPhaseMotion<'_, T>, [&[T]; 2], &mut [T]),
+) {
+    let half = links + differences;
+    if state.len() != 2 * half || rates.len() != 2 * half {
+        rates.fill(T::from_f64(f64::NAN));
+        return;
+    }
+    let (angles, velocities) = state.split_at(half);
+    let (angle_rates, accelerations) = rates.split_at_mut(half);
+    angle_rates.copy_from_slice(velocities);
+    let (theta, difference) = angles.split_at(links);
+    let (omega, difference_rate) = velocities.split_at(links);
+    let (alpha, second) = accelerations.split_at_mut(links);
+    accelerate(theta, omega, alpha);
+    let motion = InPhaseMotion {
+        theta,
+        omega,
+        alpha,
+    };
+    differ(motion, [difference, difference_rate], second);
+}
+
+impl<T: Scalar, P: Transverse<T>> Transverse<T> for &P {
+    const TRANSVERSE: &'static [TransverseSector] = P::TRANSVERSE;
+
+    #[inline(always)]
+    fn transverse_accelerations_of<S: Scalar>(
+        model: &Self::Of<S>,
+        sector: usize,
+        time: S,
+        motion: InPhaseMotion<'_, S>,
+        difference: &[S],
+        difference_rate: &[S],
+        accelerations: &mut [S],
+    ) {
+        P::transverse_accelerations_of(
+            model,
+            sector,
+            time,
+            motion,
+            difference,
+            difference_rate,
+            accelerations,
+        );
+    }
+
+    #[inline]
+    fn transverse_accelerations_into(
+        &self,
+        sector: usize,
+        time: T,
+        motion: InPhaseMotion<'_, T>,
+        difference: &[T],
+        difference_rate: &[T],
+        accelerations: &mut [T],
+    ) {
+        (**self).transverse_accelerations_into(
+            sector,
+            time,
+            motion,
+            difference,
+            difference_rate,
+            accelerations,
+        );
+    }
+
+    #[inline]
+    fn transverse_energy_of(
+        &self,
+        sector: usize,
+        theta: &[T],
+        difference: &[T],
+        difference_rate: &[T],
+    ) -> T {
+        (**self).transverse_energy_of(sector, theta, difference, difference_rate)
+    }
+
+    #[inline]
+    fn transverse_transfer_of(
+        &self,
+        sector: usize,
+        time: T,
+        motion: InPhaseMotion<'_, T>,
+        difference: &[T],
+        difference_rate: &[T],
+    ) -> T {
+        (**self).transverse_transfer_of(sector, time, motion, difference, difference_rate)
+    }
+
+    #[inline]
+    fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T {
+        (**self).transverse_friction_power_of(sector, difference_rate)
     }
 }

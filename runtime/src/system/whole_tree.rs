@@ -220,20 +220,43 @@ impl WholeTree {
         self.expand(model, whole, |value, _| value)
     }
 
+    /// Writes the torques on the links of the model that those on all links of the whole
+    /// tree come to: on each the sum over the links that move as it. Their power is the
+    /// same.
+    ///
+    /// # Errors
+    /// Those of [`angles`](Self::angles).
+    pub fn torques<T: Scalar>(&self, whole: &[T], model: &mut [T]) -> Result<(), WholeLengthError> {
+        self.check(model.len(), whole.len())?;
+        model.fill(T::from_f64(0.0));
+        let mut whole = whole.iter();
+        self.for_each(|link, _| {
+            if let (Some(&torque), Some(sum)) = (whole.next(), model.get_mut(link)) {
+                *sum = *sum + torque;
+            }
+        });
+        Ok(())
+    }
+
+    fn check(&self, given: usize, room: usize) -> Result<(), WholeLengthError> {
+        if given == self.model && room == self.links {
+            return Ok(());
+        }
+        Err(WholeLengthError {
+            given,
+            model: self.model,
+            room,
+            whole: self.links,
+        })
+    }
+
     fn expand<T: Copy>(
         &self,
         model: &[T],
         whole: &mut [T],
         value: impl Fn(T, f64) -> T,
     ) -> Result<(), WholeLengthError> {
-        if model.len() != self.model || whole.len() != self.links {
-            return Err(WholeLengthError {
-                given: model.len(),
-                model: self.model,
-                room: whole.len(),
-                whole: self.links,
-            });
-        }
+        self.check(model.len(), whole.len())?;
         let mut room = whole.iter_mut();
         self.for_each(|link, angle| {
             if let (Some(slot), Some(given)) = (room.next(), model.get(link)) {

@@ -142,6 +142,18 @@ impl<T: Scalar> Bodies<T> {
         compiled::<FrictionPower, T>()(self, omega)
     }
 
+    /// Power Q·ω, W, of torques Q from outside. NaN for slices of another length than
+    /// there are links.
+    #[must_use]
+    pub fn outside_power(&self, omega: &[T], torques: &[T]) -> T {
+        let mut sum = Sum::new();
+        for (&rate, &torque) in omega.iter().zip(torques) {
+            sum.add(torque * rate);
+        }
+        let whole = [omega.len(), torques.len()] == [self.shape.links(); 2];
+        Self::or_nan(whole, sum.total())
+    }
+
     /// Potential energy, J, zero where all angles are zero and springs at rest:
     /// Σ m g H + m g d (1 − cos θ) + m g e sin θ + ½ κ (θ − θ_parent − ρ)², the height of a
     /// link's pivot H = H_parent + ℓ (1 − cos θ_parent) + w sin θ_parent. NaN for a

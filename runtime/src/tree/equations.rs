@@ -15,6 +15,8 @@ pub struct LinkMotion<V> {
     pub joint_angle: V,
     /// Angular velocity less the parent's, rad/s; the root's own for the root.
     pub joint_rate: V,
+    /// Generalized torque from outside, N m.
+    pub outside_torque: V,
 }
 
 mod sealed {
@@ -87,6 +89,9 @@ pub trait LinkEquations: Copy + Send + Sync + 'static {
     /// The last of the constants is a torque on the root, which every evaluation
     /// states anew; it is zero for the other links.
     const TORQUE: bool;
+
+    /// The functions read [`outside_torque`](LinkMotion::outside_torque).
+    const FORCED: bool = false;
 
     /// Returns the response of a link without children.
     fn leaf<V: Scalar>(constants: &Self::Constants<V>, link: LinkMotion<V>) -> Self::Response<V>;

@@ -20,13 +20,21 @@ use crate::system::Workspace;
 /// The equations of one tree, taken through a block: compiled with every model.
 pub(super) type SweepFn<T> = fn(&View<'_, T, T>, Way<'_, T>);
 
+/// A state, and what moves it from outside.
+#[derive(Clone, Copy)]
+pub(super) struct Given<'a, T> {
+    pub(super) drive: Option<RootDrive<T>>,
+    pub(super) theta: &'a [T],
+    pub(super) omega: &'a [T],
+    /// None where there are none.
+    pub(super) torques: Option<&'a [T]>,
+}
+
 /// One evaluation.
 struct Evaluation<'a, T: 'static> {
     tree: &'a Skeleton<T>,
     sweep: SweepFn<T>,
-    drive: Option<RootDrive<T>>,
-    theta: &'a [T],
-    omega: &'a [T],
+    given: Given<'a, T>,
 }
 
 impl<T: Scalar> Evaluation<'_, T> {
@@ -39,7 +47,7 @@ impl<T: Scalar> Evaluation<'_, T> {
         Sweep {
             block,
             constants: &self.tree.constants,
-            omega: self.omega,
+            omega: self.given.omega,
             storage: room.storage(lasting, passing, false),
             root: None,
             torque: None,
@@ -60,8 +68,9 @@ impl<T: Scalar> Evaluation<'_, T> {
         let ends = sweep.block.ends;
         in_widest::<T, _>(Motions {
             sweep: &mut *sweep,
-            theta: self.theta,
-            omega: self.omega,
+            theta: self.given.theta,
+            omega: self.given.omega,
+            torques: self.given.torques,
             alpha: ends.then_some(alpha),
         });
         if self.tree.sizes.joints {
@@ -72,8 +81,8 @@ impl<T: Scalar> Evaluation<'_, T> {
             joint_motions(
                 sweep,
                 &self.tree.plan.parents,
-                |link| at(self.theta, link),
-                |link| at(self.omega, link),
+                |link| at(self.given.theta, link),
+                |link| at(self.given.omega, link),
             );
         }
     }
@@ -120,8 +129,9 @@ impl<T: Scalar> Evaluation<'_, T> {
         let mut buffer = buffer;
         let lasting = take(&mut buffer, layout.top.lasting());
         let mut sweep = self.block(plan.top(), &layout.top, [lasting, buffer]);
-        sweep.torque = self.drive.map(|drive| drive.torque);
-        sweep.root = Some(RootDrive::above(self.tree.root, self.drive));
+        let drive = self.given.drive;
+        sweep.torque = drive.map(|drive| drive.torque);
+        sweep.root = Some(RootDrive::above(self.tree.root, drive));
         self.prepare(&mut sweep, below, alpha);
         let down = alpha.window(0, sweep.block.strips.reach().whole);
         if let (Some(view), true) = (sweep.view(), down.is_some()) {
@@ -283,13 +293,19 @@ struct SomeBlocks<'a, T> {
 pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
     tree: &Skeleton<T>,
     sweep: SweepFn<T>,
-    drive: Option<RootDrive<T>>,
-    [theta, omega]: [&[T]; 2],
+    given: Given<'_, T>,
     alpha: &mut [T],
     workspace: &mut Workspace<T>,
 ) {
     let links = tree.plan.links();
-    if theta.len() != links || omega.len() != links || alpha.len() != links {
+    let Given {
+        theta,
+        omega,
+        torques,
+        ..
+    } = given;
+    let fit = [theta.len(), omega.len(), alpha.len()] == [links; 3];
+    if !fit || torques.is_some_and(|torques| torques.len() != links || !tree.sizes.forced) {
         alpha.fill(T::from_f64(f64::NAN));
         return;
     }
@@ -298,14 +314,8 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
     let mut buffer = buffer.get_mut(unaligned..).unwrap_or_default();
     let order = &tree.plan.order;
     if order.is_empty() {
-        let evaluation = Evaluation {
-            tree,
-            sweep,
-            drive,
-            theta,
-            omega,
-        };
-        // SomeBlocks come with threads, which small trees do without.
+        let evaluation = Evaluation { tree, sweep, given };
+        // Blocks come with threads, which small trees do without.
         match BLOCKS {
             true => evaluation.solve(0, None, buffer, Shared::new(alpha)),
             false => evaluation.top(None, buffer, Shared::new(alpha)),
@@ -321,12 +331,24 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
             (*own_theta, *own_omega) = (angle, rate);
         }
     }
+    let own_torques = torques.map(|torques| {
+        let own = column();
+        for (own, &link) in own.iter_mut().zip(order) {
+            if let Some(&torque) = torques.get(link as usize) {
+                *own = torque;
+            }
+        }
+        &*own
+    });
     let evaluation = Evaluation {
         tree,
         sweep,
-        drive,
-        theta: own_theta.get(..links).unwrap_or_default(),
-        omega: own_omega,
+        given: Given {
+            drive: given.drive,
+            theta: own_theta.get(..links).unwrap_or_default(),
+            omega: own_omega,
+            torques: own_torques,
+        },
     };
     evaluation.top(None, buffer, Shared::new(own_alpha));
     for (&acceleration, &link) in own_alpha.iter().zip(order) {

@@ -19,6 +19,8 @@ pub(super) struct Sizes {
     pub(super) eliminations: usize,
     /// Equations read joint angles and rates.
     pub(super) joints: bool,
+    /// Equations read torques from outside.
+    pub(super) forced: bool,
     /// Constants are a row a link.
     pub(super) by_link: bool,
 }
@@ -40,14 +42,26 @@ impl Sizes {
             },
             eliminations: <E::Elimination<V> as Row<V>>::LENGTH,
             joints: E::JOINTS,
+            forced: E::FORCED,
             by_link,
         }
     }
 
-    /// Numbers of a link's motion: sine, cosine, velocity, and joint angle and rate.
+    /// Numbers of a link's motion: sine, cosine, velocity, joint angle and rate, torque
+    /// from outside.
     #[inline(always)]
     pub(super) const fn motion(&self) -> usize {
-        if self.joints { 5 } else { 3 }
+        3 + self.joint_motions() + self.torques()
+    }
+
+    #[inline(always)]
+    const fn joint_motions(&self) -> usize {
+        if self.joints { 2 } else { 0 }
+    }
+
+    #[inline(always)]
+    pub(super) const fn torques(&self) -> usize {
+        if self.forced { 1 } else { 0 }
     }
 }
 
@@ -102,9 +116,8 @@ impl Room {
 
     /// How many numbers are read on the way down that were formed on the way up.
     pub(super) fn lasting(&self) -> usize {
-        let joint_motions = if self.sizes.joints { 2 } else { 0 };
-        let sincos = if self.given { 2 } else { 3 };
-        (sincos + joint_motions) * self.links + self.sizes.eliminations * self.slots
+        let given = if self.given { 1 } else { 0 };
+        (self.sizes.motion() - given) * self.links + self.sizes.eliminations * self.slots
     }
 
     /// How many others there are.
@@ -129,22 +142,22 @@ impl Room {
             slots,
             given,
         } = self;
-        let (sincos, velocities, joint_motions);
+        let (sincos, velocities, joint_motions, torques);
         if in_rows {
             let width = sizes.motion();
             sincos = Columns::of_rows(take(lasting, width * links), width, 0);
             velocities = Some(sincos.beside(0));
             joint_motions = sincos.beside(1);
+            torques = sincos.beside(1 + sizes.joint_motions());
         } else {
             sincos = Columns::new(take(lasting, 2 * links), links);
             velocities = match given {
                 true => None,
                 false => Some(Columns::new(take(lasting, links), links)),
             };
-            joint_motions = match sizes.joints {
-                true => Columns::new(take(lasting, 2 * links), links),
-                false => Columns::new(&mut [], 0),
-            };
+            // Empty where there are none.
+            joint_motions = Columns::new(take(lasting, sizes.joint_motions() * links), links);
+            torques = Columns::new(take(lasting, sizes.torques() * links), links);
         }
         Storage {
             sizes,
@@ -152,6 +165,7 @@ impl Room {
             sincos,
             velocities,
             joint_motions,
+            torques,
             lead,
             responses: take(&mut passing, sizes.responses * slots),
             sums: take(&mut passing, sizes.sums * slots),
@@ -174,6 +188,8 @@ pub(super) struct Storage<'a, T> {
     /// Likewise angles and velocities relative to the parents; empty where nothing
     /// acts in joints.
     pub(super) joint_motions: Columns<'a, T, 2>,
+    /// Likewise torques from outside; empty where equations read none.
+    pub(super) torques: Columns<'a, T, 1>,
     pub(super) lead: usize,
     /// Columns of responses of links with children; on the way down the first two
     /// hold the accelerations of their pivots.

@@ -61,10 +61,12 @@ pub use equations::{LinkEquations, LinkMotion, Row};
 pub use properties::PropertyTable;
 pub use root::RootDrive;
 
-use crate::scalar::Scalar;
 use crate::scalar::kind::{compiled, compiled_once};
+use crate::scalar::{Scalar, at};
 use crate::simd::{Simd, wide_slice};
+use crate::system::cast::put;
 use crate::system::{InRegisters, Workspace};
+use evaluate::Given;
 use memory::Sizes;
 use partition::Policy;
 use skeleton::{ByGeneration, ByLink, InBlocks, InOnePiece, Skeleton};
@@ -129,6 +131,36 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         omega: &[T],
         alpha: &mut [T],
     ) {
+        let given = Given {
+            drive,
+            theta,
+            omega,
+            torques: None,
+        };
+        self.accelerate(workspace, given, alpha);
+    }
+
+    /// Writes the angular accelerations under torques from outside, as
+    /// [`Forced::accelerations_under_with`](crate::Forced::accelerations_under_with):
+    /// NaN for equations that read none
+    /// ([`LinkEquations::FORCED`]).
+    pub fn accelerations_under_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        drive: Option<RootDrive<T>>,
+        [theta, omega, torques]: [&[T]; 3],
+        alpha: &mut [T],
+    ) {
+        let given = Given {
+            drive,
+            theta,
+            omega,
+            torques: Some(torques),
+        };
+        self.accelerate(workspace, given, alpha);
+    }
+
+    fn accelerate(&self, workspace: &mut Workspace<T>, given: Given<'_, T>, alpha: &mut [T]) {
         let accelerate = match Self::IN_BLOCKS {
             true => compiled::<InBlocks, T>(),
             false => compiled::<InOnePiece, T>(),
@@ -136,14 +168,14 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         accelerate(
             &self.skeleton,
             sweep::sweep::<E, T>,
-            drive,
-            [theta, omega],
+            given,
             alpha,
             workspace,
         );
     }
 
-    /// Writes the same, in memory that is allocated for this once.
+    /// Writes the accelerations without torques from outside, in memory that is
+    /// allocated for this once.
     pub fn accelerations_into(
         &self,
         drive: Option<RootDrive<T>>,
@@ -174,7 +206,35 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         alpha: impl FnMut(usize, T),
     ) {
         let mut room = alloc::vec![T::from_f64(0.0); self.room()];
-        states::accelerations::<E, T, T>(&self.skeleton, drive, &mut room, theta, omega, alpha);
+        let (tree, none) = (&self.skeleton, |_| T::from_f64(0.0));
+        states::accelerations::<E, T, T>(tree, drive, &mut room, theta, omega, none, alpha);
+    }
+
+    /// Writes the accelerations under torques from outside, likewise; NaN where lengths
+    /// do not fit, and for equations that read none.
+    #[inline(always)]
+    pub fn evaluate_under(
+        &self,
+        drive: Option<RootDrive<T>>,
+        [theta, omega, torques]: [&[T]; 3],
+        alpha: &mut [T],
+    ) {
+        let (tree, links) = (&self.skeleton, self.skeleton.plan.links());
+        let lengths = [theta.len(), omega.len(), torques.len(), alpha.len()];
+        if !E::FORCED || lengths != [links; 4] {
+            alpha.fill(T::from_f64(f64::NAN));
+            return;
+        }
+        let mut room = alloc::vec![T::from_f64(0.0); self.room()];
+        states::accelerations::<E, T, T>(
+            tree,
+            drive,
+            &mut room,
+            |link| at(theta, link),
+            |link| at(omega, link),
+            |link| at(torques, link),
+            |link, value| put(alpha, link, value),
+        );
     }
 
     /// Returns how many values a register of states takes in a batch.
@@ -229,7 +289,8 @@ impl<E: LinkEquations, T: Scalar, V: Simd<T>> InRegisters<V> for WithRoom<'_, '_
             Room::Own(values) => values,
         };
         let tree = &self.tree.skeleton;
-        states::accelerations::<E, T, V>(tree, self.drive, room, theta, omega, alpha);
+        let none = |_| V::from_f64(0.0);
+        states::accelerations::<E, T, V>(tree, self.drive, room, theta, omega, none, alpha);
     }
 }
 

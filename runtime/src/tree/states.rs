@@ -63,6 +63,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     mut room: &mut [V],
     theta: impl Fn(usize) -> V,
     omega: impl Fn(usize) -> V,
+    torque: impl Fn(usize) -> V,
     mut alpha: impl FnMut(usize, V),
 ) {
     let (plan, room) = (&tree.states, &mut room);
@@ -90,7 +91,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         for block in partition.windows(&(0..partition.count)) {
             let lasting = take(&mut rest, own.lasting());
             let mut sweep = sweep(tree, block, own, [lasting, &mut *block_passing]);
-            form(&mut sweep, &[], &[], &theta, &omega);
+            form(&mut sweep, &[], &[], &theta, &omega, &torque);
             if let Some(view) = sweep.view() {
                 Passes::<E, T, V, V>::of(&view).up();
             }
@@ -98,7 +99,14 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
             hand_over(&mut sweep, 0, &mut top, slot + block.start, count);
         }
     }
-    form(&mut top, &plan.order, &plan.parents, &theta, &omega);
+    form(
+        &mut top,
+        &plan.order,
+        &plan.parents,
+        &theta,
+        &omega,
+        &torque,
+    );
     if let Some(view) = top.view() {
         let passes = Passes::<E, T, V, V>::of(&view);
         passes.up();
@@ -185,6 +193,7 @@ fn form<T: Scalar, V: Simd<T>>(
     parents: &[u32],
     theta: &impl Fn(usize) -> V,
     omega: &impl Fn(usize) -> V,
+    torque: &impl Fn(usize) -> V,
 ) {
     let (block, storage) = (sweep.block, &sweep.storage);
     for generation in block.own_generations() {
@@ -203,6 +212,10 @@ fn form<T: Scalar, V: Simd<T>>(
                 let _ = storage.sincos.store::<V, 2>(own, &[sines[i], cosines[i]]);
                 if let Some(velocities) = storage.velocities {
                     let _ = velocities.store::<V, 1>(own, &[rate]);
+                }
+                if storage.sizes.forced {
+                    let torque = torque(link(order, places[i]));
+                    let _ = storage.torques.store::<V, 1>(own, &[torque]);
                 }
                 if !storage.sizes.joints {
                     continue;

@@ -1,12 +1,11 @@
 //! Tests of the runtime that need no macro: integrator against known answers
-//! and the reference trajectories, its failures, analysis, files.
+//! and the reference trajectories, its failures, analysis.
 
 #![cfg(feature = "std")]
 
 mod accuracy;
 mod animation;
 mod continuation;
-mod csv;
 mod ensemble;
 mod events;
 mod failures;
@@ -21,6 +20,7 @@ mod requests;
 mod sector_modes;
 #[cfg(feature = "serde")]
 mod serde;
+mod smoothing;
 mod spectrum;
 mod stability;
 mod stepper;

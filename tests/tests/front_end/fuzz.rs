@@ -62,6 +62,14 @@ const SEEDS: &[&str] = &[
         observe(twist = sin(theta_b_1 - theta_b_2)^2 / (1 + m^2), power = p_d * sqrt(omega_a) / gravity),
     )]
     struct Watched;",
+    "#[branched_pendulum(
+        gravity = 9.8,
+        a: rod(mass = 1, length = 1) [
+            b(mass = each(left, 0.2), com = each(0.1, (0.1, 0.02)), inertia = each(1e-3, 2e-3)) * 2
+        ],
+        emit(energies, symmetric, transfer(exact)),
+    )]
+    struct Unequal;",
 ];
 
 /// Tokens to put in, beside those of the seeds.
@@ -69,7 +77,7 @@ const TOKENS: &str = "0 1 2 -1 0.5 1e300 1e-300 1e999 1e99999999999 4294967296 0
      = == , ; : :: * ** / ^ + - ( ) [ ] { } (1, 2) (,) () [] {} (((1))) \
      mass com inertia joint at friction length radius width margin bob_mass count branching shape \
      mass_ratio length_ratio gravity drive torque x y t sin cos emit crate energies momenta transfer angle amplitude exact \
-     observe budget canonical parseval matrix \
+     observe budget canonical parseval matrix each each(1, 2) \
      sin cos sqrt theta_a theta_d omega_b_1 p_m twist kinetic_energy point rod disc generations parent child m g l pi self type Self _ é Ω true struct enum fn pub where <T> #";
 
 /// Applies one random change somewhere in the tokens.
@@ -125,7 +133,7 @@ fn flattened(tokens: TokenStream, all: &mut Vec<TokenTree>) {
 #[test]
 fn mutated_descriptions_give_a_scene_or_messages() {
     let _alone = alone();
-    let mut random = Random(20_250_101);
+    let mut random = Random::new(20_250_101);
     let mut supply = Vec::new();
     // Brackets that do not match cannot be tokens.
     let words = TOKENS.split_whitespace();

@@ -144,7 +144,7 @@ fn all_angles(count: usize, mut visit: impl FnMut(&[usize])) {
 /// with all links in line.
 #[test]
 fn rule_agrees_with_straight_trees() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let mut counts = [0, 0];
     for _ in 0..4_000 {
         let size = 1 + random.below(6);
@@ -160,7 +160,7 @@ fn rule_agrees_with_straight_trees() {
 /// 45°.
 #[test]
 fn rule_agrees_with_bent_trees() {
-    let mut random = Random(12);
+    let mut random = Random::new(12);
     let mut counts = [0, 0];
     for _ in 0..1_500 {
         let size = 1 + random.below(4);

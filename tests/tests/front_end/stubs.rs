@@ -57,6 +57,7 @@ fn they_have_the_functions_and_traits_of_models() {
         "nested",
         "generations",
         "series",
+        "unequal",
     ] {
         let source = std::fs::read_to_string(fixture(&format!("scenes/{scene}.rs")))
             .expect("the fixture exists");

@@ -3,6 +3,7 @@
 use branched_pendulum_codegen::description::{self, Description};
 use branched_pendulum_codegen::report::Report;
 use branched_pendulum_codegen::scene::{self, Scene};
+pub(crate) use branched_pendulum_tests::random::Random;
 use proc_macro2::{TokenStream, TokenTree};
 
 /// All that the front end makes of an item with its attribute.
@@ -59,27 +60,4 @@ pub(crate) fn errors(source: &str) -> String {
     let Outcome { scene, report, .. } = run_source(source);
     assert!(scene.is_none(), "the source has no mistake:\n{source}");
     report.render(source)
-}
-
-/// A pseudo-random generator (splitmix64), so that every run is the same.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A number below `limit`, which is not 0.
-    pub(crate) fn below(&mut self, limit: usize) -> usize {
-        (self.next() % limit as u64) as usize
-    }
-
-    /// One of `choices`, which are not empty.
-    pub(crate) fn pick<'a, T>(&mut self, choices: &'a [T]) -> &'a T {
-        &choices[self.below(choices.len())]
-    }
 }

@@ -19,6 +19,7 @@ use branched_pendulum_tests::scenes::{
     simple::Simple,
     sweep::{Sweep, SweepParameters},
     triplet::Triplet,
+    unequal::Unequal,
 };
 use branched_pendulum_tests::source::scene;
 
@@ -69,7 +70,8 @@ impl<const S: usize> Values for Budget<f64, S> {
 macro_rules! agree {
     ($scene:literal, $model:expr, $parameters:expr, $n:literal,
      $(timed: [$($timed:ident),*], rates: [$($rates:ident),*],)?
-     $(forces: [$($forces:ident),*], under: [$($under:ident),*], none: [$($none:ident),*],)?
+     $(forces: [$($forces:ident),*], under: [$($under:ident),*], fed: [$($fed:ident),*],
+       braked: [$($braked:ident),*], none: [$($none:ident),*],)?
      two: [$($two:ident),*], one: [$($one:ident),*]) => {{
         let stages = scene($scene);
         let model = $model;
@@ -103,6 +105,8 @@ macro_rules! agree {
                 checked += 1;)*
             $(compare(stringify!($under), model.$under(&first, &second, &third).values());
                 checked += 1;)*
+            $(compare(stringify!($fed), model.$fed(&second, &third).values()); checked += 1;)*
+            $(compare(stringify!($braked), model.$braked(&second).values()); checked += 1;)*
             $(compare(stringify!($none), model.$none().values()); checked += 1;)*)?
             $($(compare(stringify!($timed), model.$timed(time, &first, &second).values());
                 checked += 1;)*
@@ -123,7 +127,7 @@ fn branch() {
     };
     agree!("branch", Branch::new(parameters).unwrap(), [0.03, 0.2], 5,
         forces: [pivot_torques, centre_torques, end_torques], under: [accelerations_under],
-        none: [link_properties],
+        fed: [outside_power], braked: [friction_power], none: [link_properties],
         two: [accelerations, kinetic_energy, momenta, velocities, canonical_rates,
               pivot_velocities, centre_velocities, end_velocities],
         one: [potential_energy, pivots, centres, ends]);
@@ -172,6 +176,17 @@ fn triplet() {
               transfer_exact_from_rates_d1, transfer_exact_from_rates_d2,
               antiphase_friction_power_d1, antiphase_friction_power_d2],
         one: [to_symmetric, from_symmetric]);
+}
+
+#[test]
+fn unequal() {
+    agree!("unequal", Unequal::new(), [], 3,
+        two: [accelerations, kinetic_energy, momenta, velocities, canonical_rates, symmetric_accelerations,
+              symmetric_momenta, symmetric_velocities, hamiltonian, antiphase_energy,
+              transfer_exact, transfer_exact_from_rates, transfer_growth,
+              transfer_growth_from_rates, transfer_forcing, transfer_forcing_from_rates,
+              antiphase_friction_power],
+        one: [potential_energy, mass_matrix, stiffness_matrix, to_symmetric, from_symmetric]);
 }
 
 #[test]
@@ -286,6 +301,7 @@ fn functions_of_a_link_in_loops() {
             omega,
             joint_angle,
             joint_rate,
+            outside_torque: 0.0,
         };
         let response: <E as LinkEquations>::Response<f64> = row(&mut random);
         let sums: <E as LinkEquations>::Sums<f64> = row(&mut random);

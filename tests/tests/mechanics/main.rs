@@ -24,3 +24,4 @@ mod symmetric;
 mod taylor;
 mod transfer;
 mod transverse;
+mod unequal;

@@ -6,7 +6,7 @@ use branched_pendulum_tests::scenes::driven_series::{DrivenSeries, DrivenSeriesP
 
 use crate::taylor::PARAMETERS;
 
-type Release = (DrivenSeries, State<f64>);
+type Release = (AbsoluteAngles<DrivenSeries>, State<f64>);
 
 /// As many that no register divides them: masses, stiffness and drive differ, and
 /// so do the starts.
@@ -37,7 +37,8 @@ fn releases() -> Vec<Release> {
             }
             let start = State::at_rest(0.1 * part, &[0.3, part - 0.5, 0.2]);
             // Unchecked: `new` refuses both.
-            (DrivenSeries::from_parameters_unchecked(parameters), start)
+            let model = DrivenSeries::from_parameters_unchecked(parameters);
+            (AbsoluteAngles(model), start)
         })
         .collect()
 }
@@ -46,8 +47,8 @@ fn releases() -> Vec<Release> {
 /// and with its state.
 fn lanes_meet_one_by_one<M>(method: &M)
 where
-    M: LaneMethod<DrivenSeries, f64>,
-    for<'a> M: Integrator<f64, AbsoluteAngles<&'a DrivenSeries>>,
+    M: LaneMethod<AbsoluteAngles<DrivenSeries>, f64>,
+    M: Integrator<f64, AbsoluteAngles<DrivenSeries>>,
 {
     let (releases, times) = (releases(), [0.1, 1.0, 2.0, END]);
     let ensemble = Ensemble::new();
@@ -70,7 +71,7 @@ where
             continue;
         }
         let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
-        let plain = method.integrate(&AbsoluteAngles(model), start, END, go_on);
+        let plain = method.integrate(model, start, END, go_on);
         let (end, plain) = (end.as_ref().unwrap(), plain.unwrap());
         assert_eq!(end.state, samples.end.as_ref().unwrap().state);
         assert_eq!(samples.states().len(), times.len());

@@ -11,7 +11,7 @@ use crate::support::Worst;
 /// Time derivative of an observable of (θ, ω) along the motion through a
 /// state: central differences of eighth order over ±4 short steps, each taken
 /// at once from the state. The steps' own error is of ninth order.
-fn rate<P: Pendulum<f64>>(
+pub(crate) fn rate<P: Pendulum<f64>>(
     model: &P,
     theta: &[f64],
     omega: &[f64],

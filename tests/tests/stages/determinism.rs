@@ -5,7 +5,9 @@ use branched_pendulum_tests::source::{attributed_struct, fixture};
 
 #[test]
 fn a_hundred_expansions_are_equal() {
-    for name in ["paper", "triplet", "offset", "sweep", "driven", "observed"] {
+    for name in [
+        "paper", "triplet", "unequal", "offset", "sweep", "driven", "observed",
+    ] {
         let source = std::fs::read_to_string(fixture(&format!("scenes/{name}.rs")))
             .expect("the fixture exists");
         let (attribute, item) = attributed_struct(&source);

@@ -5,7 +5,7 @@ use branched_pendulum_codegen::stages_without;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::source::{attributed_struct, fixture};
 
-const SCENES: [&str; 8] = [
+const SCENES: [&str; 9] = [
     "chain",
     "driven",
     "driven_series",
@@ -14,6 +14,7 @@ const SCENES: [&str; 8] = [
     "offset",
     "paper",
     "triplet",
+    "unequal",
 ];
 
 fn program(name: &str, off: Option<Pass>) -> Program {

@@ -26,6 +26,7 @@ fn emitted_prose_has_no_stray_brackets_and_lists() {
     let scenes = [
         "paper",
         "triplet",
+        "unequal",
         "nested",
         "observed",
         "driven",

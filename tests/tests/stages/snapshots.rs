@@ -130,6 +130,12 @@ fn sweep() {
 }
 
 #[test]
+fn unequal() {
+    operations("unequal");
+    functions("unequal", &["transfer_forcing"]);
+}
+
+#[test]
 fn triplet() {
     stages_of("triplet");
     operations("triplet");

@@ -33,7 +33,7 @@ mod extract;
 mod tests;
 
 use super::builder::Builder;
-use super::{Definition, Entry, Op, Program, Purpose, ValueId};
+use super::{Definition, Entry, Op, Program, Purpose, TooManyValues, ValueId};
 use extract::{Term, extract, product, sum};
 use std::collections::BTreeMap;
 
@@ -85,10 +85,14 @@ fn factored(program: &Program, chosen: &[bool]) -> Program {
             *output = function.value(*output, &values);
         }
     }
-    let strips = program.strips.clone();
-    let mut program = builder.finish(entries, program.choice);
-    program.strips = strips;
-    program.without_dead_code()
+    match builder.finish(entries, program.choice) {
+        Ok(mut factored) => {
+            factored.strips.clone_from(&program.strips);
+            factored.without_dead_code()
+        }
+        // One of the factors would be a value too many.
+        Err(TooManyValues) => program.clone(),
+    }
 }
 
 /// An entry point as the pass sees it.

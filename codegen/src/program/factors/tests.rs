@@ -3,6 +3,8 @@
 use super::common_factors;
 use crate::program::builder::Builder;
 use crate::program::{Argument, Program, Purpose, ValueId};
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 fn inputs<const N: usize>(builder: &mut Builder) -> [ValueId; N] {
     std::array::from_fn(|index| builder.input(Argument::Theta, index))
@@ -120,13 +122,8 @@ fn fused_products_cost_nothing_in_their_sums() {
 /// and never off by more than the roundings that the bound grants to both programs.
 #[test]
 fn random_sums_keep_their_values_within_the_bound() {
-    let mut state = 1_u64;
-    let mut next = |limit: usize| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (state >> 33) as usize % limit
-    };
+    let mut random = SplitMix64::seed_from_u64(1);
+    let mut next = |limit: usize| (random.next_u64() >> 33) as usize % limit;
     let mut smaller = 0;
     for _ in 0..300 {
         let terms: Vec<(bool, Vec<usize>)> = (0..2 + next(6))

@@ -4,6 +4,16 @@
 use super::strips::Strips;
 use crate::program::Argument;
 
+/// Fields of the runtime's `LinkMotion`, in the order of the elements of an argument.
+pub const LINK_MOTION: [&str; 6] = [
+    "sine",
+    "cosine",
+    "omega",
+    "joint_angle",
+    "joint_rate",
+    "outside_torque",
+];
+
 /// A constant in the equations of one link, in reduced units: m and l are those of the
 /// commonest leaf for the whole tree, L is the link's own unit of length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,13 +49,15 @@ pub enum Column {
     Spring,
     /// Angle at which the spring is at rest.
     Rest,
+    /// 1/(m l²), by which torques from outside are multiplied.
+    PerTorque,
     /// Torque on the root over m l², stated by each evaluation; zero in the rows.
     DriveTorque,
 }
 
 impl Column {
     /// All columns, in their order.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Inertia,
         Self::Moment,
         Self::LateralMoment,
@@ -61,6 +73,7 @@ impl Column {
         Self::Drag,
         Self::Spring,
         Self::Rest,
+        Self::PerTorque,
         Self::DriveTorque,
     ];
 
@@ -82,6 +95,7 @@ impl Column {
             Self::Drag => "drag",
             Self::Spring => "spring",
             Self::Rest => "rest",
+            Self::PerTorque => "per_torque",
             Self::DriveTorque => "drive_torque",
         }
     }
@@ -104,6 +118,7 @@ impl Column {
             Self::Drag => "drag against the ground over m l²",
             Self::Spring => "stiffness of the torsion spring over m l²",
             Self::Rest => "angle at which the torsion spring is at rest",
+            Self::PerTorque => "1/(m l²), factor of torques from outside",
             Self::DriveTorque => "torque on the root over m l², stated anew by every evaluation",
         }
     }
@@ -115,7 +130,7 @@ impl Strips {
         let torque = usize::from(self.has_joint_torques);
         match argument {
             Argument::Constants => self.columns.len(),
-            Argument::Motion => 5,
+            Argument::Motion => 5 + usize::from(self.has_outside_torques),
             Argument::Response => 5 + torque,
             Argument::Sums if self.has_several_places => 9 + torque,
             Argument::Sums => 5 + torque,
@@ -127,7 +142,6 @@ impl Strips {
 
     /// Name of an element.
     pub fn element(&self, argument: Argument, index: usize) -> &'static str {
-        const MOTION: [&str; 5] = ["sine", "cosine", "omega", "joint_angle", "joint_rate"];
         const RESPONSE: [&str; 6] = [
             "deficit_xx_child",
             "deficit_xy_child",
@@ -158,7 +172,7 @@ impl Strips {
         ];
         let names: &[&str] = match argument {
             Argument::Constants => return self.columns[index].name(),
-            Argument::Motion => &MOTION,
+            Argument::Motion => &LINK_MOTION,
             Argument::Response => &RESPONSE,
             Argument::Sums if self.has_several_places => &ATTACHED,
             Argument::Sums => &SUMS,

@@ -89,6 +89,25 @@ pub(super) struct Elimination {
     pub(super) offset: ValueId,
 }
 
+/// A link whose acceleration is given.
+pub(super) struct HeldLink {
+    /// ω̇ in units of length and in rad/s².
+    pub(super) acceleration: [ValueId; 2],
+    /// b.
+    first_moment: Pair,
+    /// J ω̇ + κ: the torque that it takes but for b·a.
+    steady_torque: ValueId,
+}
+
+impl HeldLink {
+    /// The torque that the acceleration takes beyond those on the link, J ω̇ + b·a + κ,
+    /// where `gravity` is −a.
+    pub(super) fn reaction(&self, builder: &mut Builder, gravity: Pair) -> ValueId {
+        let pull = builder.dot(self.first_moment, gravity);
+        builder.sub(self.steady_torque, pull)
+    }
+}
+
 impl Link {
     /// ω² in units of length.
     pub(super) fn centripetal(&self, builder: &mut Builder) -> ValueId {
@@ -237,6 +256,34 @@ impl Link {
         };
         response.name(builder, suffix);
         (response, elimination)
+    }
+
+    /// The response of a link with a given acceleration, of which nothing is eliminated:
+    /// N = Σ N, γ = γ' + b ω̇. `whole` is the link with what hangs from it.
+    pub(super) fn hold(
+        &self,
+        builder: &mut Builder,
+        whole: &Attached,
+        alpha: ValueId,
+    ) -> (Response, HeldLink) {
+        let suffix = &self.suffix;
+        let first_moment = builder.name_pair(whole.first_moment, &format!("first_moment@{suffix}"));
+        let tangential = builder.mul(self.length, alpha);
+        builder.name(tangential, &format!("tangential{suffix}"));
+        let torque = self.net_torque(builder, whole);
+        let own = builder.mul(whole.inertia, tangential);
+        let swing = builder.scale_pair(tangential, first_moment);
+        let response = Response {
+            deficit: whole.deficit.less_mass(builder, self.mass),
+            bias_force: builder.add_pairs(whole.force, swing),
+        };
+        response.name(builder, suffix);
+        let held = HeldLink {
+            acceleration: [tangential, alpha],
+            first_moment,
+            steady_torque: builder.sub(own, torque),
+        };
+        (response, held)
     }
 
     /// Response of a leaf, whose J is a constant: `gain` is ĥ/M, `inverse` 1/M.

@@ -12,13 +12,14 @@ mod columns;
 mod deficit;
 mod entries;
 mod equations;
+mod functions;
 mod reduced_units;
 mod root;
 mod strips;
 mod torques;
 mod tree;
 
-pub use columns::Column;
+pub use columns::{Column, LINK_MOTION};
 pub use strips::{Strip, Strips};
 
 use crate::scene::{LinkId, Scene};

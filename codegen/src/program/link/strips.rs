@@ -53,6 +53,8 @@ pub struct Strips {
     pub has_several_places: bool,
     /// True if joints have torques.
     pub has_joint_torques: bool,
+    /// True if torques from outside act on the links.
+    pub has_outside_torques: bool,
     /// True if a torque acts on the root.
     pub has_drive_torque: bool,
 }
@@ -287,6 +289,8 @@ impl Lowering<'_> {
                 let value = table.rows[orbit][column as usize];
                 match self.builder.as_constant(value) {
                     Some(constant) => constant,
+                    // There are too many values.
+                    None if self.builder.is_exceeded() => ConstantId(0),
                     None => unreachable!("rows hold constants"),
                 }
             });
@@ -309,6 +313,7 @@ impl Lowering<'_> {
             strips,
             has_several_places: table.has_several_places,
             has_joint_torques: any(|link| link.friction.is_some() || link.spring.is_some()),
+            has_outside_torques: scene.requests.forces,
             has_drive_torque: drive.is_some_and(|drive| drive.torque.is_some()),
         }
     }
@@ -333,6 +338,7 @@ fn row(
     let inverse = of_leaf(one);
     let area = builder.mul(tree_length, tree_length);
     let torque = builder.mul(tree_mass, area);
+    let per_torque = builder.div(one, torque);
     let [friction, drag, spring] = unit.forces.map(|force| builder.div(force, torque));
     Column::ALL.map(|column| match column {
         Column::Inertia => unit.inertia,
@@ -350,6 +356,7 @@ fn row(
         Column::Drag => drag,
         Column::Spring => spring,
         Column::Rest => unit.rest,
+        Column::PerTorque => per_torque,
         Column::DriveTorque => zero,
     })
 }

@@ -1,11 +1,12 @@
 //! The recursion through a tree that is written out, link by link.
 
-use super::equations::{Attached, Elimination, Link, Response};
+use super::equations::{Attached, Elimination, HeldLink, Link, Response};
 use super::numbered;
 use super::reduced_units::Units;
 use crate::mechanics::Trigonometric;
 use crate::program::ValueId;
 use crate::program::builder::Builder;
+use crate::program::choice::{Held, Moved};
 use crate::program::lower::{Environment, Lowering};
 use crate::program::pair::Pair;
 use crate::scene::Scene;
@@ -18,13 +19,23 @@ struct Sweep<'s> {
     links: Vec<Link>,
     /// Of the subtrees that are eliminated and not yet attached.
     responses: Vec<Option<Response>>,
+    /// Accelerations that are given.
+    held: &'s Held,
 }
 
-/// Factors of a link for the way down.
+/// A link for the way down.
 struct Solved {
-    elimination: Elimination,
+    way: Way,
     /// The pivots on the link and what hangs from each.
     groups: Vec<(Pair, Vec<usize>)>,
+}
+
+/// What is known of a link's acceleration on the way down.
+enum Way {
+    /// The factors of it.
+    Free(Elimination),
+    /// Itself.
+    Held(HeldLink),
 }
 
 impl Lowering<'_> {
@@ -34,6 +45,17 @@ impl Lowering<'_> {
         scene: &Scene,
         environment: &mut Environment<'_>,
     ) -> Vec<ValueId> {
+        self.recursion_around(scene, environment, &Held::new())
+            .accelerations
+    }
+
+    /// The same around links whose acceleration is given.
+    pub(in crate::program) fn recursion_around(
+        &mut self,
+        scene: &Scene,
+        environment: &mut Environment<'_>,
+        held: &Held,
+    ) -> Moved {
         let frame = environment.frame;
         let units = self.units(scene, environment);
         let mut directions = Vec::new();
@@ -72,6 +94,7 @@ impl Lowering<'_> {
             children: super::children(scene),
             links,
             responses: vec![None; scene.links.len()],
+            held,
         };
         let builder = &mut self.builder;
         let mut solved: Vec<Solved> = Vec::with_capacity(scene.links.len());
@@ -140,23 +163,30 @@ impl Sweep<'_> {
                 None => attached,
             });
         }
-        let (response, elimination) = match &whole {
-            None => self.leaf(builder, index),
-            Some(whole) if is_root => (None, solve_root(builder, link, whole, root)),
-            Some(whole) => {
+        let (response, way) = match (self.held.get(&index), &whole) {
+            (Some(&alpha), _) => {
+                let whole = whole.unwrap_or_else(|| link.alone(builder));
+                let (response, held) = link.hold(builder, &whole, alpha);
+                (Some(response), Way::Held(held))
+            }
+            (None, None) => self.leaf(builder, index),
+            (None, Some(whole)) if is_root => {
+                (None, Way::Free(solve_root(builder, link, whole, root)))
+            }
+            (None, Some(whole)) => {
                 let (response, elimination) = link.eliminate(builder, whole);
-                (Some(response), elimination)
+                (Some(response), Way::Free(elimination))
             }
         };
         self.responses[index] = response;
         let groups = groups.into_iter();
         Solved {
-            elimination,
+            way,
             groups: groups.map(|(place, members, _)| (place, members)).collect(),
         }
     }
 
-    fn leaf(&self, builder: &mut Builder, index: usize) -> (Option<Response>, Elimination) {
+    fn leaf(&self, builder: &mut Builder, index: usize) -> (Option<Response>, Way) {
         let link = &self.links[index];
         let gain = link
             .moment
@@ -166,17 +196,29 @@ impl Sweep<'_> {
         let (mut response, elimination) = link.leaf(builder, gain, inverse);
         let trace = builder.dot(link.moment, gain);
         response.deficit.rest = super::deficit::Rest::Trace(trace);
-        (Some(response), elimination)
+        (Some(response), Way::Free(elimination))
     }
 
     /// From the root to the leaves, (10.8): ω̇ of each link and the apparent gravity at
     /// the pivots on it.
-    fn descend(&self, builder: &mut Builder, solved: &[Solved], root: Pair) -> Vec<ValueId> {
+    fn descend(&self, builder: &mut Builder, solved: &[Solved], root: Pair) -> Moved {
         let mut gravity = vec![root; solved.len()];
         let mut accelerations = Vec::with_capacity(solved.len());
+        let mut reactions = Vec::new();
         for (index, solved) in solved.iter().enumerate() {
             let link = &self.links[index];
-            let [tangential, alpha] = link.accelerate(builder, &solved.elimination, gravity[index]);
+            let [tangential, alpha] = match &solved.way {
+                Way::Free(elimination) => link.accelerate(builder, elimination, gravity[index]),
+                Way::Held(held) => {
+                    let reduced = held.reaction(builder, gravity[index]);
+                    let unit = &self.units.links[self.scene.links[index].orbit.0];
+                    let one = builder.integer(1);
+                    let torque = builder.div(one, unit.per_torque);
+                    let reaction = builder.mul(torque, reduced);
+                    reactions.push(builder.name(reaction, &format!("reaction{}", link.suffix)));
+                    held.acceleration
+                }
+            };
             accelerations.push(alpha);
             for (number, (place, members)) in solved.groups.iter().enumerate() {
                 let at = link.gravity_at(builder, *place, gravity[index], tangential);
@@ -187,7 +229,10 @@ impl Sweep<'_> {
                 }
             }
         }
-        accelerations
+        Moved {
+            accelerations,
+            reactions,
+        }
     }
 }
 

@@ -91,6 +91,9 @@ impl<'b> SymmetricTree<'b> {
         debug_assert_eq!(f.orbit, g.orbit);
         let mean = operation(&mut self.series, &f.mean, &g.mean);
         let mut result = SymmetricField::uniform(f.orbit, mean);
+        if self.series.builder.is_exceeded() {
+            return result;
+        }
         for &id in f.differences.keys().chain(g.differences.keys()) {
             if !result.differences.contains_key(&id) {
                 let value = operation(&mut self.series, &f.at(id), &g.at(id));
@@ -116,6 +119,9 @@ impl<'b> SymmetricTree<'b> {
     pub(super) fn scale(&mut self, factor: &TruncatedSeries, f: &SymmetricField) -> SymmetricField {
         let mean = self.series.mul(factor, &f.mean);
         let mut result = SymmetricField::uniform(f.orbit, mean);
+        if self.series.builder.is_exceeded() {
+            return result;
+        }
         for (&id, value) in &f.differences {
             let value = self.series.mul(factor, value);
             result.put(id, value);
@@ -215,6 +221,9 @@ impl<'b> SymmetricTree<'b> {
         copy: usize,
     ) -> TruncatedSeries {
         let mut sum = TruncatedSeries::default();
+        if self.series.builder.is_exceeded() {
+            return sum;
+        }
         for index in 1..=branch.differences() {
             let weight = weight(index, copy);
             if weight != 0 {
@@ -232,6 +241,9 @@ impl<'b> SymmetricTree<'b> {
         (1..values.len())
             .map(|index| {
                 let mut sum = TruncatedSeries::default();
+                if self.series.builder.is_exceeded() {
+                    return sum;
+                }
                 for value in &values[..index] {
                     let difference = self.series.sub(value, &values[index]);
                     sum = self.series.add(&sum, &difference);
@@ -256,8 +268,11 @@ impl<'b> SymmetricTree<'b> {
     pub(super) fn mul(&mut self, f: &SymmetricField, g: &SymmetricField) -> SymmetricField {
         debug_assert_eq!(f.orbit, g.orbit);
         let mut result = SymmetricField::zero(f.orbit);
-        let branch = self.branch(f.orbit);
         let product = self.series.mul(&f.mean, &g.mean);
+        if self.series.builder.is_exceeded() {
+            return SymmetricField::uniform(f.orbit, product);
+        }
+        let branch = self.branch(f.orbit);
         let excess = self.excess(branch, f, g, [&f.mean, &g.mean], &mut result);
         result.mean = self.series.add(&product, &excess);
         result
@@ -296,21 +311,19 @@ impl<'b> SymmetricTree<'b> {
         let from_below = self.differences(&below);
         let mut excess = self.average(&below);
         for index in 1..count {
+            if self.series.builder.is_exceeded() {
+                break;
+            }
             let id = (branch.group, index);
             let (f_own, g_own) = (f.at(id), g.at(id));
             let forward = self.series.mul(f_mean, &g_own);
             let backward = self.series.mul(&f_own, g_mean);
             let mut difference = self.series.add(&forward, &backward);
-            for i in 1..count {
-                for l in 1..count {
-                    if let Some(ratio) = structure(count, index, i, l) {
-                        let product = self
-                            .series
-                            .mul(&f.at((branch.group, i)), &g.at((branch.group, l)));
-                        let term = self.series.scale(&ratio, &product);
-                        difference = self.series.add(&difference, &term);
-                    }
-                }
+            for (i, l, ratio) in structure(count, index) {
+                let parts = [f.at((branch.group, i)), g.at((branch.group, l))];
+                let product = self.series.mul(&parts[0], &parts[1]);
+                let term = self.series.scale(&ratio, &product);
+                difference = self.series.add(&difference, &term);
             }
             difference = self.series.add(&difference, &from_below[index - 1]);
             result.put(id, difference);

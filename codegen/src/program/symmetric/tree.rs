@@ -4,6 +4,7 @@ use super::sector::SectorId;
 use crate::exact::Rational;
 use crate::scene::Coordinate;
 use crate::scene::{LinkId, Scene};
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// The links of one orbit.
@@ -58,13 +59,31 @@ pub(super) fn weight(difference: usize, copy: usize) -> i64 {
     }
 }
 
-/// Σ_a w_ja w_ia w_la / Σ_a w_ja²: how the product of differences i and l
-/// shows in difference j.
-pub(super) fn structure(copies: usize, j: usize, i: usize, l: usize) -> Option<Rational> {
-    let sum: i64 = (0..copies)
-        .map(|copy| weight(j, copy) * weight(i, copy) * weight(l, copy))
-        .sum();
-    Rational::from_ratio(sum, (j * (j + 1)) as i64).filter(|ratio| !ratio.is_zero())
+/// Σ_a w_ja w_ia w_la / Σ_a w_ja²: how the product of differences i and l shows in
+/// difference j of so many copies; the triples i, l and ratio that are not zero.
+///
+/// Of the weights of the highest index, the copies below it have 1 and those behind it 0.
+/// So the sum is that of the two others, which are orthogonal: their norm where they are
+/// equal; where the highest index is twice there, the sum of the third one, 0; and
+/// m − m³ for three equal ones.
+pub(super) fn structure(copies: usize, j: usize) -> impl Iterator<Item = (usize, usize, Rational)> {
+    (1..copies).flat_map(move |i| {
+        let others = match i.cmp(&j) {
+            Ordering::Less => i..i + 1,
+            Ordering::Equal => j..copies,
+            Ordering::Greater => j..j + 1,
+        };
+        others.filter_map(move |l| {
+            let norm = |r: usize| (r * (r + 1)) as i64;
+            let sum = match i.cmp(&l) {
+                Ordering::Equal if i == j => j as i64 - (j as i64).pow(3),
+                Ordering::Equal => norm(i),
+                _ => norm(j),
+            };
+            let ratio = Rational::from_ratio(sum, norm(j))?;
+            (!ratio.is_zero()).then_some((i, l, ratio))
+        })
+    })
 }
 
 /// The orbits of a scene, in its order: parents first.
@@ -127,4 +146,31 @@ fn branch(scene: &Scene, chains: &[&[(usize, usize)]]) -> Option<Branch> {
         copies,
         links_per_copy,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{structure, weight};
+    use crate::exact::Rational;
+
+    #[test]
+    fn structure_constants_are_sums_over_copies() {
+        for copies in 2..7 {
+            for j in 1..copies {
+                let sum = |i, l| -> i64 {
+                    let terms = (0..copies).map(|a| weight(j, a) * weight(i, a) * weight(l, a));
+                    terms.sum()
+                };
+                let pairs = (1..copies).flat_map(|i| (1..copies).map(move |l| (i, l)));
+                let expected: Vec<_> = pairs
+                    .filter(|&(i, l)| sum(i, l) != 0)
+                    .filter_map(|(i, l)| {
+                        let ratio = Rational::from_ratio(sum(i, l), (j * (j + 1)) as i64)?;
+                        Some((i, l, ratio))
+                    })
+                    .collect();
+                assert_eq!(structure(copies, j).collect::<Vec<_>>(), expected);
+            }
+        }
+    }
 }

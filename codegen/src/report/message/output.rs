@@ -69,6 +69,13 @@ pub enum OutputMessage {
         /// The output.
         request: String,
     },
+    /// An output that holds between equal copies only.
+    UnequalCopies {
+        /// Node whose copies differ.
+        node: String,
+        /// The output.
+        wanted: UnequalUse,
+    },
     /// Transfer between identical siblings that have children.
     NestedGroups {
         /// The first such group.
@@ -109,6 +116,17 @@ pub enum OutputMessage {
     },
     /// Small differences of copies in phase where there are none.
     NoTransverse,
+}
+
+/// Use of a tree that copies which differ stand against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnequalUse {
+    /// An order of the transfer.
+    Order,
+    /// The budget of sectors.
+    Budget,
+    /// Copies in phase or joints that are locked.
+    Reduction,
 }
 
 impl OutputMessage {
@@ -207,6 +225,24 @@ impl OutputMessage {
                 "no link has copies",
                 "write `child(...) * 2`: links that merely have equal numbers do not count",
             ),
+            M::UnequalCopies { node, wanted } => {
+                let (what, hint) = match wanted {
+                    UnequalUse::Order => (
+                        "truncated forms of W need equal copies",
+                        "write `transfer(exact)`, which splits W into growth and forcing",
+                    ),
+                    UnequalUse::Budget => (
+                        "sectors of unequal copies have no budget",
+                        "write `transfer(exact)` for copies without children, or `observe(...)` \
+                           for energies of your own",
+                    ),
+                    UnequalUse::Reduction => (
+                        "`in_phase` and `locked` need a tree of equal copies",
+                        "leave this out, or `each(...)`",
+                    ),
+                };
+                problem(what, format!("the copies of `{node}` differ"), hint)
+            }
             M::NestedGroups { group } => problem(
                 format!(
                     "`transfer` needs siblings without children, the copies of `{group}` \

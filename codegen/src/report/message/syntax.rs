@@ -103,6 +103,7 @@ impl SyntaxMessage {
                 "observe",
                 "in_phase",
                 "locked",
+                "prescribed",
             ],
         );
         Self::UnknownEntry { name, nearest }

@@ -105,6 +105,8 @@ pub enum TreeMessage {
         /// The link, or `all`.
         name: String,
     },
+    /// A clause of prescribed links without any.
+    NothingPrescribed,
     /// The root as a joint that does not move.
     LockedRoot,
     /// A generation of a tree in loops as a joint that does not move.
@@ -252,6 +254,11 @@ impl TreeMessage {
                 format!("nothing to move alike: `{name}` has no copies"),
                 "no copies",
                 "leave it out, or write copies as in `child(...) * 2`",
+            ),
+            M::NothingPrescribed => problem(
+                "`prescribed()` names no link",
+                "no link",
+                "write the links whose motion is handed over, as in `prescribed(arm)`",
             ),
             M::LockedRoot => problem(
                 "the root cannot be locked",

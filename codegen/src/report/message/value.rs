@@ -100,6 +100,22 @@ pub enum ValueMessage {
         /// The constant.
         name: String,
     },
+    /// `each(...)` where there are no copies.
+    EachWithoutCopies,
+    /// `each(...)` in a generation rule.
+    EachInRule {
+        /// The rule.
+        link: String,
+    },
+    /// `each(...)` with more or fewer values than copies.
+    EachCount {
+        /// The link.
+        link: String,
+        /// Number of copies.
+        copies: usize,
+        /// Number of values.
+        values: usize,
+    },
 }
 
 /// Kind of thing for which a name is taken where it stands as a parameter.
@@ -252,6 +268,26 @@ impl ValueMessage {
                 format!("the constant `{name}` of the model is too large or too small"),
                 "no `f64` can hold a constant of this scene",
                 "masses, lengths and gravity multiply: write values in SI units",
+            ),
+            M::EachWithoutCopies => problem(
+                "`each(...)` where there are no copies",
+                "one value is enough here",
+                "write the value alone, or copies behind the link: \
+                   `child(mass = each(0.105, 0.106), ...) * 2`",
+            ),
+            M::EachInRule { link } => problem(
+                format!("`each(...)` in the generation rule `{link}`"),
+                "all links of a generation are equal",
+                "write the generations out, each link with its children in `[ ]`",
+            ),
+            M::EachCount {
+                link,
+                copies,
+                values,
+            } => problem(
+                format!("`each(...)` needs {copies} values for the {copies} copies of `{link}`"),
+                format!("{values} of them here"),
+                "write one value for each copy, as in `each(0.105, 0.106)` for two",
             ),
         }
     }

@@ -12,7 +12,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::system::Workspace;
 
 use super::articulated::Articulated;
-use super::states::random;
+use super::states::{SEEDS, random};
 use super::table;
 
 /// Numbers in one pass, about, where a state has fewer: they fit into the second
@@ -167,8 +167,8 @@ impl States {
     fn new(links: usize) -> Self {
         let states = (NUMBERS / links).max(1);
         Self {
-            theta: random(1, links, states, std::f64::consts::PI).by_state,
-            omega: random(2, links, states, 9.0).by_state,
+            theta: random(SEEDS[0], links, states, std::f64::consts::PI).by_state,
+            omega: random(SEEDS[1], links, states, 9.0).by_state,
             alpha: vec![vec![0.0; links]; states],
         }
     }

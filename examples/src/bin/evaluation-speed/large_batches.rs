@@ -11,7 +11,7 @@ use branched_pendulum::{Cast, Pendulum, branched_pendulum};
 
 use super::large::{Bush127, Bush500, Loops127, Loops1023};
 use super::measure::states_of;
-use super::states::random;
+use super::states::{SEEDS, random};
 
 /// 127 links in generations.
 #[branched_pendulum(
@@ -70,8 +70,8 @@ pub fn all() -> Vec<Row> {
 fn row<P: Cast<f64>, Q: Cast<f32>>(scene: &'static str, model: &P, narrow: &Q) -> Row {
     let links = <P as Pendulum<f64>>::LINKS;
     let states = states_of(links);
-    let theta = random(1, links, states, std::f64::consts::PI);
-    let omega = random(2, links, states, 9.0);
+    let theta = random(SEEDS[0], links, states, std::f64::consts::PI);
+    let omega = random(SEEDS[1], links, states, 9.0);
     let mut alpha = vec![0.0; links];
     let mut workspace = Workspace::new();
     let mut single = || {

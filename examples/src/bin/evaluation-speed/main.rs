@@ -50,6 +50,7 @@ const STATES: usize = 2000;
 fn main() -> ExitCode {
     program::main(|_: &Arguments, job| {
         let progress = job.progress(4);
+        job.report("seeds", states::SEEDS.to_vec());
         progress.begin("one state");
         let rows = measure::all(REPEATS);
         progress.next();

@@ -11,7 +11,7 @@ use super::articulated::Articulated;
 use super::by_hand::ByHand;
 use super::dense::Dense;
 use super::scenes::{factorization, recursion};
-use super::states::{Layouts, random};
+use super::states::{Layouts, SEEDS, random};
 use super::table::{self, Link};
 
 /// Numbers in one pass, about: they fit into the second cache. Not such that arrays
@@ -96,8 +96,8 @@ fn count<const N: usize>() -> usize {
 
 fn inputs<const N: usize>() -> (Layouts, Layouts) {
     (
-        random(1, N, count::<N>(), std::f64::consts::PI),
-        random(2, N, count::<N>(), 9.0),
+        random(SEEDS[0], N, count::<N>(), std::f64::consts::PI),
+        random(SEEDS[1], N, count::<N>(), 9.0),
     )
 }
 

@@ -3,6 +3,9 @@
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
+/// Seeds of the angles and of the velocities.
+pub const SEEDS: [u64; 2] = [1, 2];
+
 /// Angles or angular velocities of many states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layouts {

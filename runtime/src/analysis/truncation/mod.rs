@@ -44,6 +44,7 @@
 //! let average = PhaseAverage {
 //!     amplitudes: logarithmic([0.01, 1.0], 21),
 //!     states: 1000,
+//!     seed: 0,
 //!     background: Background::visited(&model, &[47.8_f64.to_radians(), 0.0, 0.0], 10.0)?,
 //! };
 //! let curves = average.curves(&model)?;

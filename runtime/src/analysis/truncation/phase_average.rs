@@ -25,6 +25,8 @@ pub struct PhaseAverage {
     pub amplitudes: Vec<f64>,
     /// Number of states at each amplitude.
     pub states: usize,
+    /// Seed of the random numbers.
+    pub seed: u64,
     /// The motion of everything that is not small.
     pub background: Background,
 }
@@ -99,7 +101,7 @@ impl PhaseAverage {
         check_bounds("bounds of the rates", n, rates)?;
         let frequencies = sector_frequencies(model)?;
         let small = small_coordinates::<M>();
-        let mut random = Random::new(0);
+        let mut random = Random::new(self.seed);
         let mut states = Vec::with_capacity(2 * n * self.states);
         for _ in 0..self.states {
             let begin = states.len();

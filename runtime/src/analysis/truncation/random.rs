@@ -1,4 +1,5 @@
-//! Random numbers that are the same on every machine.
+//! Random numbers that are the same on every machine. Of its own, so that users of
+//! committed code build no further package for these lines.
 
 /// SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, *Fast splittable
 /// pseudorandom number generators*, OOPSLA 2014).

@@ -91,7 +91,7 @@ pub enum InputError<T> {
         /// Number of components given.
         found: usize,
     },
-    /// A pendulum of an ensemble in lanes has not as many constants as the first
+    /// A system of an ensemble in lanes has not as many constants as the first
     /// one: [`Cast`](crate::system::Cast) says what it takes.
     Constants {
         /// Constants of the first one.
@@ -99,6 +99,9 @@ pub enum InputError<T> {
         /// Its own.
         found: usize,
     },
+    /// A system of an ensemble in lanes differs from the first one in more than
+    /// constants: [`LaneOde::shape`](crate::system::LaneOde::shape).
+    Shape,
     /// The starting time is infinite or NaN.
     StartTime {
         /// The time given.
@@ -238,8 +241,12 @@ impl<T: Real> fmt::Display for InputError<T> {
             }
             Self::Constants { expected, found } => write!(
                 f,
-                "the pendulum converts {found} constants, the first of the ensemble {expected}: \
+                "the system converts {found} constants, the first of the ensemble {expected}: \
                  in lanes all must have the same"
+            ),
+            Self::Shape => f.write_str(
+                "the system differs from the first of the ensemble in more than constants: in \
+                 lanes it cannot",
             ),
             Self::StartTime { value } => write!(f, "the starting time is {value}"),
             Self::StartValue { component, value } => {

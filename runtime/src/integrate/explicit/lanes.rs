@@ -18,27 +18,25 @@ use crate::integrate::lanes::registers::{
 use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
 use crate::integrate::options::Options;
 use crate::integrate::steps::StepLimits;
-use crate::scalar::at;
 use crate::scalar::{Lane, Real};
 use crate::simd::Simd;
 use crate::simd::{Part, outlined};
-use crate::system::cast::put;
-use crate::system::{Cast, State};
+use crate::system::{LaneOde, State};
 
-impl<M: EmbeddedPair, P: Cast<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKutta<M, T> {
-    type Steps<'a, R: Simd<T>> = PairInLanes<'a, M, P, T, R>;
+impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRungeKutta<M, T> {
+    type Steps<'a, R: Simd<T>> = PairInLanes<'a, M, O, T, R>;
 
     fn options(&self) -> &Options<T> {
         &self.options
     }
 
-    fn steps<'a, R: Simd<T>>(&'a self, pendulum: &P) -> PairInLanes<'a, M, P, T, R> {
+    fn steps<'a, R: Simd<T>>(&'a self, system: &O) -> PairInLanes<'a, M, O, T, R> {
         let zero = R::from_f64(0.0);
-        let start = vec![zero; 2 * P::LINKS];
+        let start = vec![zero; system.dimension()];
         let control = StepControl::new(M::CONTROL, &self.options);
         PairInLanes {
-            system: Pendulums {
-                models: Models::splat(pendulum),
+            system: Systems {
+                models: Models::splat(system),
                 smallest: R::splat(smallest_divisor()),
                 checks: [zero; MOST_STAGES],
             },
@@ -52,40 +50,27 @@ impl<M: EmbeddedPair, P: Cast<T>, T: Lane> LaneMethod<P, T> for ExplicitRungeKut
     }
 }
 
-/// The pendulums in the lanes, and what their evaluations have left.
-struct Pendulums<P: Cast<T>, T: Lane, R: Simd<T>> {
-    models: Models<P, T, R>,
+/// The systems in the lanes, and what their evaluations have left.
+struct Systems<O: LaneOde<T>, T: Lane, R: Simd<T>> {
+    models: Models<O, T, R>,
     /// A divisor for what may be zero over zero.
     smallest: R,
     /// Zero after a stage, NaN from the first stage on whose rates are not finite.
     checks: [R; MOST_STAGES],
 }
 
-/// The right-hand sides of the pendulums: angles, then velocities.
+/// The right-hand sides of the systems.
 ///
 /// In a function of its own, which all stages call: equations of large trees
 /// are long.
-impl<'a, P: Cast<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])> for Models<P, T, R> {
+impl<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
+    for Models<O, T, R>
+{
     type Output = ();
 
     #[inline(always)]
     fn part(&self, (time, state, rates): (R, &'a [R], &'a mut [R])) {
-        // As many as the compiler knows them to be.
-        let (Some(state), Some(rates)) = (state.get(..2 * P::LINKS), rates.get_mut(..2 * P::LINKS))
-        else {
-            return;
-        };
-        let (theta, omega) = state.split_at(P::LINKS);
-        let (velocities, alpha) = rates.split_at_mut(P::LINKS);
-        for (rate, velocity) in velocities.iter_mut().zip(omega) {
-            *rate = *velocity;
-        }
-        self.registers.evaluate(
-            time,
-            |link| at(theta, link),
-            |link| at(omega, link),
-            |link, value| put(alpha, link, value),
-        );
+        O::rates_of(&self.registers, time, state, rates);
     }
 }
 
@@ -99,13 +84,13 @@ fn check_finite<T: Real, R: Simd<T>>(mut check: R, values: &[R]) -> R {
     check
 }
 
-impl<P: Cast<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Pendulums<P, T, R> {
+impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Systems<O, T, R> {
     type Failure = Infallible;
     type Accepted = R::Mask;
 
     #[inline(always)]
     fn dimension(&self) -> usize {
-        2 * P::LINKS
+        self.models.dimension()
     }
 
     #[inline(always)]
@@ -147,8 +132,8 @@ impl<P: Cast<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Pendulums<P, T, R> {
 }
 
 /// The method at work.
-pub struct PairInLanes<'a, M, P: Cast<T>, T: Lane, R: Simd<T>> {
-    system: Pendulums<P, T, R>,
+pub struct PairInLanes<'a, M, O: LaneOde<T>, T: Lane, R: Simd<T>> {
+    system: Systems<O, T, R>,
     options: &'a Options<T>,
     stages: StepStages<R>,
     controls: [StepControl<T>; WIDEST],
@@ -159,12 +144,12 @@ pub struct PairInLanes<'a, M, P: Cast<T>, T: Lane, R: Simd<T>> {
     pair: PhantomData<M>,
 }
 
-impl<M: EmbeddedPair, P: Cast<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
-    for PairInLanes<'_, M, P, T, R>
+impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
+    for PairInLanes<'_, M, O, T, R>
 {
-    type Pendulum = P;
+    type System = O;
 
-    fn models(&mut self) -> &mut Models<P, T, R> {
+    fn models(&mut self) -> &mut Models<O, T, R> {
         &mut self.system.models
     }
 
@@ -198,7 +183,8 @@ impl<M: EmbeddedPair, P: Cast<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
     fn attempt(&mut self, span: StepSpan<R>, size: R) {
         let (system, stages) = (&mut self.system, &mut self.stages);
         let Ok(()) = stages.make::<M, _>(system, span);
-        self.finite_end = numbers(check_finite(R::from_f64(0.0), &stages.end[..2 * P::LINKS]));
+        let end = &stages.end[..system.dimension()];
+        self.finite_end = numbers(check_finite(R::from_f64(0.0), end));
         let Ok(()) = stages.evaluate_end::<M, _>(system, span.time + span.step);
         self.errors = numbers(M::error(stages, system, size));
     }
@@ -239,11 +225,11 @@ impl<M: EmbeddedPair, P: Cast<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
     #[inline(always)]
     fn advance(&mut self, accepted: R::Mask) {
         self.stages
-            .advance::<M, Pendulums<P, T, R>>(2 * P::LINKS, accepted);
+            .advance::<M, Systems<O, T, R>>(self.system.dimension(), accepted);
     }
 }
 
-impl<M: EmbeddedPair, P: Cast<T>, T: Lane, R: Simd<T>> PairInLanes<'_, M, P, T, R> {
+impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<'_, M, O, T, R> {
     /// Judges the step of a lane, as the driver of the plain method does, and
     /// chooses the next one. Returns true if it is accepted.
     #[inline(always)]
@@ -310,7 +296,7 @@ impl<M: EmbeddedPair, P: Cast<T>, T: Lane, R: Simd<T>> PairInLanes<'_, M, P, T, 
     /// Time and state of a stage in a lane.
     #[cold]
     fn place(&self, lane: usize, span: StepSpan<T>, stage: usize) -> (T, Vec<T>) {
-        let (stages, n) = (&self.stages, 2 * P::LINKS);
+        let (stages, n) = (&self.stages, self.system.dimension());
         // Operations as in the step, for equal bits.
         let span = StepSpan {
             time: R::splat(span.time),

@@ -7,16 +7,16 @@ use crate::scalar::Real;
 
 /// A square matrix, factorised in place with row exchanges.
 #[derive(Clone, Debug)]
-pub(super) struct Factored<T> {
+pub(crate) struct Factored<T> {
     n: usize,
     /// Rows, one after the other.
-    pub(super) entries: Vec<T>,
+    pub(crate) entries: Vec<T>,
     pivots: Vec<usize>,
 }
 
 impl<T: Real> Factored<T> {
     /// Room for a matrix of `n` rows.
-    pub(super) fn new(n: usize) -> Self {
+    pub(crate) fn new(n: usize) -> Self {
         Self {
             n,
             entries: vec![T::ZERO; n * n],
@@ -26,7 +26,7 @@ impl<T: Real> Factored<T> {
 
     /// Gaussian elimination with partial pivoting of the matrix in `entries`:
     /// 2n³/3 operations. False if it is singular or not finite.
-    pub(super) fn factorise(&mut self) -> bool {
+    pub(crate) fn factorise(&mut self) -> bool {
         let n = self.n;
         let a = &mut self.entries;
         for k in 0..n {
@@ -59,7 +59,7 @@ impl<T: Real> Factored<T> {
     }
 
     /// Replaces the right-hand side by the solution: 2n² operations.
-    pub(super) fn solve(&self, right: &mut [T]) {
+    pub(crate) fn solve(&self, right: &mut [T]) {
         let n = self.n;
         let a = &self.entries;
         for k in 0..n {

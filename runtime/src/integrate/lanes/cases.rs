@@ -1,17 +1,17 @@
-//! Trajectories to integrate: starts of one pendulum, or of one each.
+//! Trajectories to integrate: starts of one system, or of one each.
 
 use crate::system::State;
 
 /// Trajectories to integrate.
 #[derive(Debug)]
-pub(crate) enum Cases<'a, P, T> {
-    /// Of one pendulum.
-    Starts(&'a P, &'a [State<T>]),
+pub(crate) enum Cases<'a, O, T> {
+    /// Of one system.
+    Starts(&'a O, &'a [State<T>]),
     /// Each of its own.
-    Pairs(&'a [(P, State<T>)]),
+    Pairs(&'a [(O, State<T>)]),
 }
 
-impl<'a, P, T> Cases<'a, P, T> {
+impl<'a, O, T> Cases<'a, O, T> {
     /// Number of trajectories.
     pub(crate) fn len(&self) -> usize {
         match self {
@@ -20,15 +20,15 @@ impl<'a, P, T> Cases<'a, P, T> {
         }
     }
 
-    /// Pendulum and start of one of them.
-    pub(super) fn get(&self, index: usize) -> Option<(&'a P, &'a State<T>)> {
+    /// System and start of one of them.
+    pub(crate) fn get(&self, index: usize) -> Option<(&'a O, &'a State<T>)> {
         match *self {
-            Self::Starts(pendulum, starts) => starts.get(index).map(|start| (pendulum, start)),
-            Self::Pairs(pairs) => pairs.get(index).map(|(pendulum, start)| (pendulum, start)),
+            Self::Starts(system, starts) => starts.get(index).map(|start| (system, start)),
+            Self::Pairs(pairs) => pairs.get(index).map(|(system, start)| (system, start)),
         }
     }
 
-    /// Returns true if their pendulums may differ.
+    /// Returns true if their systems may differ.
     pub(super) fn models_differ(&self) -> bool {
         matches!(self, Self::Pairs(_))
     }

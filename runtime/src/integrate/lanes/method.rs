@@ -12,12 +12,12 @@ use crate::integrate::explicit::StepSpan;
 use crate::integrate::options::Options;
 use crate::scalar::Lane;
 use crate::simd::Simd;
-use crate::system::Cast;
+use crate::system::LaneOde;
 
-/// A method that integrates pendulums of the type `P` in the lanes of vector
+/// A method that integrates systems of the type `O` in the lanes of vector
 /// registers, for [`Ensemble`](crate::ensemble::Ensemble): the explicit
-/// Runge–Kutta pairs ([`Dop853`], [`Dopri5`], [`Verner98`]) any, [`Taylor`]
-/// those that give their Taylor coefficients.
+/// Runge–Kutta pairs ([`Dop853`], [`Dopri5`], [`Verner98`]) any [`LaneOde`], [`Taylor`]
+/// absolute angles of models that give their Taylor coefficients.
 ///
 /// No other crate can implement it.
 ///
@@ -25,10 +25,10 @@ use crate::system::Cast;
 /// [`Dopri5`]: crate::integrate::Dopri5
 /// [`Taylor`]: crate::integrate::Taylor
 /// [`Verner98`]: crate::integrate::Verner98
-pub trait LaneMethod<P: Cast<T>, T: Lane>: Sync {
+pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
     /// The method at work.
     #[doc(hidden)]
-    type Steps<'a, R: Simd<T>>: LaneSteps<T, R, Pendulum = P>
+    type Steps<'a, R: Simd<T>>: LaneSteps<T, R, System = O>
     where
         Self: 'a;
 
@@ -42,18 +42,18 @@ pub trait LaneMethod<P: Cast<T>, T: Lane>: Sync {
         Ok(())
     }
 
-    /// Its memory, with this pendulum in every lane.
+    /// Its memory, with this system in every lane.
     #[doc(hidden)]
-    fn steps<'a, R: Simd<T>>(&'a self, pendulum: &P) -> Self::Steps<'a, R>;
+    fn steps<'a, R: Simd<T>>(&'a self, system: &O) -> Self::Steps<'a, R>;
 }
 
 /// A method at work, with a state in each lane.
 pub trait LaneSteps<T: Lane, R: Simd<T>> {
     /// Whose motion it steps along.
-    type Pendulum: Cast<T>;
+    type System: LaneOde<T>;
 
-    /// The pendulums in the lanes.
-    fn models(&mut self) -> &mut Models<Self::Pendulum, T, R>;
+    /// The systems in the lanes.
+    fn models(&mut self) -> &mut Models<Self::System, T, R>;
 
     /// Puts a state into a lane. Without one the lane gets zeros, of which
     /// sines and cosines are sooner done than of what is not finite.

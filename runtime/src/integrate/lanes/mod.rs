@@ -1,9 +1,9 @@
-//! Trajectories of pendulums in the lanes of vector registers.
+//! Trajectories of systems in the lanes of vector registers.
 //!
 //! A method computes its steps for all lanes at once; every lane has its own
 //! time, step, error and control, by the rules of the plain method. A lane
 //! whose step is rejected keeps its state, and a lane whose trajectory has ended
-//! gets the next start, with the constants of its pendulum. Lanes without a trajectory stand still.
+//! gets the next start, with the constants of its system. Lanes without a trajectory stand still.
 
 // One index into all lanes at once.
 #![allow(clippy::needless_range_loop)]
@@ -30,16 +30,14 @@ use super::error::InputError;
 use super::explicit::StepSpan;
 use super::request::{check_start, check_times};
 use crate::scalar::{InstructionSet, Lane};
-use crate::simd::Kernel;
-use crate::simd::Simd;
-use crate::simd::dispatch;
-use crate::system::{AbsoluteAngles, Cast, State};
+use crate::simd::{Kernel, Simd, dispatch};
+use crate::system::{LaneOde, State};
 
 /// A request for all trajectories.
-pub(crate) struct Task<'a, M, P, T> {
+pub(crate) struct Task<'a, M, O, T> {
     pub(crate) instructions: InstructionSet,
     pub(crate) method: &'a M,
-    pub(crate) cases: Cases<'a, P, T>,
+    pub(crate) cases: Cases<'a, O, T>,
     /// Times at which states are wanted.
     pub(crate) times: &'a [T],
     /// None: where it starts.
@@ -51,29 +49,29 @@ pub(crate) struct Task<'a, M, P, T> {
 ///
 /// Allocates its registers once; a trajectory allocates where it begins and
 /// where it ends, and no step does.
-pub(crate) fn integrate<M, P, T>(
-    task: &Task<'_, M, P, T>,
+pub(crate) fn integrate<M, O, T>(
+    task: &Task<'_, M, O, T>,
     next: impl FnMut() -> Option<usize>,
     done: impl FnMut(usize, Outcome<T>),
 ) where
-    M: LaneMethod<P, T>,
-    P: Cast<T>,
+    M: LaneMethod<O, T>,
+    O: LaneOde<T>,
     T: Lane,
 {
     let kernel = LaneDriver { task, next, done };
     dispatch::run_in_registers(task.instructions, kernel);
 }
 
-struct LaneDriver<'a, M, P, T, N, D> {
-    task: &'a Task<'a, M, P, T>,
+struct LaneDriver<'a, M, O, T, N, D> {
+    task: &'a Task<'a, M, O, T>,
     next: N,
     done: D,
 }
 
-impl<M, P, T, N, D> Kernel<T> for LaneDriver<'_, M, P, T, N, D>
+impl<M, O, T, N, D> Kernel<T> for LaneDriver<'_, M, O, T, N, D>
 where
-    M: LaneMethod<P, T>,
-    P: Cast<T>,
+    M: LaneMethod<O, T>,
+    O: LaneOde<T>,
     T: Lane,
     N: FnMut() -> Option<usize>,
     D: FnMut(usize, Outcome<T>),
@@ -87,7 +85,7 @@ where
             return;
         };
         let method = self.task.method;
-        let dimension = 2 * P::LINKS;
+        let dimension = first.dimension();
         let valid = method.options().validate(dimension);
         if let Err(error) = valid.and_then(|()| method.check()) {
             self.refuse_all(&error);
@@ -120,10 +118,10 @@ where
     }
 }
 
-impl<M, P, T, N, D> LaneDriver<'_, M, P, T, N, D>
+impl<M, O, T, N, D> LaneDriver<'_, M, O, T, N, D>
 where
-    M: LaneMethod<P, T>,
-    P: Cast<T>,
+    M: LaneMethod<O, T>,
+    O: LaneOde<T>,
     T: Lane,
     N: FnMut() -> Option<usize>,
     D: FnMut(usize, Outcome<T>),
@@ -132,7 +130,7 @@ where
         while let Some(index) = (self.next)() {
             // A fault of the start comes first, as in the plain method.
             let case = self.task.cases.get(index);
-            let error = match case.map(|(pendulum, start)| self.check(pendulum, start)) {
+            let error = match case.map(|(system, start)| self.check(system, start)) {
                 Some(Err(error)) => error,
                 _ => error.clone(),
             };
@@ -140,8 +138,8 @@ where
         }
     }
 
-    fn check(&self, pendulum: &P, start: &State<T>) -> Result<(), InputError<T>> {
-        check_start(&AbsoluteAngles(pendulum), (start.time, &start.values))?;
+    fn check(&self, system: &O, start: &State<T>) -> Result<(), InputError<T>> {
+        check_start(system, (start.time, &start.values))?;
         check_times(start.time, self.task.times)?;
         check_times(start.time, self.task.end.as_slice())
     }
@@ -150,18 +148,18 @@ where
     /// Returns which have got one.
     fn fill<R: Simd<T>>(
         &mut self,
-        steps: &mut impl LaneSteps<T, R, Pendulum = P>,
+        steps: &mut impl LaneSteps<T, R, System = O>,
         runs: &mut Runs<T>,
     ) -> Flags {
         let mut fresh = [false; WIDEST];
         for lane in 0..R::LANES {
             while !runs.active[lane]
                 && let Some(index) = (self.next)()
-                && let Some((pendulum, start)) = self.task.cases.get(index)
+                && let Some((system, start)) = self.task.cases.get(index)
             {
-                let mut checked = self.check(pendulum, start);
+                let mut checked = self.check(system, start);
                 if checked.is_ok() && self.task.cases.models_differ() {
-                    checked = steps.models().set(lane, pendulum);
+                    checked = steps.models().set(lane, system);
                 }
                 if let Err(error) = checked {
                     (self.done)(index, Outcome::refused(error));
@@ -187,7 +185,7 @@ where
     #[inline(always)]
     fn plan<R: Simd<T>>(
         &mut self,
-        steps: &mut impl LaneSteps<T, R, Pendulum = P>,
+        steps: &mut impl LaneSteps<T, R, System = O>,
         runs: &mut Runs<T>,
     ) -> (StepSpan<R>, R) {
         let options = self.task.method.options();
@@ -217,7 +215,7 @@ where
     #[inline(always)]
     fn hand_over_failed<R: Simd<T>>(
         &mut self,
-        steps: &mut impl LaneSteps<T, R, Pendulum = P>,
+        steps: &mut impl LaneSteps<T, R, System = O>,
         runs: &mut Runs<T>,
     ) {
         while let Some((lane, index, outcome)) = runs.take_failed() {
@@ -227,22 +225,22 @@ where
         }
     }
 
-    /// Puts a pendulum that is in motion into a lane whose trajectory has failed.
+    /// Puts a system that is in motion into a lane whose trajectory has failed.
     /// One that failed in motion might fail at rest too, and slow down the other
     /// lanes.
     #[cold]
     fn replace_model<R: Simd<T>>(
         &self,
-        steps: &mut impl LaneSteps<T, R, Pendulum = P>,
+        steps: &mut impl LaneSteps<T, R, System = O>,
         runs: &Runs<T>,
         lane: usize,
     ) {
         if self.task.cases.models_differ()
             && let Some(index) = runs.any()
-            && let Some((pendulum, _)) = self.task.cases.get(index)
+            && let Some((system, _)) = self.task.cases.get(index)
         {
             // It is in a lane already, so that its constants fit.
-            let _ = steps.models().set(lane, pendulum);
+            let _ = steps.models().set(lane, system);
         }
     }
 

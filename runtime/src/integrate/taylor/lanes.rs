@@ -19,9 +19,9 @@ use crate::scalar::Lane;
 use crate::scalar::two_sum;
 use crate::simd::Simd;
 use crate::simd::{Part, Quad, outlined};
-use crate::system::{Cast, State, TaylorPendulum};
+use crate::system::{AbsoluteAngles, Cast, State, TaylorPendulum};
 
-impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
+impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<T> {
     type Steps<'a, R: Simd<T>> = TaylorInLanes<'a, P, T, R>;
 
     fn options(&self) -> &Options<T> {
@@ -32,12 +32,12 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
         self.check_options()
     }
 
-    fn steps<'a, R: Simd<T>>(&'a self, pendulum: &P) -> TaylorInLanes<'a, P, T, R> {
+    fn steps<'a, R: Simd<T>>(&'a self, system: &AbsoluteAngles<P>) -> TaylorInLanes<'a, P, T, R> {
         let (n, order) = (2 * P::LINKS, self.order());
         let zero = R::from_f64(0.0);
         let (relative, absolute) = tolerances(&self.options, n);
         TaylorInLanes {
-            models: Models::splat(pendulum),
+            models: Models::splat(system),
             options: &self.options,
             order,
             safety: super::safety(order),
@@ -59,7 +59,9 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<P, T> for Taylor<T> {
 type Expansion<'a, R> = (R, &'a [R], &'a mut [R], &'a mut [Quad<R>]);
 
 /// In a function of its own, with registers of its own.
-impl<'a, P: TaylorPendulum<T>, T: Lane, R: Simd<T>> Part<0, Expansion<'a, R>> for Models<P, T, R> {
+impl<'a, P: TaylorPendulum<T>, T: Lane, R: Simd<T>> Part<0, Expansion<'a, R>>
+    for Models<AbsoluteAngles<P>, T, R>
+{
     type Output = ();
 
     #[inline(always)]
@@ -73,7 +75,7 @@ impl<'a, P: TaylorPendulum<T>, T: Lane, R: Simd<T>> Part<0, Expansion<'a, R>> fo
 
 /// The method at work: its polynomials, and what it works on.
 pub struct TaylorInLanes<'a, P: Cast<T>, T: Lane, R: Simd<T>> {
-    models: Models<P, T, R>,
+    models: Models<AbsoluteAngles<P>, T, R>,
     options: &'a Options<T>,
     order: usize,
     safety: T,
@@ -168,9 +170,9 @@ impl<P: Cast<T>, T: Lane, R: Simd<T>> TaylorInLanes<'_, P, T, R> {
 }
 
 impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLanes<'_, P, T, R> {
-    type Pendulum = P;
+    type System = AbsoluteAngles<P>;
 
-    fn models(&mut self) -> &mut Models<P, T, R> {
+    fn models(&mut self) -> &mut Models<AbsoluteAngles<P>, T, R> {
         &mut self.models
     }
 

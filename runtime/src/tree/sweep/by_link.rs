@@ -102,7 +102,8 @@ where
     #[inline(always)]
     unsafe fn response(&self, strip: &Strip, at: usize) -> E::Response<V> {
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let (constants, link) = unsafe { (self.constants(at), self.links().motion(at, E::JOINTS)) };
+        let (constants, link) =
+            unsafe { (self.constants(at), self.links().motion(at, Self::READ)) };
         if strip.copies == 0 {
             return E::leaf(&constants, link);
         }
@@ -119,7 +120,8 @@ where
     #[inline(always)]
     unsafe fn accelerate(&self, strip: &Strip, at: usize, pivot: [V; 2], out: &mut impl Output<T>) {
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let (constants, link) = unsafe { (self.constants(at), self.links().motion(at, E::JOINTS)) };
+        let (constants, link) =
+            unsafe { (self.constants(at), self.links().motion(at, Self::READ)) };
         if strip.copies == 0 {
             let acceleration = E::accelerate_leaf(&constants, link, pivot);
             // SAFETY: places of strips and attachments are there, as the view has seen.
@@ -188,7 +190,7 @@ where
         while at < first.length {
             let (mut attachment, mut siblings) = (first, siblings);
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            let link = unsafe { self.links().motion(first.parent + at, false) };
+            let link = unsafe { self.links().motion(first.parent + at, Self::DIRECTION) };
             // SAFETY: places of strips and attachments are there, as the view has seen.
             let before: E::Sums<V> = unsafe { self.links().sums.read(first.parent + at) };
             let mut sums = before;
@@ -226,8 +228,12 @@ where
     unsafe fn attach_at(&self, attachment: &Attachment, at: usize, response: E::Response<V>) {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let (constants, link) =
-            unsafe { (self.constants(child), self.links().motion(parent, false)) };
+        let (constants, link) = unsafe {
+            (
+                self.constants(child),
+                self.links().motion(parent, Self::DIRECTION),
+            )
+        };
         let own = E::attach(&constants, link, response);
         let mut sums = own;
         if !attachment.first {
@@ -261,8 +267,12 @@ where
     unsafe fn pivot_at(&self, attachment: &Attachment, at: usize) -> [V; 2] {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let (constants, link) =
-            unsafe { (self.constants(child), self.links().motion(parent, false)) };
+        let (constants, link) = unsafe {
+            (
+                self.constants(child),
+                self.links().motion(parent, Self::DIRECTION),
+            )
+        };
         // SAFETY: places of strips and attachments are there, as the view has seen.
         let carried = unsafe { self.links().sums.read(parent) };
         E::pivot(&constants, link, carried)

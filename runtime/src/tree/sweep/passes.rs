@@ -5,7 +5,7 @@
 use core::marker::PhantomData;
 
 use super::strip::{Output, StripView};
-use super::view::{LinkCells, View};
+use super::view::{LinkCells, Read, View};
 use crate::scalar::Scalar;
 use crate::simd::dispatch::in_widest;
 use crate::simd::{Kernel, Simd};
@@ -79,6 +79,18 @@ where
     const IN_ROWS: bool = <T as Simd<N>>::LANES > 1;
 
     const SIZES: Sizes = Sizes::of::<E, V>();
+
+    /// What the equations read of a link's own motion.
+    pub(super) const READ: Read = Read {
+        joints: E::JOINTS,
+        torques: E::FORCED,
+    };
+
+    /// What they read of the motion of a parent.
+    pub(super) const DIRECTION: Read = Read {
+        joints: false,
+        torques: false,
+    };
 
     /// Constants are a row a link.
     const BY_LINK: bool = E::COPIES.is_empty();
@@ -172,7 +184,7 @@ where
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
                 // SAFETY: places of a strip and its copies are there, as the view has seen.
-                let link = unsafe { near.links.motion(at, E::JOINTS) };
+                let link = unsafe { near.links.motion(at, Self::READ) };
                 let below = match strip.leaves {
                     true => Self::leaves(&near, at, &leaf, link),
                     false if strip.lanes <= V::LANES => {
@@ -200,12 +212,12 @@ where
         link: LinkMotion<V>,
     ) -> E::Sums<V> {
         // SAFETY: places of a strip and its copies are there, as the view has seen.
-        let leaf = unsafe { near.children.motion(at, E::JOINTS) };
+        let leaf = unsafe { near.children.motion(at, Self::READ) };
         let mut sums = E::leaf(constants, leaf);
         let mut copy = 1;
         while copy < near.copies {
             // SAFETY: places of a strip and its copies are there, as the view has seen.
-            let leaf = unsafe { near.children.motion(at + copy * near.apart, E::JOINTS) };
+            let leaf = unsafe { near.children.motion(at + copy * near.apart, Self::READ) };
             add(&mut sums, &E::leaf(constants, leaf));
             copy += 1;
         }
@@ -278,7 +290,7 @@ where
                     pivot = unsafe { near.links.responses.read(at) };
                 }
                 // SAFETY: places of a strip and its copies are there, as the view has seen.
-                let link = unsafe { near.links.motion(at, E::JOINTS) };
+                let link = unsafe { near.links.motion(at, Self::READ) };
                 // SAFETY: places of a strip and its copies are there, as the view has seen.
                 let elimination = unsafe { near.links.eliminations.read(at) };
                 let (acceleration, carried) = E::accelerate(&row, link, elimination, pivot);
@@ -290,7 +302,7 @@ where
                     while copy < near.copies {
                         // SAFETY: places of a strip and its copies are there, as the view has seen.
                         let link =
-                            unsafe { near.children.motion(at + copy * near.apart, E::JOINTS) };
+                            unsafe { near.children.motion(at + copy * near.apart, Self::READ) };
                         let acceleration = E::accelerate_leaf(&leaf, link, below);
                         // SAFETY: places of a strip and its copies are there, as the view has seen.
                         unsafe { near.accelerate_leaf(out, at, copy, acceleration) };

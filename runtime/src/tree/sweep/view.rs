@@ -24,11 +24,12 @@ pub(in crate::tree) struct View<'a, N, T> {
     branching: usize,
     sizes: Sizes,
     in_rows: bool,
-    /// Sines and cosines, velocities, and joint angles and rates; from one column to
-    /// the next.
+    /// Sines and cosines, velocities, joint angles and rates, and torques from outside;
+    /// from one column to the next.
     sincos: *mut T,
     omega: *mut T,
     joint_motions: *mut T,
+    torques: *mut T,
     links: usize,
     /// Responses, sums, and what is kept; from one column to the next.
     responses: *mut T,
@@ -46,12 +47,22 @@ pub(in crate::tree) struct View<'a, N, T> {
     numbers: PhantomData<&'a mut [T]>,
 }
 
+/// What equations read of a link's motion beside sine, cosine and velocity.
+#[derive(Clone, Copy)]
+pub(super) struct Read {
+    /// Joint angle and rate.
+    pub(super) joints: bool,
+    /// The torque from outside.
+    pub(super) torques: bool,
+}
+
 /// Where the numbers of links stand.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LinkCells<T> {
     sincos: Cells<T>,
     omega: Cells<T>,
     joint_motions: Cells<T>,
+    torques: Cells<T>,
     pub(super) responses: Cells<T>,
     pub(super) sums: Cells<T>,
     pub(super) eliminations: Cells<T>,
@@ -66,28 +77,33 @@ impl<T: Scalar> LinkCells<T> {
             sincos: self.sincos.from(own),
             omega: self.omega.from(own),
             joint_motions: self.joint_motions.from(own),
+            torques: self.torques.from(own),
             responses: self.responses.from(slot),
             sums: self.sums.from(slot),
             eliminations: self.eliminations.from(slot),
         }
     }
 
-    /// Reads the motions of the links from `at` on, with those of joints where asked
-    /// for.
+    /// Reads the motions of the links from `at` on, of which the equations read these.
     ///
     /// # Safety
     /// As many links as `V` has lanes are there.
     #[inline(always)]
-    pub(super) unsafe fn motion<V: Simd<T>>(&self, at: usize, joints: bool) -> LinkMotion<V> {
+    pub(super) unsafe fn motion<V: Simd<T>>(&self, at: usize, read: Read) -> LinkMotion<V> {
         // SAFETY: the caller's.
         let [sine, cosine]: [V; 2] = unsafe { self.sincos.read(at) };
         // SAFETY: the caller's.
         let [omega]: [V; 1] = unsafe { self.omega.read(at) };
-        // Where nothing acts in joints nobody reads them.
-        let [joint_angle, joint_rate] = match joints {
+        // What nobody reads may be anything.
+        let [joint_angle, joint_rate] = match read.joints {
             // SAFETY: the caller's.
             true => unsafe { self.joint_motions.read(at) },
             false => [omega; 2],
+        };
+        let [outside_torque] = match read.torques {
+            // SAFETY: the caller's.
+            true => unsafe { self.torques.read(at) },
+            false => [omega],
         };
         LinkMotion {
             sine,
@@ -95,6 +111,7 @@ impl<T: Scalar> LinkCells<T> {
             omega,
             joint_angle,
             joint_rate,
+            outside_torque,
         }
     }
 }
@@ -121,6 +138,10 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
             true => storage.joint_motions.window(storage.lead, reach.own)?,
             false => storage.joint_motions,
         };
+        let torques = match sizes.forced {
+            true => storage.torques.window(storage.lead, reach.own)?,
+            false => storage.torques,
+        };
         let all = |columns: usize, numbers: &[T]| columns * slots <= numbers.len();
         let there = reach.slot <= slots
             && all(sizes.responses, storage.responses)
@@ -143,6 +164,7 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
             sincos: sincos.start(),
             omega,
             joint_motions: joint_motions.start(),
+            torques: torques.start(),
             links: sincos.stride(),
             responses: storage.responses.as_mut_ptr(),
             sums: storage.sums.as_mut_ptr(),
@@ -182,6 +204,7 @@ impl<'a, N, T: Scalar> View<'a, N, T> {
             sincos: Cells::columns(self.sincos, self.links),
             omega: Cells::columns(self.omega, self.links),
             joint_motions: Cells::columns(self.joint_motions, self.links),
+            torques: Cells::columns(self.torques, self.links),
             responses: Cells::columns(self.responses, self.slots),
             sums: Cells::columns(self.sums, self.slots),
             eliminations: Cells::columns(self.eliminations, self.slots),
@@ -195,6 +218,7 @@ impl<'a, N, T: Scalar> View<'a, N, T> {
             sincos: Cells::rows(self.sincos, sizes.motion()),
             omega: Cells::rows(self.omega, sizes.motion()),
             joint_motions: Cells::rows(self.joint_motions, sizes.motion()),
+            torques: Cells::rows(self.torques, sizes.motion()),
             responses: Cells::rows(self.responses, sizes.responses),
             sums: Cells::rows(self.sums, sizes.sums),
             eliminations: Cells::rows(self.eliminations, sizes.eliminations),

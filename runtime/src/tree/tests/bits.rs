@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use super::super::evaluate::accelerations as one_state;
+use super::super::evaluate::{Given, accelerations as one_state};
 use super::super::sweep::SweepKernel;
 use super::super::{LinkEquations, Tree, states};
 use super::equations::{SHAPES, any, by_generation, by_link, links};
@@ -14,7 +14,7 @@ use crate::simd::{Fused, Kernel, Simd};
 use crate::system::Workspace;
 
 fn in_set<E: LinkEquations, T: Lane, const SET: usize>(tree: &Tree<E, T>, links: usize) -> Vec<T> {
-    let [theta, omega] = motion(links);
+    let [theta, omega, torques] = motion(links);
     let mut alpha = alloc::vec![T::from_f64(f64::NAN); links];
     one_state::<T, true>(
         &tree.skeleton,
@@ -22,8 +22,12 @@ fn in_set<E: LinkEquations, T: Lane, const SET: usize>(tree: &Tree<E, T>, links:
             let kernel = SweepKernel::<E, T>(view, way, PhantomData);
             run_wide(InstructionSet::ALL[SET], kernel);
         },
-        Some(drive()),
-        [&*theta, &*omega],
+        Given {
+            drive: Some(drive()),
+            theta: &theta,
+            omega: &omega,
+            torques: Some(&torques),
+        },
         &mut alpha,
         &mut Workspace::new(),
     );
@@ -40,7 +44,7 @@ impl<E: LinkEquations, T: Lane> Kernel<T> for States<'_, E, T> {
     #[inline(always)]
     fn run<V: Simd<T>>(self) -> Vec<T> {
         let Self(tree, links) = self;
-        let [theta, omega] = motion::<T>(links);
+        let [theta, omega, torques] = motion::<T>(links);
         let mut room = alloc::vec![V::from_f64(f64::NAN); tree.room()];
         let mut alpha = alloc::vec![T::from_f64(f64::NAN); links];
         let drive = drive::<T>();
@@ -55,6 +59,7 @@ impl<E: LinkEquations, T: Lane> Kernel<T> for States<'_, E, T> {
             &mut room,
             |link| V::splat(theta[link]) + offsets,
             |link| V::splat(omega[link]),
+            |link| V::splat(torques[link]),
             |link, value| {
                 let mut numbers = [T::from_f64(0.0); 16];
                 value.store(&mut numbers);

@@ -14,7 +14,7 @@ fn dot([x, y]: Vector, [u, v]: Vector) -> f64 {
 /// Solves Σ_k (∂r_k/∂θ_i)·m_k (r̈_k + g) + I_i θ̈_i = Q_i for the accelerations.
 fn dense(parents: &[u32], bodies: &[SampleBody]) -> Vec<f64> {
     let count = bodies.len();
-    let [theta, omega] = motion::<f64>(count);
+    let [theta, omega, torques] = motion::<f64>(count);
     let drive = drive::<f64>();
     let parent = |link: usize| (link > 0).then(|| parents[link] as usize);
     let u = |link: usize| [theta[link].sin(), -theta[link].cos()];
@@ -55,7 +55,7 @@ fn dense(parents: &[u32], bodies: &[SampleBody]) -> Vec<f64> {
             rate -= omega[above];
         }
         let torque = body.friction * rate + body.spring * angle;
-        matrix[k][count] -= torque;
+        matrix[k][count] += torques[k] - torque;
         if let Some(above) = parent(k) {
             matrix[above][count] += torque;
         }

@@ -1,5 +1,5 @@
-//! Equations of links written by hand, with forces in the joints and a torque on the
-//! root: `docs/physics.md`, section 2.
+//! Equations of links written by hand, with forces in the joints, torques from outside and
+//! one on the root: `docs/physics.md`, section 2.
 
 use alloc::vec::Vec;
 
@@ -119,7 +119,7 @@ fn solved<V: Scalar>(
     let b = plus(scaled(v, moment), [pull_x, pull_y]);
     let whole = inertia + whole;
     let joint = friction * link.joint_rate + spring * link.joint_angle;
-    let kappa = along - (below + root_torque - joint);
+    let kappa = along - (below + root_torque + link.outside_torque - joint);
     let square = link.omega * link.omega;
     let force = plus([f_x, f_y], scaled(u, -(square * moment)));
     let g = scaled(b, V::from_f64(1.0) / whole);
@@ -164,6 +164,7 @@ impl<const SHAPE: usize> LinkEquations for CommonPivot<SHAPE> {
     const NAMES: &'static [&'static str] = &[];
     const JOINTS: bool = true;
     const TORQUE: bool = true;
+    const FORCED: bool = true;
 
     fn leaf<V: Scalar>(constants: &Constants<V>, link: LinkMotion<V>) -> [V; 6] {
         solved(constants, link, [V::from_f64(0.0); 10]).0
@@ -222,6 +223,7 @@ impl LinkEquations for OwnPivots {
     const NAMES: &'static [&'static str] = &[];
     const JOINTS: bool = true;
     const TORQUE: bool = true;
+    const FORCED: bool = true;
 
     fn leaf<V: Scalar>(constants: &Constants<V>, link: LinkMotion<V>) -> [V; 6] {
         solved(constants, link, [V::from_f64(0.0); 10]).0

@@ -143,6 +143,26 @@ pub(super) const CASES: &[Case] = &[
     a: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1),
     emit(transfer(exact)))] struct Pendulum;",
     ),
+    // Copies that differ.
+    (
+        "each",
+        "#[branched_pendulum(gravity = each(9.8, 9.7), drive(x = each(t, 2 * t)),
+    a: rod(mass = each(1, 2), length = 1) [
+        b: rod(mass = each(0.1, 0.2, 0.3), length = 2 * each(1, 2)) * 2,
+        c: rod(mass = each(0.1, -0.1), length = each(m, (1, 2))) * 2,
+        d: generations(count = 2, shape = rod, mass = each(1, 2), length = 1) * 2,
+        e: rod(mass = each() + 1, length = each(1, 2) * 2) * 2,
+    ])] struct Pendulum;",
+    ),
+    (
+        "unequal_copies",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1) [
+        b: rod(mass = each(0.1, 0.2), length = 0.3) * 2, c: rod(mass = 1, length = 1),
+    ],
+    emit(transfer(exact, angle = 1, amplitude = 2), budget),
+    in_phase(b), locked(c, 0.1))] struct Pendulum;",
+    ),
     // Observables.
     (
         "observables",
@@ -192,6 +212,19 @@ pub(super) const CASES: &[Case] = &[
     in_phase(c, d, b, c),
     locked(a, 0), locked(b, 0), locked(c, 90), locked(c, tilt), locked(e, 0),
     )] struct Pendulum;",
+    ),
+    (
+        "prescribed",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    prescribed(), prescribed(b_3, a, a), prescribed(b), prescribed(b_1, b_2), prescribed(b_1, b_2),
+    )] struct Pendulum;",
+    ),
+    (
+        "prescribed_in_loops",
+        "#[branched_pendulum(gravity = 1, code = loops,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    prescribed(a))] struct Pendulum;",
     ),
     (
         "no_transverse",

@@ -11,13 +11,20 @@ pub(crate) struct Grammar<'a> {
     odd: usize,
     /// Links of the present tree.
     links: Vec<String>,
+    /// Copies of the present link.
+    copies: usize,
 }
 
 /// A description: attribute and item.
 pub(crate) fn description(random: &mut Random) -> (String, String) {
     let odd = *random.pick(&[0, 0, 0, 60, 25, 8]);
     let links = Vec::new();
-    let mut grammar = Grammar { random, odd, links };
+    let mut grammar = Grammar {
+        random,
+        odd,
+        links,
+        copies: 1,
+    };
     let attribute = grammar.attribute();
     (attribute, grammar.item())
 }
@@ -128,6 +135,14 @@ impl Grammar<'_> {
         if self.one_in(8) {
             return self.rule(&name);
         }
+        let copies = match self.links.len() > 1 && self.one_in(3) {
+            true if self.is_odd() => {
+                self.pick(&["0", "1", "7", "40", "4097", "99999999999", "m", "-1", "2.0"])
+            }
+            true => self.pick(&["2", "2", "3"]),
+            false => String::new(),
+        };
+        self.copies = copies.parse().unwrap_or(1);
         let (shape, needed) = *self.random.pick(SHAPES);
         let mut properties: Vec<String> = Vec::new();
         for property in needed {
@@ -165,11 +180,7 @@ impl Grammar<'_> {
         if !children.is_empty() {
             link.push_str(&format!(" [{}]", children.join(", ")));
         }
-        if self.links.len() > 1 && self.one_in(3) {
-            let copies = match self.is_odd() {
-                true => self.pick(&["0", "1", "7", "40", "4097", "99999999999", "m", "-1", "2.0"]),
-                false => self.pick(&["2", "2", "3"]),
-            };
+        if !copies.is_empty() {
             link.push_str(&format!(" * {copies}"));
         }
         link
@@ -177,6 +188,7 @@ impl Grammar<'_> {
 
     /// A rule for generations.
     fn rule(&mut self, name: &str) -> String {
+        self.copies = 1;
         let (shape, needed) = self.random.pick(&SHAPES[..7]);
         let (shape, needed) = (shape.to_owned(), needed.to_owned());
         let mut properties: Vec<String> = needed.iter().map(|p| self.property(p)).collect();
@@ -225,12 +237,25 @@ impl Grammar<'_> {
     }
 
     fn property(&mut self, name: &str) -> String {
+        let copies = match self.is_odd() {
+            true => self.random.below(4),
+            false => self.copies,
+        };
+        if copies != 1 && copies < 10 && self.one_in(5) {
+            let values: Vec<String> = (0..copies).map(|_| self.point(name)).collect();
+            return format!("{name} = each({})", values.join(", "));
+        }
+        let value = self.point(name);
+        format!("{name} = {value}")
+    }
+
+    /// The value of one copy, for points also a pair.
+    fn point(&mut self, name: &str) -> String {
         if ["com", "joint", "at"].contains(&name) && self.one_in(4) {
             let (along, lateral) = (self.value(), self.value());
-            return format!("{name} = ({along}, {lateral})");
+            return format!("({along}, {lateral})");
         }
-        let value = self.value();
-        format!("{name} = {value}")
+        self.value()
     }
 
     /// The value of a property.

@@ -138,17 +138,15 @@ fn driven_trees_that_differ_in_lanes() {
             time: 0.1 * f64::from(i),
             values: random.around_zero(2 * <Bush as Pendulum<f64>>::LINKS, 0.4),
         };
-        (bush(0.1 * f64::from(i)), start)
+        (AbsoluteAngles(bush(0.1 * f64::from(i))), start)
     };
-    let releases: Vec<(Bush, State<f64>)> = (0..11).map(&mut release).collect();
+    let releases: Vec<(AbsoluteAngles<Bush>, State<f64>)> = (0..11).map(&mut release).collect();
     let (method, end) = (Dop853::new(Options::with_tolerance(1e-9)), 1.5);
     let lanes = Ensemble::new().integrate_models_in_lanes(&method, &releases, end);
     for ((model, start), lane) in releases.iter().zip(lanes) {
         let lane = lane.unwrap().state;
         let plain = method
-            .integrate(&AbsoluteAngles(model), start, end, |_| {
-                std::ops::ControlFlow::Continue(())
-            })
+            .integrate(model, start, end, |_| std::ops::ControlFlow::Continue(()))
             .unwrap();
         assert_eq!(lane.time, end);
         for (lane, plain) in lane.values.iter().zip(&plain.state.values) {

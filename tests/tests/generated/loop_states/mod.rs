@@ -187,8 +187,9 @@ fn lanes_meet_the_plain_method<P: Cast<f64> + Sync>(model: &P) {
         })
         .collect();
     let (method, end) = (Dop853::new(Options::with_tolerance(1e-9)), 0.3);
-    let lanes = Ensemble::new().integrate_in_lanes(&method, model, &starts, end);
-    let few = Ensemble::new().integrate_in_lanes(&method, model, &starts[13..], end);
+    let lanes = Ensemble::new().integrate_in_lanes(&method, &AbsoluteAngles(model), &starts, end);
+    let few =
+        Ensemble::new().integrate_in_lanes(&method, &AbsoluteAngles(model), &starts[13..], end);
     assert_eq!(lanes[13..], few);
     let plain = Ensemble::new().integrate(&method, &AbsoluteAngles(model), &starts, end);
     for ((start, lane), plain) in starts.iter().zip(lanes).zip(plain) {

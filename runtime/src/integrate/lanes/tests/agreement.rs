@@ -1,6 +1,6 @@
 //! Steps, ends and samples are those of the plain methods but for rounding.
 
-use super::{AbsoluteAngles, Cases, END, Each, Integrator, LaneMethod, Lopsided};
+use super::{AbsoluteAngles, Cases, END, Each, Integrator, LaneMethod, Lopsided, System};
 use super::{lopsided, outcomes, plain, starts, times, with_each};
 use crate::integrate::{
     Dop853, Dopri5, InputError, IntegrationError, Options, StopReason, Taylor, Tolerance, Verner98,
@@ -13,8 +13,8 @@ struct ThePlainMethodIsMet;
 impl Each<f64> for ThePlainMethodIsMet {
     fn each<M>(&mut self, method: &M)
     where
-        M: LaneMethod<Lopsided<f64>, f64>,
-        for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
+        M: LaneMethod<System<f64>, f64>,
+        M: Integrator<f64, System<f64>>,
     {
         let starts = starts::<f64>();
         let (forwards, model) = (times::<f64>(), lopsided());
@@ -26,7 +26,7 @@ impl Each<f64> for ThePlainMethodIsMet {
             for (start, lane) in starts.iter().zip(lanes) {
                 let mut samples = Vec::new();
                 let plain = method
-                    .sample(&AbsoluteAngles(&model), start, &times, |_, y| {
+                    .sample(&model, start, &times, |_, y| {
                         samples.extend_from_slice(y);
                     })
                     .unwrap();
@@ -83,8 +83,8 @@ fn the_plain_methods_are_met_to_the_tolerance() {
 /// Evaluations of an accepted step and of a rejected one, in lanes and not.
 fn evaluations_are_counted<M>(method: &M, [accepted, rejected]: [u64; 2])
 where
-    M: LaneMethod<Lopsided<f64>, f64>,
-    for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
+    M: LaneMethod<System<f64>, f64>,
+    M: Integrator<f64, System<f64>>,
 {
     let (model, starts) = (lopsided(), starts());
     let cases = Cases::Starts(&model, &starts);
@@ -127,14 +127,14 @@ struct ZeroNeedsNoAbsoluteTolerance;
 impl Each<f64> for ZeroNeedsNoAbsoluteTolerance {
     fn each<M>(&mut self, method: &M)
     where
-        M: LaneMethod<Lopsided<f64>, f64>,
-        for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
+        M: LaneMethod<System<f64>, f64>,
+        M: Integrator<f64, System<f64>>,
     {
-        let still = Lopsided {
+        let still = AbsoluteAngles(Lopsided {
             drive: 0.0,
             lateral: 0.0,
-            ..lopsided()
-        };
+            ..lopsided().0
+        });
         let starts = [State::at_rest(0.0, &[0.0, 0.0])];
         let cases = Cases::Starts(&still, &starts);
         let rest = outcomes(InstructionSet::widest(), method, cases, &[], 1.0).remove(0);

@@ -2,7 +2,7 @@
 
 use std::mem::discriminant;
 
-use super::{AbsoluteAngles, Cases, END, Each, End, Integrator, LaneMethod, Lopsided};
+use super::{Cases, END, Each, End, Integrator, LaneMethod, System};
 use super::{lopsided, outcomes, plain, starts, strict_options, with_each};
 use crate::integrate::{InputError, IntegrationError, Options, StopReason, Taylor};
 use crate::scalar::InstructionSet;
@@ -47,8 +47,8 @@ struct StopsOfBoth(Vec<State<f64>>, Vec<StopReason>);
 impl Each<f64> for StopsOfBoth {
     fn each<M>(&mut self, method: &M)
     where
-        M: LaneMethod<Lopsided<f64>, f64>,
-        for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
+        M: LaneMethod<System<f64>, f64>,
+        M: Integrator<f64, System<f64>>,
     {
         let (Self(starts, seen), model) = (self, lopsided());
         for end in [END, f64::INFINITY] {
@@ -95,7 +95,7 @@ fn errors_are_those_of_the_plain_methods() {
 struct FailureSaysWhere;
 
 impl Each<f64> for FailureSaysWhere {
-    fn each<M: LaneMethod<Lopsided<f64>, f64>>(&mut self, method: &M) {
+    fn each<M: LaneMethod<System<f64>, f64>>(&mut self, method: &M) {
         let (mut starts, model) = (starts::<f64>(), lopsided());
         starts[5].values[3] = 60.0;
         starts[30].values[1] = 9.0;
@@ -109,7 +109,7 @@ impl Each<f64> for FailureSaysWhere {
                 }) => {
                     let mut alpha = [0.0; 2];
                     let (theta, omega) = values.split_at(2);
-                    model.accelerations_into(*time, theta, omega, &mut alpha);
+                    model.0.accelerations_into(*time, theta, omega, &mut alpha);
                     assert!(alpha.iter().any(|alpha| !alpha.is_finite()), "{values:?}");
                     assert!(*time >= last.time && *time < last.time + 1.0);
                     assert!((index == 5) == (last.time > starts[index].time), "{last:?}");
@@ -129,7 +129,7 @@ fn a_failure_says_where() {
 struct FailureKeepsItsSamples;
 
 impl Each<f64> for FailureKeepsItsSamples {
-    fn each<M: LaneMethod<Lopsided<f64>, f64>>(&mut self, method: &M) {
+    fn each<M: LaneMethod<System<f64>, f64>>(&mut self, method: &M) {
         let (mut starts, model) = (starts::<f64>(), lopsided());
         starts[5].values[3] = 30.0;
         let times: Vec<f64> = (0..=400).map(|i| 0.1875 + 0.01 * f64::from(i)).collect();

@@ -1,7 +1,7 @@
 //! A pendulum with all that a description may ask for, and places without answer.
 
 use crate::scalar::Scalar;
-use crate::system::{Cast, Pendulum, TaylorPendulum};
+use crate::system::{AbsoluteAngles, Cast, Pendulum, TaylorPendulum};
 use crate::taylor::{self, Connectivity, KnownOrder, LinkConstants, Quad, Start};
 
 /// Two lopsided links with friction, the first driven.
@@ -19,6 +19,9 @@ pub(super) struct Lopsided<T> {
     pub(super) lateral: T,
 }
 
+/// In absolute angles.
+pub(super) type System<T> = AbsoluteAngles<Lopsided<T>>;
+
 struct Pair;
 
 impl Connectivity<2> for Pair {
@@ -33,15 +36,15 @@ const WEIGHTS: [f64; 2] = [9.0, 4.0];
 const LATERAL: [f64; 2] = [0.5, -0.2];
 const PACE: f64 = 2.0;
 
-pub(super) fn lopsided<T: Scalar>() -> Lopsided<T> {
-    Lopsided {
+pub(super) fn lopsided<T: Scalar>() -> System<T> {
+    let model = Lopsided {
         wall: 7.0,
         inertia: 0.6,
         drive: 0.3,
         friction: 0.02,
         lateral: 1.0,
-    }
-    .cast(T::from_f64)
+    };
+    AbsoluteAngles(model.cast(T::from_f64))
 }
 
 impl<T: Scalar> Lopsided<T> {

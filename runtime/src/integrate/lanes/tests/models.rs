@@ -4,7 +4,9 @@ use core::num::NonZeroUsize;
 use core::slice::from_ref;
 
 use super::failures::stop_of_both;
-use super::{AbsoluteAngles, Cases, END, Each, Integrator, LaneMethod, Lopsided, assert_same};
+use super::{
+    AbsoluteAngles, Cases, END, Each, Integrator, LaneMethod, Lopsided, System, assert_same,
+};
 use super::{outcomes, plain, starts, times, with_each};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, InputError, IntegrationError, Options, StopReason};
@@ -12,7 +14,7 @@ use crate::scalar::{InstructionSet, Lane, Scalar};
 use crate::system::{Cast, Pendulum, State};
 
 /// Models no two of which are the same, from the starts of the other tests.
-fn releases<T: Lane>() -> Vec<(Lopsided<T>, State<T>)> {
+fn releases<T: Lane>() -> Vec<(System<T>, State<T>)> {
     let model = |i: usize| {
         let part = i as f64 / 43.0;
         let model = Lopsided {
@@ -22,7 +24,7 @@ fn releases<T: Lane>() -> Vec<(Lopsided<T>, State<T>)> {
             friction: 0.1 - 0.1 * part,
             lateral: 2.0 * part - 1.0,
         };
-        model.cast(T::from_f64)
+        AbsoluteAngles(model.cast(T::from_f64))
     };
     let starts = starts().into_iter().enumerate();
     starts.map(|(i, start)| (model(i), start)).collect()
@@ -33,18 +35,18 @@ fn releases<T: Lane>() -> Vec<(Lopsided<T>, State<T>)> {
 /// are in line.
 const BAD: [usize; 3] = [3, 13, 29];
 
-fn bad_releases<T: Lane>() -> Vec<(Lopsided<T>, State<T>)> {
+fn bad_releases<T: Lane>() -> Vec<(System<T>, State<T>)> {
     let mut releases = releases::<T>();
-    releases[3].0.friction = T::NAN;
-    releases[13].0.wall = T::from_f64(0.1);
-    releases[29].0.inertia = T::from_f64(0.05);
+    releases[3].0.0.friction = T::NAN;
+    releases[13].0.0.wall = T::from_f64(0.1);
+    releases[29].0.0.inertia = T::from_f64(0.05);
     releases
 }
 
 struct BitsAreThoseOfTheModelAlone;
 
 impl<T: Lane> Each<T> for BitsAreThoseOfTheModelAlone {
-    fn each<M: LaneMethod<Lopsided<T>, T>>(&mut self, method: &M) {
+    fn each<M: LaneMethod<System<T>, T>>(&mut self, method: &M) {
         let (releases, times, end) = (bad_releases::<T>(), times(), T::from_f64(END));
         for set in InstructionSet::ALL {
             let together = outcomes(set, method, Cases::Pairs(&releases), &times, end);
@@ -77,8 +79,8 @@ struct ThePlainMethodIsMet(Vec<StopReason>);
 impl Each<f64> for ThePlainMethodIsMet {
     fn each<M>(&mut self, method: &M)
     where
-        M: LaneMethod<Lopsided<f64>, f64>,
-        for<'a> M: Integrator<f64, AbsoluteAngles<&'a Lopsided<f64>>>,
+        M: LaneMethod<System<f64>, f64>,
+        M: Integrator<f64, System<f64>>,
     {
         let releases = bad_releases();
         let cases = Cases::Pairs(&releases);
@@ -135,7 +137,7 @@ fn ends_and_samples_stand_in_the_order_of_the_releases() {
             }
         }
     }
-    let none: &[(Lopsided<f64>, State<f64>)] = &[];
+    let none: &[(System<f64>, State<f64>)] = &[];
     let ends = Ensemble::new().integrate_models_in_lanes(&method, none, END);
     assert!(ends.is_empty());
 }
@@ -173,7 +175,7 @@ impl<T: Scalar> Cast<T> for Uneven<T> {
 
 #[test]
 fn models_with_other_numbers_of_constants_are_refused() {
-    let model = |count: usize| Uneven(vec![9.0; count]);
+    let model = |count: usize| AbsoluteAngles(Uneven(vec![9.0; count]));
     let releases = [3, 2, 3, 4].map(|count| (model(count), State::at_rest(0.0, &[0.5])));
     let method = Dop853::new(Options::with_tolerance(1e-9));
     let ends = Ensemble::new().integrate_models_in_lanes(&method, &releases, 1.0);

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::PathBuf;
 
-use branched_pendulum::data::{Column, CsvError, CsvWriter};
+use branched_pendulum_data::{Column, CsvError, CsvWriter};
 
 fn scratch(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("branched-pendulum-{}-{name}", std::process::id()))

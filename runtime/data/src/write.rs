@@ -1,7 +1,6 @@
 //! Writing comma-separated values: one row of numbers and names a sample.
 
 use core::fmt;
-use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -45,7 +44,7 @@ pub enum Cell<'a> {
     Number(f64),
     /// A number of things.
     Count(u64),
-    /// Text, quoted where it holds commas, quotes or line breaks (RFC 4180).
+    /// Text; the file has it quoted where it holds commas, quotes or line breaks (RFC 4180).
     Text(&'a str),
 }
 
@@ -80,7 +79,7 @@ impl fmt::Display for Cell<'_> {
             // where `Display` would write hundreds of zeros.
             Self::Number(value) => write!(f, "{value:?}"),
             Self::Count(count) => write!(f, "{count}"),
-            Self::Text(text) => f.write_str(&quoted(text)),
+            Self::Text(text) => f.write_str(text),
         }
     }
 }
@@ -93,7 +92,7 @@ impl fmt::Display for Cell<'_> {
 /// # Examples
 ///
 /// ```
-/// use branched_pendulum::data::{Cell, Column, CsvWriter};
+/// use branched_pendulum_data::{Cell, Column, CsvWriter};
 ///
 /// let columns = [Column::new("method", ""), Column::new("time", "s"), Column::new("H", "J")];
 /// let mut csv = CsvWriter::new(Vec::new(), "memory", &columns)?;
@@ -107,12 +106,12 @@ impl fmt::Display for Cell<'_> {
 /// csv.row(&[0.5, 1e-9])?;
 /// csv.finish()?;
 /// # std::fs::remove_file(&path).unwrap();
-/// # Ok::<(), branched_pendulum::data::CsvError>(())
+/// # Ok::<(), branched_pendulum_data::CsvError>(())
 /// ```
 #[derive(Debug)]
 pub struct CsvWriter<W: Write = BufWriter<File>> {
     path: PathBuf,
-    file: W,
+    file: csv::Writer<W>,
     columns: usize,
     rows: u64,
 }
@@ -146,15 +145,11 @@ impl<W: Write> CsvWriter<W> {
         require_columns(path, columns)?;
         let mut writer = Self {
             path: path.to_path_buf(),
-            file,
+            file: csv::Writer::from_writer(file),
             columns: columns.len(),
             rows: 0,
         };
-        let header = columns
-            .iter()
-            .map(|column| quoted(&column.to_string()).into_owned());
-        let header: Vec<String> = header.collect();
-        writer.write(|file| writeln!(file, "{}", header.join(",")))?;
+        writer.record(columns.iter().map(ToString::to_string))?;
         Ok(writer)
     }
 
@@ -168,7 +163,8 @@ impl<W: Write> CsvWriter<W> {
         &mut self,
         cells: impl IntoIterator<Item = C>,
     ) -> Result<(), CsvError> {
-        let cells: Vec<Cell<'a>> = cells.into_iter().map(Into::into).collect();
+        let cells = cells.into_iter().map(Into::into);
+        let cells: Vec<String> = cells.map(|cell: Cell<'_>| cell.to_string()).collect();
         if cells.len() != self.columns {
             return Err(CsvError::ColumnCount {
                 path: self.path.clone(),
@@ -177,13 +173,7 @@ impl<W: Write> CsvWriter<W> {
                 found: cells.len(),
             });
         }
-        self.write(|file| {
-            for (column, cell) in cells.iter().enumerate() {
-                let separator = if column == 0 { "" } else { "," };
-                write!(file, "{separator}{cell}")?;
-            }
-            writeln!(file)
-        })?;
+        self.record(cells)?;
         self.rows += 1;
         Ok(())
     }
@@ -198,13 +188,22 @@ impl<W: Write> CsvWriter<W> {
     /// # Errors
     ///
     /// [`CsvError::Io`] if that fails.
-    pub fn finish(mut self) -> Result<W, CsvError> {
-        self.write(|file| file.flush())?;
-        Ok(self.file)
+    pub fn finish(self) -> Result<W, CsvError> {
+        let Self { path, file, .. } = self;
+        let written = file.into_inner().map_err(csv::IntoInnerError::into_error);
+        let flushed = written.and_then(|mut file| file.flush().map(|()| file));
+        flushed.map_err(|source| CsvError::io(&path, "write", source))
     }
 
-    fn write(&mut self, write: impl FnOnce(&mut W) -> io::Result<()>) -> Result<(), CsvError> {
-        write(&mut self.file).map_err(|source| CsvError::io(&self.path, "write", source))
+    fn record(&mut self, cells: impl IntoIterator<Item = String>) -> Result<(), CsvError> {
+        self.file.write_record(cells).map_err(|error| {
+            // Records of one length each fail for no other reason.
+            let source = match error.into_kind() {
+                csv::ErrorKind::Io(source) => source,
+                other => io::Error::other(format!("{other:?}")),
+            };
+            CsvError::io(&self.path, "write", source)
+        })
     }
 }
 
@@ -217,19 +216,12 @@ fn require_columns(path: &Path, columns: &[Column]) -> Result<(), CsvError> {
     Ok(())
 }
 
-fn quoted(text: &str) -> Cow<'_, str> {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\"")).into()
-    } else {
-        text.into()
-    }
-}
-
 /// Why a CSV file was not written.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvError {
     /// The operating system refused.
+    #[error("cannot {action} {}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
@@ -239,11 +231,13 @@ pub enum CsvError {
         source: io::Error,
     },
     /// A table without columns.
+    #[error("no columns for {}", path.display())]
     NoColumns {
         /// The file.
         path: PathBuf,
     },
     /// A row has more or fewer values than there are columns.
+    #[error("row {row} of {} has {found} values for {expected} columns", path.display())]
     ColumnCount {
         /// The file.
         path: PathBuf,
@@ -258,44 +252,11 @@ pub enum CsvError {
 
 impl CsvError {
     fn io(path: &Path, action: &'static str, source: io::Error) -> Self {
+        let path = path.to_path_buf();
         Self::Io {
-            path: path.to_path_buf(),
+            path,
             action,
             source,
-        }
-    }
-}
-
-impl fmt::Display for CsvError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Io {
-                path,
-                action,
-                source: _,
-            } => {
-                write!(f, "cannot {action} {}", path.display())
-            }
-            Self::NoColumns { path } => write!(f, "no columns for {}", path.display()),
-            Self::ColumnCount {
-                path,
-                row,
-                expected,
-                found,
-            } => write!(
-                f,
-                "row {row} of {} has {found} values for {expected} columns",
-                path.display()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for CsvError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Io { source, .. } => Some(source),
-            Self::NoColumns { .. } | Self::ColumnCount { .. } => None,
         }
     }
 }

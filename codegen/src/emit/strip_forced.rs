@@ -1,0 +1,86 @@
+//! Torques from outside on trees in loops.
+
+use super::Emission;
+use super::doc_text::doc_lines;
+use crate::program::Purpose;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+impl Emission<'_> {
+    /// `accelerations_under` on arrays.
+    pub(super) fn array_function_under(&self) -> TokenStream {
+        let (runtime, links, drive) = (self.runtime(), self.links(), self.drive_at_time());
+        let time = self.mechanics.drive.is_some().then(|| quote!(time: T,));
+        let docs = doc_lines(&self.meaning(Purpose::AccelerationsUnder));
+        quote! {
+            #docs
+            #[must_use]
+            pub fn accelerations_under(
+                &self,
+                #time
+                theta: &[T; #links],
+                omega: &[T; #links],
+                torques: &[T; #links],
+            ) -> [T; #links] {
+                let mut alpha = [T::from_f64(0.0); #links];
+                let mut workspace = #runtime::system::Workspace::new();
+                let given: [&[T]; 3] = [theta, omega, torques];
+                self.tree.accelerations_under_with(&mut workspace, #drive, given, &mut alpha);
+                alpha
+            }
+        }
+    }
+
+    /// `impl Forced`; NaN for slices of a wrong length.
+    pub(super) fn strip_forced(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let (time, drive) = (self.time_name(), self.drive_at_time());
+        let other = super::other_scalar(name);
+        let drive_of = match self.mechanics.drive {
+            Some(_) => quote!(::core::option::Option::Some(pendulum.root_drive(time))),
+            None => quote!(::core::option::Option::None),
+        };
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
+                fn accelerations_under_into(
+                    &self,
+                    time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    torques: &[T],
+                    alpha: &mut [T],
+                ) {
+                    let mut workspace = #runtime::system::Workspace::new();
+                    #runtime::Forced::accelerations_under_with(
+                        self, &mut workspace, time, theta, omega, torques, alpha,
+                    );
+                }
+
+                fn accelerations_under_with(
+                    &self,
+                    workspace: &mut #runtime::system::Workspace<T>,
+                    #time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    torques: &[T],
+                    alpha: &mut [T],
+                ) {
+                    let given = [theta, omega, torques];
+                    self.tree.accelerations_under_with(workspace, #drive, given, alpha);
+                }
+
+                #[inline(always)]
+                fn accelerations_under_of<#other: #runtime::Scalar>(
+                    pendulum: &#name<#other>,
+                    #time: #other,
+                    theta: &[#other],
+                    omega: &[#other],
+                    torques: &[#other],
+                    alpha: &mut [#other],
+                ) {
+                    pendulum.tree.evaluate_under(#drive_of, [theta, omega, torques], alpha);
+                }
+            }
+        }
+    }
+}

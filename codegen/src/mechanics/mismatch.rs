@@ -1,0 +1,299 @@
+//! Copies that differ (physics §14): the constants of the copies as their means and
+//! mismatches, and W by what the mean tree does and what the mismatch adds.
+//!
+//! A constant of the copies is transformed as their angles are: to its mean and its Helmert
+//! differences, the *mismatches*. The tree without mismatches is the *mean tree*. It is a
+//! tree of equal copies, has the same coordinates and the same momenta, and gives the
+//! energies H_d of the differences.
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::expression::{Role, SymbolId};
+use super::frame::{DerivedFrame, MassMatrix};
+use super::print::latex_name;
+use super::transfer::{DerivedParts, SubHamiltonian};
+use super::{MeanTree, System};
+use crate::scene::{Coordinate, LinkId, UnequalNode};
+
+/// A letter of constants in code, in text and in LaTeX.
+type Letter = (&'static str, &'static str, &'static str);
+
+/// Constants of a link.
+const LETTERS: [Letter; 9] = [
+    ("inertia", "M", "M"),
+    ("gravity", "G", "G"),
+    ("lateral_gravity", "F", "F"),
+    ("friction", "c", "c"),
+    ("drag", "k", "k"),
+    ("spring", "κ", "\\kappa"),
+    ("rest", "ρ", "\\rho"),
+    ("moment", "h", "h"),
+    ("lateral_moment", "e", "e"),
+];
+
+/// Constants of a link and one above it.
+const COUPLINGS: [Letter; 2] = [("coupling", "μ", "\\mu"), ("lateral_coupling", "ν", "\\nu")];
+
+/// Constants of copies that differ, in terms of means and mismatches.
+#[derive(Default)]
+pub(super) struct CopyConstants {
+    /// Constants of the copies, to be replaced.
+    pub(super) replacements: Vec<(SymbolId, Formula)>,
+    /// The mismatches.
+    mismatches: Vec<SymbolId>,
+}
+
+/// A tree whose copies differ beside its mean tree.
+pub(super) struct Mismatch<'f> {
+    /// The tree.
+    pub(super) frame: &'f DerivedFrame,
+    /// Its mean tree.
+    pub(super) mean: &'f DerivedFrame,
+    /// Velocities u that the mismatch adds.
+    added: Vec<SymbolId>,
+    /// M̃ − M̃₀.
+    mass: MassMatrix,
+}
+
+impl Derivation<'_> {
+    /// Names means and mismatches of the constants of all copies that differ.
+    pub(super) fn copy_constants(&mut self, coordinates: &[Coordinate]) -> CopyConstants {
+        let mut constants = CopyConstants::default();
+        for node in self.scene.unequal_nodes(coordinates) {
+            let mut above = vec![(node.links.clone(), LETTERS.as_slice())];
+            while let Some((ancestors, letters)) = above.pop() {
+                for &letter in letters {
+                    self.take_apart(&node, coordinates, letter, &ancestors, &mut constants);
+                }
+                let next = |link: &LinkId| self.scene.links[link.0].parent;
+                let next: Option<Vec<LinkId>> = ancestors.iter().map(next).collect();
+                above.extend(next.map(|next| (next, COUPLINGS.as_slice())));
+            }
+        }
+        constants
+    }
+
+    /// Means and mismatches of one letter of a node's links, with the links above them that
+    /// it couples them to, or with themselves.
+    fn take_apart(
+        &mut self,
+        node: &UnequalNode,
+        coordinates: &[Coordinate],
+        (word, letter, latex): Letter,
+        others: &[LinkId],
+        constants: &mut CopyConstants,
+    ) {
+        let scene = self.scene;
+        let orbit = |link: LinkId| &scene.orbits[scene.links[link.0].orbit.0];
+        let coupled = node.links != others;
+        let symbols: Vec<Option<SymbolId>> = (node.links.iter().zip(others))
+            .map(|(&link, &other)| {
+                let other = match coupled {
+                    true => format!(",{}", orbit(other).name),
+                    false => String::new(),
+                };
+                self.symbols
+                    .find(&format!("{letter}_{}{other}", orbit(link).name))
+            })
+            .collect();
+        let Some(unit) = symbols
+            .iter()
+            .flatten()
+            .map(|id| self.constants[id].unit)
+            .next()
+        else {
+            return;
+        };
+        let value = |symbol: &Option<SymbolId>| match symbol {
+            Some(id) => self.constants[id].value.clone(),
+            None => Formula::zero(),
+        };
+        let values: Vec<Formula> = symbols.iter().map(value).collect();
+        let mut sums = vec![Formula::zero(); values.len()];
+        let other = &orbit(others[0]).node;
+        for (number, &index) in node.coordinates.iter().enumerate() {
+            let coordinate = &coordinates[index];
+            let own = |link: &LinkId| node.links.iter().position(|known| known == link);
+            let weights: Vec<(usize, i64)> = (coordinate.weights.iter())
+                .filter_map(|(link, weight)| Some((own(link)?, *weight)))
+                .collect();
+            let total: Formula = (weights.iter())
+                .map(|&(place, weight)| &Formula::integer(weight) * &values[place])
+                .sum();
+            let (label, prefix, sign, tex, kind) = match number {
+                0 => (&node.name, "", "", "", "mean".to_owned()),
+                _ => {
+                    let kind = format!("mismatch `{}`", coordinate.name);
+                    (&coordinate.name, "mismatch_", "Δ", "\\Delta ", kind)
+                }
+            };
+            let [code, text, index] = match coupled {
+                true => [
+                    format!("_{other}"),
+                    format!(",{other}"),
+                    format!(",{}", latex_name(other)),
+                ],
+                false => [const { String::new() }; 3],
+            };
+            let with = match coupled {
+                true => format!(" to `{other}`"),
+                false => String::new(),
+            };
+            let constant = self.constant(
+                &format!("{prefix}{word}_{label}{code}"),
+                &format!("{sign}{letter}_{label}{text}"),
+                &format!("{tex}{latex}_{{\\mathrm{{{}{index}}}}}", latex_name(label)),
+                &format!(
+                    "{} of the copies of `{}`{with}: {kind}",
+                    word.replace('_', " "),
+                    node.name
+                ),
+                unit,
+                (&total / &Formula::integer(coordinate.norm())).expand(),
+            );
+            if number > 0 {
+                constants.mismatches.extend(constant.symbols());
+            }
+            for (place, weight) in weights {
+                sums[place] = &sums[place] + &(&Formula::integer(weight) * &constant);
+            }
+        }
+        // Links of one orbit have one constant.
+        for (symbol, sum) in symbols.into_iter().zip(sums) {
+            if let Some(symbol) = symbol
+                && constants
+                    .replacements
+                    .iter()
+                    .all(|(known, _)| *known != symbol)
+            {
+                constants.replacements.push((symbol, sum));
+            }
+        }
+    }
+
+    /// The Lagrangian of the mean tree.
+    pub(super) fn mean_frame(
+        &self,
+        frame: &DerivedFrame,
+        constants: &CopyConstants,
+    ) -> DerivedFrame {
+        let zero: Vec<(SymbolId, Formula)> = (constants.mismatches.iter())
+            .map(|&symbol| (symbol, Formula::zero()))
+            .collect();
+        let mean = |formula: &Formula| formula.substitute(&zero);
+        DerivedFrame {
+            coordinates: frame.coordinates.clone(),
+            velocities: frame.velocities.clone(),
+            momenta: frame.momenta.clone(),
+            mass: frame.mass.clone().map(|_, _, entry| mean(&entry).expand()),
+            potential: mean(&frame.potential),
+            springs: mean(&frame.springs),
+            dissipation: mean(&frame.dissipation),
+            drive: mean(&frame.drive),
+        }
+    }
+
+    /// A tree beside its mean tree.
+    pub(super) fn mismatch<'f>(
+        &mut self,
+        frame: &'f DerivedFrame,
+        mean: &'f DerivedFrame,
+        coordinates: &[Coordinate],
+    ) -> Mismatch<'f> {
+        let symbol = |coordinate: &Coordinate| {
+            let name = &coordinate.name;
+            self.symbols.intern(
+                Role::Derived,
+                &format!("added_omega_{name}"),
+                &format!("u_{name}"),
+                &format!("u_{{\\mathrm{{{}}}}}", latex_name(name)),
+            )
+        };
+        let difference =
+            |row, column, entry: Formula| (&entry - &mean.mass.get(row, column)).expand();
+        Mismatch {
+            added: coordinates.iter().map(symbol).collect(),
+            mass: frame.mass.clone().map(difference),
+            frame,
+            mean,
+        }
+    }
+
+    /// The mean tree as plain data, and the velocities that the mismatch adds:
+    /// M̃₀ u = −(M̃ − M̃₀) q̇.
+    pub(super) fn mean_tree(&self, mismatch: &Mismatch<'_>) -> MeanTree {
+        let velocities = &mismatch.frame.velocities;
+        let rows = 0..velocities.len();
+        let right = rows.map(|row| {
+            let terms = velocities.iter().enumerate();
+            let terms =
+                terms.map(|(column, &v)| &mismatch.mass.get(row, column) * &Formula::symbol(v));
+            self.expr(&-terms.sum::<Formula>())
+        });
+        MeanTree {
+            frame: self.frame(mismatch.mean),
+            added: System {
+                unknowns: mismatch.added.clone(),
+                right: right.collect(),
+            },
+        }
+    }
+
+    /// What the mismatch adds to W = {H_d, H}, every term of it with a mismatch. With
+    /// q̇ = q̇₀ + u, where q̇₀ belongs to the same momenta in the mean tree,
+    /// kinetic: Σ ∂V/∂q_s u_s + ∂T/∂p_s (½ q̇ᵀ ∂_s(M̃ − M̃₀) q̇ + ½ uᵀ ∂_s M̃₀ (2 q̇ − u)),
+    /// potential: −Σ ∂T/∂p_s ∂(U − U₀)/∂q_s.
+    pub(super) fn forcing(
+        &mut self,
+        mismatch: &Mismatch<'_>,
+        differences: &[usize],
+        energy: &SubHamiltonian,
+    ) -> DerivedParts {
+        let Mismatch {
+            frame,
+            mean,
+            added,
+            mass,
+        } = mismatch;
+        let velocity = |index: usize| Formula::symbol(frame.velocities[index]);
+        let added = |index: usize| Formula::symbol(added[index]);
+        let half = Formula::integer(2).pow(-1);
+        // ½ Σ (x_i y_j + x_j y_i) ∂_s M_ij over the lower triangle and the diagonal.
+        let form = |matrix: &MassMatrix,
+                    s: SymbolId,
+                    x: &dyn Fn(usize) -> Formula,
+                    y: &dyn Fn(usize) -> Formula| {
+            let terms = matrix.iter().map(|(i, j, entry)| {
+                let mixed = &x(i) * &y(j);
+                let pair = match i == j {
+                    true => mixed,
+                    false => &mixed + &(&x(j) * &y(i)),
+                };
+                &(&half * &self.partial(entry, s)) * &pair
+            });
+            terms.sum::<Formula>()
+        };
+        let both = |index: usize| &(&Formula::integer(2) * &velocity(index)) - &added(index);
+        let excess = (&frame.potential - &mean.potential).expand();
+        let (mut kinetic, mut potential) = (Vec::new(), Vec::new());
+        for &s in differences {
+            let (q, p) = (frame.coordinates[s], frame.momenta[s]);
+            kinetic.push(&self.partial(&energy.potential, q) * &added(s));
+            let rate = energy.kinetic.derivative(p);
+            if rate.is_zero() {
+                continue;
+            }
+            let slope = &form(mass, q, &velocity, &velocity) + &form(&mean.mass, q, &added, &both);
+            kinetic.push(&rate * &slope);
+            potential.push(-(&rate * &self.partial(&excess, q)));
+        }
+        let short = |terms: Vec<Formula>| {
+            let sum = terms.into_iter().sum::<Formula>();
+            self.reduce(&sum, frame, differences)
+        };
+        DerivedParts {
+            kinetic: short(kinetic),
+            potential: short(potential),
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! The functions of one link in a tree in loops, formed of its equations on elements of
+//! arguments.
+
+use super::columns::Column;
+use super::deficit::{Deficit, Rest};
+use super::equations::{Attached, Elimination, Link, Response};
+use super::strips::Table;
+use crate::program::entries::EntryList;
+use crate::program::pair::Pair;
+use crate::program::{Argument, ValueId};
+
+/// The links whose constants an entry point reads.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Leaf,
+    Inner,
+    /// A child, while the motion is its parent's.
+    Child,
+}
+
+/// The functions of one link.
+pub(super) struct Functions<'t> {
+    pub(super) table: &'t Table,
+    pub(super) joints: bool,
+    pub(super) forced: bool,
+    pub(super) drive_torque: bool,
+}
+
+impl Functions<'_> {
+    /// A column: the number that all rows have, or an element of the row.
+    fn column(&self, list: &mut EntryList<'_, '_>, kind: Kind, column: Column) -> ValueId {
+        let builder = &mut list.lowering.builder;
+        let common = match (kind, column) {
+            (Kind::Inner, Column::DriveTorque) if self.drive_torque => None,
+            (Kind::Child, _) => self.table.common_of_children(builder, column),
+            _ => self.table.common(builder, kind == Kind::Leaf, column),
+        };
+        match common {
+            Some(number) => builder.number(number),
+            None => builder.input(Argument::Constants, column as usize),
+        }
+    }
+
+    fn motion(&self, list: &mut EntryList<'_, '_>, element: Motion) -> ValueId {
+        list.lowering
+            .builder
+            .input(Argument::Motion, element as usize)
+    }
+
+    /// The link; `torque` acts on it from its children's joints.
+    fn link(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        kind: Kind,
+        torque: Option<ValueId>,
+    ) -> (Link, ValueId) {
+        let direction = [Motion::Cosine, Motion::Sine].map(|part| self.motion(list, part));
+        let omega = self.motion(list, Motion::Omega);
+        let own = match kind {
+            Kind::Child => Kind::Inner,
+            kind => kind,
+        };
+        let mut at = |column| self.column(list, own, column);
+        let moment = [at(Column::Moment), at(Column::LateralMoment)];
+        let (inertia, mass) = (at(Column::Inertia), at(Column::Mass));
+        let (length, inverse_length) = (at(Column::Length), at(Column::InverseLength));
+        let drag = at(Column::Drag);
+        let driven = at(Column::DriveTorque);
+        let joint = self.joint_torque(list, own);
+        let outside = self.outside_torque(list, own);
+        let builder = &mut list.lowering.builder;
+        // −c (ω − ω_π) − κ (θ − θ_π − ρ) − k ω + τ + Q and the torques of the children's joints.
+        let dragged = builder.mul(drag, omega);
+        let resisting = builder.add(joint, dragged);
+        let below = torque.unwrap_or_else(|| builder.integer(0));
+        let pushed = builder.add(below, driven);
+        let pushed = builder.add(pushed, outside);
+        let torque = builder.sub(pushed, resisting);
+        let torque = builder.mul(inverse_length, torque);
+        let link = Link {
+            moment,
+            inertia,
+            mass,
+            length,
+            inverse_length,
+            direction,
+            omega,
+            torque,
+            suffix: String::new(),
+        };
+        (link, joint)
+    }
+
+    /// The torque of the joint on the parent, c (ω − ω_π) + κ (θ − θ_π − ρ).
+    fn joint_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
+        let friction = self.column(list, kind, Column::Friction);
+        let spring = self.column(list, kind, Column::Spring);
+        let rate = self.motion(list, Motion::JointRate);
+        let mut angle = self.motion(list, Motion::JointAngle);
+        let rest = self.column(list, kind, Column::Rest);
+        let builder = &mut list.lowering.builder;
+        if !builder.is(rest, 0) {
+            angle = builder.sub(angle, rest);
+        }
+        let (slowed, bent) = (builder.mul(friction, rate), builder.mul(spring, angle));
+        let torque = builder.add(slowed, bent);
+        builder.name(torque, "joint_torque")
+    }
+
+    /// The torque from outside over m l².
+    fn outside_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
+        if !self.forced {
+            return list.lowering.builder.integer(0);
+        }
+        let unit = self.column(list, kind, Column::PerTorque);
+        let torque = self.motion(list, Motion::OutsideTorque);
+        list.lowering.builder.mul(unit, torque)
+    }
+
+    /// A response in an argument, and the torque of joints behind it.
+    fn given(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        argument: Argument,
+    ) -> (Response, Option<ValueId>) {
+        let builder = &mut list.lowering.builder;
+        let mut at = |index| builder.input(argument, index);
+        let response = Response {
+            deficit: Deficit {
+                xx: at(0),
+                xy: at(1),
+                rest: Rest::Yy(at(2)),
+            },
+            bias_force: [at(3), at(4)],
+        };
+        (response, self.joints.then(|| at(5)))
+    }
+
+    fn outputs(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        response: &Response,
+        torque: Option<ValueId>,
+    ) -> Vec<ValueId> {
+        let Response {
+            deficit,
+            bias_force: [x, y],
+        } = *response;
+        let yy = deficit.yy(&mut list.lowering.builder);
+        let all = [deficit.xx, deficit.xy, yy, x, y];
+        all.into_iter().chain(torque).collect()
+    }
+
+    /// Where the children hang; with several places, where this child does.
+    fn place(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> Pair {
+        [Column::Along, Column::Across].map(|column| self.column(list, kind, column))
+    }
+
+    /// ĥ/M and 1/M of a leaf.
+    fn leaf_constants(&self, list: &mut EntryList<'_, '_>) -> (Pair, ValueId) {
+        let gain = [Column::GainAlong, Column::GainAcross];
+        let gain = gain.map(|column| self.column(list, Kind::Leaf, column));
+        (gain, self.column(list, Kind::Leaf, Column::InverseInertia))
+    }
+
+    pub(super) fn leaf(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+        let (link, joint) = self.link(list, Kind::Leaf, None);
+        let (gain, inverse) = self.leaf_constants(list);
+        let (response, _) = link.leaf(&mut list.lowering.builder, gain, inverse);
+        self.outputs(list, &response, self.joints.then_some(joint))
+    }
+
+    pub(super) fn attach(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+        let (response, torque) = self.given(list, Argument::Response);
+        if !self.table.has_several_places {
+            return self.outputs(list, &response, torque);
+        }
+        let (link, _) = self.link(list, Kind::Child, None);
+        let place = self.place(list, Kind::Child);
+        let builder = &mut list.lowering.builder;
+        let attached = link.attach(builder, place, &response, None, true);
+        let Attached {
+            deficit,
+            first_moment,
+            inertia,
+            force: [x, y],
+            torque: turning,
+        } = attached;
+        // Deductions from a link's own moment and inertia.
+        let [moment_x, moment_y] = first_moment.map(|component| builder.neg(component));
+        let inertia = builder.neg(inertia);
+        let yy = deficit.yy(builder);
+        let all = [
+            deficit.xx, deficit.xy, yy, moment_x, moment_y, inertia, x, y, turning,
+        ];
+        all.into_iter().chain(torque).collect()
+    }
+
+    pub(super) fn inner(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+        let (whole, link, joint) = if self.table.has_several_places {
+            let builder = &mut list.lowering.builder;
+            let mut at = |index| builder.input(Argument::Sums, index);
+            let deficit = Deficit {
+                xx: at(0),
+                xy: at(1),
+                rest: Rest::Yy(at(2)),
+            };
+            let (moment, inertia, force, torque) = ([at(3), at(4)], at(5), [at(6), at(7)], at(8));
+            let below = self.joints.then(|| at(9));
+            let (link, joint) = self.link(list, Kind::Inner, below);
+            let builder = &mut list.lowering.builder;
+            let alone = link.alone(builder);
+            let attached = Attached {
+                deficit,
+                first_moment: moment.map(|component| builder.neg(component)),
+                inertia: builder.neg(inertia),
+                force,
+                torque,
+            };
+            (alone.add(builder, &attached), link, joint)
+        } else {
+            let (response, below) = self.given(list, Argument::Sums);
+            let (link, joint) = self.link(list, Kind::Inner, below);
+            let place = self.place(list, Kind::Inner);
+            let builder = &mut list.lowering.builder;
+            let whole = link.attach(builder, place, &response, Some(link.body()), true);
+            (whole, link, joint)
+        };
+        let (response, elimination) = link.eliminate(&mut list.lowering.builder, &whole);
+        let mut outputs = self.outputs(list, &response, self.joints.then_some(joint));
+        let Elimination {
+            gain: [x, y],
+            offset,
+        } = elimination;
+        outputs.extend([x, y, offset]);
+        outputs
+    }
+
+    pub(super) fn pivot(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+        let place = self.place(list, Kind::Child);
+        let builder = &mut list.lowering.builder;
+        let mut at = |index| builder.input(Argument::Carried, index);
+        let gravity = [at(0), at(1)];
+        if !self.table.has_several_places {
+            return gravity.to_vec();
+        }
+        let end = [at(2), at(3)];
+        let moved = builder.turn(place, end);
+        builder.sub_pairs(gravity, moved).to_vec()
+    }
+
+    pub(super) fn accelerate(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+        let (link, _) = self.link(list, Kind::Inner, None);
+        let builder = &mut list.lowering.builder;
+        let mut at = |argument, index| builder.input(argument, index);
+        let elimination = Elimination {
+            gain: [at(Argument::Elimination, 0), at(Argument::Elimination, 1)],
+            offset: at(Argument::Elimination, 2),
+        };
+        let gravity = [at(Argument::Pivot, 0), at(Argument::Pivot, 1)];
+        let [tangential, alpha] = link.accelerate(builder, &elimination, gravity);
+        if self.table.has_several_places {
+            let end = link.end_acceleration(builder, tangential);
+            return [alpha].into_iter().chain(gravity).chain(end).collect();
+        }
+        let place = self.place(list, Kind::Inner);
+        let builder = &mut list.lowering.builder;
+        let below = link.gravity_at(builder, place, gravity, tangential);
+        [alpha].into_iter().chain(below).collect()
+    }
+
+    pub(super) fn accelerate_leaf(&self, list: &mut EntryList<'_, '_>) -> ValueId {
+        let (link, _) = self.link(list, Kind::Leaf, None);
+        let (gain, inverse) = self.leaf_constants(list);
+        let builder = &mut list.lowering.builder;
+        let (_, elimination) = link.leaf(builder, gain, inverse);
+        let gravity = [0, 1].map(|index| builder.input(Argument::Pivot, index));
+        let [_, alpha] = link.accelerate(builder, &elimination, gravity);
+        alpha
+    }
+}
+
+/// Elements of [`Argument::Motion`].
+#[derive(Clone, Copy)]
+enum Motion {
+    Sine,
+    Cosine,
+    Omega,
+    JointAngle,
+    JointRate,
+    OutsideTorque,
+}

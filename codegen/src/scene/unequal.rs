@@ -1,0 +1,131 @@
+//! Copies that differ: `each(...)` gives every copy of a link a value of its own.
+
+use quote::format_ident;
+
+use super::coordinates::Coordinate;
+use super::template::Template;
+use super::{LinkId, Orbit, Scene};
+use crate::description::{Node, Property, Value};
+use crate::report::{Report, ValueMessage};
+
+/// The copies of a node one by one, each with its own values, where the description says
+/// that they differ; `None` otherwise, and after reporting a wrong `each(...)`.
+pub(super) fn unequal_copies(node: &Node, is_rule: bool, report: &mut Report) -> Option<Vec<Node>> {
+    let before = report.diagnostics().len();
+    let copies = node.copies.map_or(1, |copies| copies.count as usize);
+    let mut differ = false;
+    for property in &node.properties {
+        let Value::Each { values, span } = &property.value else {
+            continue;
+        };
+        differ = true;
+        let link = node.name.to_string();
+        let message = match values.len() {
+            _ if is_rule => ValueMessage::EachInRule { link },
+            _ if copies < 2 => ValueMessage::EachWithoutCopies,
+            values if values != copies => ValueMessage::EachCount {
+                link,
+                copies,
+                values,
+            },
+            _ => continue,
+        };
+        report.error(*span, message);
+    }
+    let right = differ && report.diagnostics().len() == before;
+    right.then(|| (0..copies).map(|copy| single(node, copy)).collect())
+}
+
+/// One copy of a node, without what hangs from it.
+fn single(node: &Node, copy: usize) -> Node {
+    let properties = node.properties.iter().map(|Property { name, value }| {
+        let own = match value {
+            Value::Each { values, .. } => values.get(copy),
+            Value::Single(_) | Value::Pair(..) => None,
+        };
+        Property {
+            name: name.clone(),
+            value: own.unwrap_or(value).clone(),
+        }
+    });
+    Node {
+        name: format_ident!("{}_{}", node.name, copy + 1),
+        shape: node.shape.clone(),
+        properties: properties.collect(),
+        children: Vec::new(),
+        copies: node.copies,
+        damaged: node.damaged,
+    }
+}
+
+impl Template {
+    /// Returns true if two copies of one node do not differ.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        let values = |template: &Self| {
+            let Self {
+                body,
+                pivot,
+                friction,
+                drag,
+                spring,
+                rest,
+                ..
+            } = template;
+            let forces = [friction, drag, spring, rest].map(Clone::clone);
+            (body.clone(), pivot.clone(), forces)
+        };
+        values(self) == values(other)
+    }
+}
+
+/// Copies of one node that differ, or hang in copies that do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnequalNode {
+    /// Name of the node.
+    pub name: String,
+    /// All its links.
+    pub links: Vec<LinkId>,
+    /// Indices of their symmetric coordinates, the mean first.
+    pub coordinates: Vec<usize>,
+}
+
+impl Scene {
+    /// Returns true if copies of a node of the description differ.
+    pub fn has_unequal_copies(&self) -> bool {
+        self.orbits.iter().any(Orbit::is_of_unequal)
+    }
+
+    /// The nodes whose copies differ, with the scene's symmetric coordinates.
+    pub fn unequal_nodes(&self, coordinates: &[Coordinate]) -> Vec<UnequalNode> {
+        let mut nodes: Vec<UnequalNode> = Vec::new();
+        for Orbit { node, links, .. } in self.orbits.iter().filter(|o| o.is_of_unequal()) {
+            match nodes.iter_mut().find(|known| known.name == *node) {
+                Some(known) => known.links.extend(links),
+                None => nodes.push(UnequalNode {
+                    name: node.clone(),
+                    links: links.clone(),
+                    coordinates: Vec::new(),
+                }),
+            }
+        }
+        for node in &mut nodes {
+            node.links.sort_unstable();
+            let own = |(index, coordinate): (usize, &Coordinate)| {
+                let mut weights = coordinate.weights.iter();
+                weights
+                    .all(|(link, _)| node.links.contains(link))
+                    .then_some(index)
+            };
+            // Means stand before differences.
+            node.coordinates = coordinates.iter().enumerate().filter_map(own).collect();
+        }
+        nodes
+    }
+}
+
+impl Orbit {
+    /// Returns true if its node has copies that are not in it.
+    pub fn is_of_unequal(&self) -> bool {
+        self.name != self.node
+    }
+}

@@ -1,0 +1,163 @@
+//! The command line.
+
+use branched_pendulum::analysis::advice::TimeLimit;
+use clap::Parser;
+
+use super::asked::{OutputName, Question, SceneName};
+use crate::program::Results;
+use crate::program::command_line::number;
+
+/// Which model, method, tolerance or step and scalar is the cheapest that is right, on
+/// this machine? Measures all of a scene and says what to take, how wrong it is and what
+/// it costs, what comes next, why what is cheaper will not do, and what to write.
+#[derive(Clone, Debug, Parser, PartialEq)]
+#[command(name = "advise", version, verbatim_doc_comment)]
+pub struct Arguments {
+    /// the tree and its release
+    #[arg(long, value_name = "SCENE", value_enum, default_value = "paper")]
+    pub scene: SceneName,
+    /// outputs with their largest errors, with commas between: angles (rad),
+    /// energy (J), pixels (of 1000 a metre), transfer (W; of the paper's)
+    #[arg(
+        long,
+        value_name = "OUTPUTS",
+        default_value = "angles:1e-6",
+        value_parser = read_outputs,
+        verbatim_doc_comment
+    )]
+    pub right: RightOutputs,
+    /// time followed, s from 0.1 to 1000
+    #[arg(long, value_name = "S", default_value = "10", value_parser = number(0.1..=1e3, "s"))]
+    pub horizon: f64,
+    /// samples, or frames, a second, from 0.1 to 1000
+    #[arg(long, value_name = "HZ", default_value = "10", value_parser = number(0.1..=1e3, "Hz"))]
+    pub rate: f64,
+    /// releases, 1 to 1000: several may go at once in the lanes of vector
+    /// registers
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "1",
+        value_parser = clap::value_parser!(u32).range(1..=1000),
+        verbatim_doc_comment
+    )]
+    pub starts: u32,
+    /// largest time that may be taken: `step:` or `sample:` and µs
+    #[arg(long, value_name = "LIMIT", value_parser = read_limit)]
+    pub limit: Option<Limit>,
+    /// draws accuracy against cost of three scenes instead; needs --output
+    #[arg(long)]
+    pub chart: bool,
+    /// asks twelve questions instead, and measures what else might be cheaper
+    #[arg(long, conflicts_with = "chart")]
+    pub audit: bool,
+    /// Folder of results.
+    #[command(flatten)]
+    pub results: Results,
+}
+
+/// Outputs with their tolerances.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RightOutputs(pub Vec<(OutputName, f64)>);
+
+/// A limit on time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit(pub TimeLimit);
+
+impl Arguments {
+    /// The question that they ask.
+    pub fn question(&self) -> Question {
+        Question {
+            scene: self.scene,
+            outputs: self.right.0.clone(),
+            horizon: self.horizon,
+            rate: self.rate,
+            starts: self.starts,
+            limit: self.limit.map(|limit| limit.0),
+        }
+    }
+}
+
+impl crate::program::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = None;
+
+    fn results(&self) -> &Results {
+        &self.results
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if self.chart && self.results.output.is_none() {
+            return Err("`--chart` needs a folder: `--output FOLDER`".to_owned());
+        }
+        let of_paper = |(output, _): &(OutputName, f64)| *output == OutputName::Transfer;
+        if self.scene != SceneName::Paper && self.right.0.iter().any(of_paper) {
+            return Err("`transfer` is an output of `--scene paper` alone".to_owned());
+        }
+        Ok(())
+    }
+}
+
+fn read_outputs(text: &str) -> Result<RightOutputs, String> {
+    let one = |part: &str| {
+        let (name, tolerance) = part
+            .split_once(':')
+            .ok_or_else(|| format!("`{part}` is no output and its largest error: `angles:1e-6`"))?;
+        let output = OutputName::ALL.iter().find(|output| output.word() == name);
+        let output = output.ok_or_else(|| {
+            let words = OutputName::ALL.map(OutputName::word).join(", ");
+            format!("there is no output `{name}` (outputs: {words})")
+        })?;
+        Ok::<_, String>((*output, number(1e-14..=1e3, "")(tolerance)?))
+    };
+    let outputs: Result<_, String> = text.split(',').map(one).collect();
+    Ok(RightOutputs(outputs?))
+}
+
+fn read_limit(text: &str) -> Result<Limit, String> {
+    let (what, micros) = text
+        .split_once(':')
+        .ok_or_else(|| "must be `step:` or `sample:` and µs".to_owned())?;
+    let seconds = 1e-6 * number(1e-3..=1e9, "µs")(micros)?;
+    match what {
+        "step" => Ok(Limit(TimeLimit::Step(seconds))),
+        "sample" => Ok(Limit(TimeLimit::Sample(seconds))),
+        _ => Err("must be `step:` or `sample:` and µs".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Arguments, Limit, OutputName, TimeLimit};
+    use crate::program::command_line::parse_line;
+
+    #[test]
+    fn outputs_and_limits_are_read() {
+        let line = "--right angles:1e-4,pixels:0.5 --limit sample:5 --scene branch";
+        let arguments = parse_line::<Arguments>(line).unwrap();
+        let outputs = [(OutputName::Angles, 1e-4), (OutputName::Pixels, 0.5)];
+        assert_eq!(arguments.right.0, outputs);
+        assert_eq!(arguments.limit, Some(Limit(TimeLimit::Sample(5.0 * 1e-6))));
+    }
+
+    #[test]
+    fn what_cannot_be_followed_is_explained() {
+        for (line, message) in [
+            ("--right angles", "is no output and its largest error"),
+            (
+                "--right speed:1",
+                "outputs: angles, energy, pixels, transfer",
+            ),
+            ("--right angles:0", "must be from"),
+            ("--limit 5", "must be `step:` or `sample:`"),
+            ("--chart", "needs a folder"),
+            (
+                "--scene branch --right transfer:1e-3",
+                "of `--scene paper` alone",
+            ),
+            ("--starts 0", "1..=1000"),
+        ] {
+            let error = parse_line::<Arguments>(line).unwrap_err();
+            assert!(error.contains(message), "{line}: {error}");
+        }
+    }
+}

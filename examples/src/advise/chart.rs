@@ -1,0 +1,179 @@
+//! Accuracy against cost of all models, methods and scalars, with the front of the best
+//! and the advisor's choices.
+
+use branched_pendulum::analysis::advice::{Advice, CandidateName, Measured, pareto};
+use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
+use branched_pendulum_data::{Cell, Column};
+
+use super::arguments::Arguments;
+use super::asked::{self, OutputName, Question, SceneName};
+use crate::failure::Failure;
+use crate::program::Job;
+
+/// Largest errors of the angles that advice is asked for, rad.
+const TOLERANCES: [f64; 4] = [1e-2, 1e-4, 1e-6, 1e-8];
+
+/// Decades between two tolerances of a method.
+const SPACING: f64 = 0.5;
+
+/// A scene, measured.
+struct Surveyed {
+    scene: SceneName,
+    names: Vec<CandidateName>,
+    runs: Vec<Measured>,
+    advice: Vec<Advice>,
+}
+
+/// Measures the three scenes, and writes the chart and its table.
+///
+/// # Errors
+/// [`Failure`].
+pub fn draw(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let progress = job.progress(SceneName::ALL.len());
+    let mut all = Vec::new();
+    for scene in SceneName::ALL {
+        progress.begin(scene.title());
+        let surveyed = progress.ticking(|| survey(scene, arguments))?;
+        job.print(&table(&surveyed))?;
+        all.push(surveyed);
+        progress.next();
+    }
+    write(job, &all)?;
+    job.chart("accuracy-cost", &chart(&all))
+}
+
+fn survey(scene: SceneName, arguments: &Arguments) -> Result<Surveyed, Failure> {
+    let question = |tolerance| Question {
+        scene,
+        outputs: vec![(OutputName::Angles, tolerance)],
+        limit: None,
+        starts: 1,
+        ..arguments.question()
+    };
+    let advice: Result<Vec<Advice>, Failure> = TOLERANCES
+        .into_iter()
+        .map(|tolerance| {
+            asked::with(&question(tolerance), |advisor, candidates| {
+                advisor.advise(candidates)
+            })
+        })
+        .collect();
+    let advice = advice?;
+    // Errors are those of an allowed one of 1 rad; the finest choice is not the dearest
+    // point of the chart.
+    let dearest = advice.iter().filter_map(Advice::chosen);
+    let most = 5.0 * dearest.map(|run| run.seconds).fold(0.0, f64::max);
+    let (names, runs) = asked::with(&question(1.0), |advisor, candidates| {
+        let names = candidates.names().collect();
+        Ok((names, advisor.survey(candidates, SPACING, most)?))
+    })?;
+    Ok(Surveyed {
+        scene,
+        names,
+        runs,
+        advice,
+    })
+}
+
+/// What was chosen in a scene.
+fn table(surveyed: &Surveyed) -> String {
+    let mut text = format!("{}\n", surveyed.scene.title());
+    for (tolerance, advice) in TOLERANCES.iter().zip(&surveyed.advice) {
+        let line = match advice.chosen() {
+            Some(run) => {
+                let share = advice
+                    .runner_up()
+                    .map_or(f64::NAN, |other| other.seconds / run.seconds);
+                format!(
+                    "{:8.1} µs  {} (the next {share:.2} times)",
+                    1e6 * run.seconds,
+                    advice.describe(run)
+                )
+            }
+            None => "nothing".to_owned(),
+        };
+        text.push_str(&format!("  {tolerance:>6e} rad  {line}\n"));
+    }
+    text + "\n"
+}
+
+/// Series: model and scalar.
+fn series_of(name: &CandidateName) -> String {
+    format!("{}, {}", name.model, name.scalar)
+}
+
+fn write(job: &Job, all: &[Surveyed]) -> Result<(), Failure> {
+    let columns = [
+        Column::new("scene", ""),
+        Column::new("model", ""),
+        Column::new("method", ""),
+        Column::new("scalar", ""),
+        Column::new("tolerance or step", ""),
+        Column::new("largest error of an angle", "rad"),
+        Column::new("time", "s"),
+        Column::new("on the front", ""),
+    ];
+    job.csv("accuracy-cost.csv", &columns, |csv| {
+        for surveyed in all {
+            let front = pareto(&surveyed.runs);
+            for (index, run) in surveyed.runs.iter().enumerate() {
+                let name = &surveyed.names[run.candidate];
+                csv.row([
+                    Cell::from(surveyed.scene.title()),
+                    name.model.as_str().into(),
+                    name.method.as_str().into(),
+                    name.scalar.into(),
+                    run.setting.into(),
+                    run.ratio().into(),
+                    run.seconds.into(),
+                    if front.contains(&index) { "yes" } else { "no" }.into(),
+                ])?;
+            }
+        }
+        Ok(())
+    })
+}
+
+fn chart(all: &[Surveyed]) -> Chart {
+    let title = "Largest error of an angle in 10 s against the time that it takes";
+    let chart = Chart::new(title, Axis::log("time (µs)"))
+        .columns(all.len())
+        .size(1500.0, 640.0);
+    all.iter().fold(chart, |chart, surveyed| {
+        let axis = Axis::log(format!("error (rad), {}", surveyed.scene.title()));
+        let mut panel = Panel::new(axis.range(1e-14, 10.0));
+        let mut labels: Vec<String> = surveyed.names.iter().map(series_of).collect();
+        labels.sort();
+        labels.dedup();
+        let point = |run: &Measured| (1e6 * run.seconds, run.ratio());
+        for label in labels {
+            let own = surveyed.runs.iter().filter(|run| {
+                run.ratio().is_finite() && series_of(&surveyed.names[run.candidate]) == label
+            });
+            let (x, y): (Vec<f64>, Vec<f64>) = own.map(point).unzip();
+            panel = panel.series(Series::points(label, &x, &y));
+        }
+        let front = pareto(&surveyed.runs).into_iter();
+        let (x, y): (Vec<f64>, Vec<f64>) = front.map(|index| point(&surveyed.runs[index])).unzip();
+        let black = Color::rgb(0, 0, 0);
+        panel = panel.series(
+            Series::line("the front", &x, &y)
+                .color(black)
+                .dash(Dash::Solid),
+        );
+        let chosen = surveyed.advice.iter().filter_map(Advice::chosen);
+        let (x, y): (Vec<f64>, Vec<f64>) = chosen
+            .map(|run| {
+                let error = run.worst.as_ref().map_or(f64::NAN, |worst| worst.error);
+                (1e6 * run.seconds, error)
+            })
+            .unzip();
+        chart.panel(
+            panel.series(
+                Series::points("the advisor's choices", &x, &y)
+                    .color(black)
+                    .symbol(Symbol::Cross),
+            ),
+        )
+    })
+}

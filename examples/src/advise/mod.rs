@@ -1,0 +1,81 @@
+//! Which model, method, tolerance or step and scalar is the cheapest that is right?
+//!
+//! [`analysis::advice`](branched_pendulum::analysis::advice) measures; here are scenes
+//! to ask it about, and the chart of accuracy against cost.
+//!
+//! - [`arguments`]: the command line,
+//! - [`scenes`]: the trees, in all their forms,
+//! - [`asked`]: one scene as an advisor sees it,
+//! - [`chart`]: accuracy against cost,
+//! - [`audit`]: the choices of twelve questions against everything else.
+
+pub mod arguments;
+pub mod asked;
+pub mod audit;
+pub mod chart;
+pub mod scenes;
+
+use branched_pendulum::analysis::advice::Advice;
+use branched_pendulum_data::{Cell, Column};
+
+pub use arguments::Arguments;
+pub use asked::SceneName;
+
+use crate::failure::Failure;
+use crate::program::Job;
+
+/// Asks for advice, or draws the chart.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    if arguments.chart {
+        return chart::draw(arguments, job);
+    }
+    if arguments.audit {
+        return audit::run(job);
+    }
+    let progress = job.progress(1);
+    progress.begin(arguments.scene.title());
+    let advice = progress.ticking(|| {
+        asked::with(&arguments.question(), |advisor, candidates| {
+            advisor.advise(candidates)
+        })
+    })?;
+    progress.next();
+    job.print(&format!("{}\n\n{advice}", arguments.scene.title()))?;
+    if let Some(chosen) = advice.chosen() {
+        job.report("choice", advice.describe(chosen));
+        job.report("error over tolerance", chosen.ratio());
+        job.report("seconds", chosen.seconds);
+    }
+    write_runs(job, &advice)
+}
+
+/// Writes all that was measured, in the order in which it was.
+fn write_runs(job: &Job, advice: &Advice) -> Result<(), Failure> {
+    let columns = [
+        Column::new("model", ""),
+        Column::new("method", ""),
+        Column::new("scalar", ""),
+        Column::new("lanes", ""),
+        Column::new("tolerance or step", ""),
+        Column::new("error over tolerance", ""),
+        Column::new("time", "s"),
+    ];
+    job.csv("advice.csv", &columns, |csv| {
+        for run in &advice.runs {
+            let name = &advice.names[run.candidate];
+            csv.row([
+                Cell::from(name.model.as_str()),
+                name.method.as_str().into(),
+                name.scalar.into(),
+                if name.in_lanes { "yes" } else { "no" }.into(),
+                run.setting.into(),
+                run.ratio().into(),
+                run.seconds.into(),
+            ])?;
+        }
+        Ok(())
+    })
+}

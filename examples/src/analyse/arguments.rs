@@ -1,0 +1,135 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use branched_pendulum_data::{AngleUnit, AngleZero, Clock};
+use clap::{Parser, ValueEnum};
+
+use crate::branched_double::Friction;
+use crate::program::Results;
+use crate::program::command_line::number;
+
+/// From measured angles of the paper's pendulum to H_d and W with their errors. The
+/// file is a table of three angles against time, or of two dots a link as Tracker or
+/// DeepLabCut write them; without one a camera is simulated, whose truth is known.
+#[derive(Clone, Debug, Parser, PartialEq)]
+#[command(name = "analyse", version, verbatim_doc_comment)]
+pub struct Arguments {
+    /// file of measurements; without it a camera is simulated
+    #[arg(value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// columns of the angles of parent and children; all but the time without it
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', num_args = 3)]
+    pub columns: Vec<String>,
+    /// dots of parent and children, UPPER:LOWER for each, in place of angles
+    #[arg(long, value_name = "U:L", value_delimiter = ',', num_args = 3, conflicts_with = "columns", value_parser = pair)]
+    pub dots: Vec<(String, String)>,
+    /// y of dots grows downwards, as rows of a picture
+    #[arg(long)]
+    pub y_down: bool,
+    /// pictures a second, 1 to 1e5; needed for files that number them
+    #[arg(long, value_name = "HZ", value_parser = number(1.0..=1e5, "Hz"))]
+    pub frame_rate: Option<f64>,
+    /// unit of angles whose columns do not name it
+    #[arg(long, value_enum, value_name = "UNIT")]
+    pub unit: Option<Unit>,
+    /// direction of angle 0
+    #[arg(long, value_enum, value_name = "WAY")]
+    pub zero: Option<Zero>,
+    /// use the equations of motion: smaller errors if they hold
+    #[arg(long)]
+    pub model: bool,
+    /// Friction in the equations of motion.
+    #[command(flatten)]
+    pub friction: Friction,
+    /// draws from the motions that the data allow, 20 to 10000
+    #[arg(long, value_name = "N", default_value = "200", value_parser = clap::value_parser!(u32).range(20..=10_000))]
+    pub draws: u32,
+    /// simulated: initial angle of the parent, degrees from 0 to 90
+    #[arg(long, value_name = "DEG", default_value = "47.8", value_parser = number(0.0..=90.0, "°"))]
+    pub angle: f64,
+    /// simulated: initial difference of the children, rad from 0 to 1
+    #[arg(long, value_name = "RAD", default_value = "0.01", value_parser = number(0.0..=1.0, "rad"))]
+    pub difference: f64,
+    /// simulated: length of the record, s from 0.5 to 100
+    #[arg(long, value_name = "S", default_value = "4", value_parser = number(0.5..=1e2, "s"))]
+    pub duration: f64,
+    /// simulated: pictures a second, 10 to 1e4
+    #[arg(long, value_name = "HZ", default_value = "240", value_parser = number(1e1..=1e4, "Hz"))]
+    pub rate: f64,
+    /// simulated: error of a dot's place, m from 1e-6 to 0.01
+    #[arg(long, value_name = "M", default_value = "2e-4", value_parser = number(1e-6..=1e-2, "m"))]
+    pub noise: f64,
+    /// seed of all random numbers
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub seed: u64,
+    /// Folder of results.
+    #[command(flatten)]
+    pub results: Results,
+}
+
+/// Unit of angles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Unit {
+    /// Radians.
+    Rad,
+    /// Degrees.
+    Deg,
+}
+
+impl From<Unit> for AngleUnit {
+    fn from(unit: Unit) -> Self {
+        match unit {
+            Unit::Rad => Self::Radians,
+            Unit::Deg => Self::Degrees,
+        }
+    }
+}
+
+/// Direction of angle 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Zero {
+    /// Hanging.
+    Down,
+    /// Standing.
+    Up,
+}
+
+impl From<Zero> for AngleZero {
+    fn from(zero: Zero) -> Self {
+        match zero {
+            Zero::Down => Self::Down,
+            Zero::Up => Self::Up,
+        }
+    }
+}
+
+impl Arguments {
+    /// Where the times of the file come from.
+    pub fn clock(&self) -> Clock {
+        self.frame_rate.map_or(Clock::Detect, Clock::FrameRate)
+    }
+}
+
+impl Default for Arguments {
+    fn default() -> Self {
+        Self::parse_from(["analyse"])
+    }
+}
+
+impl crate::program::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = Some("analyse-output");
+
+    fn results(&self) -> &Results {
+        &self.results
+    }
+}
+
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once(':') {
+        Some((upper, lower)) if !upper.is_empty() && !lower.is_empty() => {
+            Ok((upper.to_owned(), lower.to_owned()))
+        }
+        _ => Err("two names with a colon between: UPPER:LOWER".to_owned()),
+    }
+}

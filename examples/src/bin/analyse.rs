@@ -1,0 +1,11 @@
+//! H_d and W of the paper's pendulum from measured angles, with their errors.
+//!
+//! `analyse --help` lists the options.
+
+use std::process::ExitCode;
+
+use branched_pendulum_examples::{analyse, program};
+
+fn main() -> ExitCode {
+    program::main(analyse::run)
+}

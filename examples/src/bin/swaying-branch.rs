@@ -1,0 +1,11 @@
+//! A branch in the wind, by models from the full one to a few modes.
+//!
+//! `swaying-branch --help` lists the options.
+
+use std::process::ExitCode;
+
+use branched_pendulum_examples::{program, swaying_branch};
+
+fn main() -> ExitCode {
+    program::main(swaying_branch::run)
+}

@@ -1,0 +1,60 @@
+//! A branch of 31 links in real time: wind with gusts, a hand that pulls and lets go,
+//! and what each model of it costs a frame for which error.
+//!
+//! - [`arguments`]: the command line,
+//! - [`scene`]: the branch,
+//! - [`weather`]: wind and hand,
+//! - [`motion`]: models, moved by frames, their errors and costs,
+//! - [`storm`]: a storm that hits as well,
+//! - [`picture`]: the animated picture, [`report`]: table, frames and chart.
+
+pub mod arguments;
+pub mod motion;
+pub mod picture;
+pub mod report;
+pub mod scene;
+pub mod storm;
+pub mod weather;
+
+pub use arguments::Arguments;
+
+use crate::failure::Failure;
+use crate::program::Job;
+use motion::{Branches, reference};
+use weather::Weather;
+
+/// Moves the branch by all models and draws it.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let frame = 1.0 / arguments.frame_rate;
+    let frames = (arguments.duration * arguments.frame_rate).round() as usize;
+    let branches = Branches::new()?;
+    let windy = Weather::new(arguments.wind, arguments.pull, arguments.seed);
+    // One look, and the models in three winds.
+    let progress = job.progress(4);
+    progress.begin("frames");
+    let seen = reference(&branches, &windy, frame, frames)?;
+    report::write_frames(job, &seen)?;
+    let picture = picture::animated(&branches.double, &seen, &windy);
+    job.write("swaying-branch-animation.svg", picture.as_bytes())?;
+    progress.next();
+    let mut trials = Vec::new();
+    for share in motion::WINDS {
+        progress.begin(&format!("{share} of the wind"));
+        let weather = Weather::new(
+            share * arguments.wind,
+            share * arguments.pull,
+            arguments.seed,
+        );
+        trials.push(motion::trial(&branches, &weather, share, frame, frames)?);
+        progress.next();
+    }
+    report::write_trials(job, &trials)?;
+    let storm = storm::run(&branches.single, arguments.storm, frame)?;
+    for (name, value) in storm.account() {
+        job.report(name, value);
+    }
+    job.print(&report::text(arguments, &branches, &trials, &storm))
+}

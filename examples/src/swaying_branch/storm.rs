@@ -1,0 +1,80 @@
+//! A storm that hits the branch now and then.
+
+use branched_pendulum::integrate::{Frames, longest_sub_step};
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::UnderTorques;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+use super::scene::{Branch, LINKS};
+use super::weather::Weather;
+use crate::failure::Failure;
+
+/// Mean speed of the wind, m/s, and force of a hit, N.
+const WIND: f64 = 30.0;
+const HIT: f32 = 1e6;
+
+/// Mean number of frames from one hit to the next.
+const FRAMES_BETWEEN: u64 = 600;
+
+/// What a storm did to the branch.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Storm {
+    /// Frames of it.
+    pub frames: u64,
+    /// Hits.
+    pub hits: u64,
+    /// States that were not finite.
+    pub not_finite: u64,
+    /// Sub-steps in which rates were limited.
+    pub limited: u64,
+    /// Largest rate after a frame, rad/s.
+    pub largest_rate: f64,
+}
+
+impl Storm {
+    /// Names and values for the record.
+    pub fn account(&self) -> [(&'static str, u64); 4] {
+        [
+            ("storm frames", self.frames),
+            ("storm hits", self.hits),
+            ("states not finite", self.not_finite),
+            ("limited sub-steps", self.limited),
+        ]
+    }
+}
+
+/// Moves the branch in single precision through a storm of `seconds`, with hits of a
+/// million newtons at random links.
+///
+/// # Errors
+/// [`Failure::Frames`].
+pub fn run(branch: &Branch<f32>, seconds: f64, frame: f64) -> Result<Storm, Failure> {
+    let weather = Weather::new(WIND, 0.0, 7.0);
+    let mut random = SplitMix64::seed_from_u64(11);
+    let start = State::at_rest(0.0, &[0.0; LINKS]);
+    let sub_step = longest_sub_step(branch);
+    let frames = Frames::new(UnderTorques::of(branch, vec![0.0; LINKS]), &start, sub_step);
+    let mut frames = frames.map_err(|error| Failure::Frames(Box::new(error)))?;
+    let mut storm = Storm::default();
+    let mut torques = [0.0; LINKS];
+    for number in 0..(seconds / frame) as u64 {
+        weather.torques(branch, number as f64 * frame, frames.state(), &mut torques);
+        if random.next_u64() % FRAMES_BETWEEN == 0 {
+            // At the middle of the shortest link, about.
+            torques[(random.next_u64() % LINKS as u64) as usize] += 0.1 * HIT;
+            storm.hits += 1;
+        }
+        frames.ode_mut().torques_mut().copy_from_slice(&torques);
+        frames.advance(frame as f32);
+        let finite = frames.state().iter().all(|value| value.is_finite());
+        storm.not_finite += u64::from(!finite);
+        let rates = frames.state().iter().skip(LINKS);
+        storm.largest_rate = rates.fold(storm.largest_rate, |largest, rate| {
+            largest.max(f64::from(rate.abs()))
+        });
+        storm.frames += 1;
+    }
+    storm.limited = frames.limited();
+    Ok(storm)
+}

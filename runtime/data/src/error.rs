@@ -1,0 +1,253 @@
+//! Why a file of measurements was not read.
+
+use core::fmt;
+use std::io;
+use std::path::PathBuf;
+
+/// A place in a file: line and column counted from 1, and the column's name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Line of the file.
+    pub line: u64,
+    /// Number of the cell in that line; none where the whole line is meant.
+    pub column: Option<usize>,
+    /// Name of the column, where it has one.
+    pub name: Option<String>,
+}
+
+impl Place {
+    pub(crate) fn line(line: u64) -> Self {
+        Self {
+            line,
+            column: None,
+            name: None,
+        }
+    }
+
+    pub(crate) fn cell(line: u64, index: usize, name: Option<&str>) -> Self {
+        Self {
+            line,
+            column: Some(index + 1),
+            name: name.map(str::to_owned),
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { line, column, name } = self;
+        write!(f, "line {line}")?;
+        if let Some(column) = column {
+            write!(f, ", column {column}")?;
+        }
+        if let Some(name) = name {
+            write!(f, " (`{name}`)")?;
+        }
+        Ok(())
+    }
+}
+
+/// A file that was not read: where, and why.
+#[derive(Debug)]
+pub struct ReadError {
+    /// The file.
+    pub path: PathBuf,
+    /// Place in it, where there is one.
+    pub place: Option<Place>,
+    /// The reason.
+    pub kind: Box<ReadErrorKind>,
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { path, place, kind } = self;
+        write!(f, "{}", path.display())?;
+        if let Some(place) = place {
+            write!(f, ", {place}")?;
+        }
+        write!(f, ": {kind}")
+    }
+}
+
+impl std::error::Error for ReadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        std::error::Error::source(&self.kind)
+    }
+}
+
+/// Reasons for which a file is not read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadErrorKind {
+    /// The operating system refused.
+    #[error("cannot be read")]
+    Io(#[source] io::Error),
+    /// Bytes that are no text.
+    #[error("is no text but {what}; save it as text (UTF-8)")]
+    NotText {
+        /// Kind of the bytes.
+        what: &'static str,
+    },
+    /// Nothing but blank lines.
+    #[error("is empty")]
+    Empty,
+    /// No line of numbers.
+    #[error("has no line of numbers in at least two columns")]
+    NoNumbers,
+    /// Fewer rows of numbers than a motion needs.
+    #[error("has {found} rows of numbers; at least {needed} are needed")]
+    TooFewRows {
+        /// Number of rows.
+        found: usize,
+        /// Smallest number.
+        needed: usize,
+    },
+    /// A cell that is neither a number nor one of the words for a missing one.
+    #[error("`{text}` is no number{}", hint(text))]
+    Number {
+        /// The cell.
+        text: String,
+    },
+    /// A number that is not finite.
+    #[error("`{text}` is not finite; leave the cell of a missing value empty")]
+    NotFinite {
+        /// The cell.
+        text: String,
+    },
+    /// A row with more or fewer cells than the header.
+    #[error("{found} cells where the table has {expected} columns")]
+    CellCount {
+        /// Number of columns.
+        expected: usize,
+        /// Number of cells.
+        found: usize,
+    },
+    /// Rows of a header that do not fit each other.
+    #[error("{what}")]
+    Header {
+        /// What is wrong with it.
+        what: String,
+    },
+    /// Two columns of one name.
+    #[error("two columns are called `{name}`")]
+    DuplicateColumn {
+        /// The name.
+        name: String,
+    },
+    /// No column or track has that name.
+    #[error("there is no {what} `{name}`{}; there are: {}", nearest(name, known), known.join(", "))]
+    Unknown {
+        /// Kind of thing: column or track.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// Names that there are.
+        known: Vec<String>,
+    },
+    /// Nothing in the table tells the time.
+    #[error("no column is the time; name it, or give the frame rate")]
+    NoTime,
+    /// A column that counts frames was about to be taken for seconds.
+    #[error(
+        "column `{name}` counts frames; give the frame rate (frames are never taken for seconds)"
+    )]
+    FrameNumbers {
+        /// The column.
+        name: String,
+    },
+    /// A frame rate that is no positive number.
+    #[error("a frame rate of {value} Hz; it must be finite and positive")]
+    FrameRate {
+        /// The rate.
+        value: f64,
+    },
+    /// A row without a time.
+    #[error("the time is missing")]
+    TimeMissing,
+    /// A time that is not later than the one before.
+    #[error("time {time} s does not come after {previous} s")]
+    TimeOrder {
+        /// Time of the row before.
+        previous: f64,
+        /// Time of the row.
+        time: f64,
+    },
+    /// No column is left for angles, or no tracks for markers.
+    #[error("{what}")]
+    Nothing {
+        /// What is missing.
+        what: String,
+    },
+    /// The unit of angles cannot be made out.
+    #[error(
+        "column `{name}` names no unit, and its values, up to {largest}, may be degrees or radians; say which"
+    )]
+    AngleUnit {
+        /// The column.
+        name: String,
+        /// Largest magnitude.
+        largest: f64,
+    },
+    /// An angle of more than 10^6 rad.
+    #[error("an angle of `{name}` is {value} rad")]
+    Angle {
+        /// The link.
+        name: String,
+        /// The angle.
+        value: f64,
+    },
+    /// A column's unit is none of an angle or of a time.
+    #[error("column `{name}` is in `{unit}`, which is no unit of {quantity}")]
+    Unit {
+        /// The column.
+        name: String,
+        /// Its unit.
+        unit: String,
+        /// Angles or times.
+        quantity: &'static str,
+    },
+    /// An option that is impossible.
+    #[error("{what}")]
+    Option {
+        /// What is wrong with it.
+        what: String,
+    },
+}
+
+impl ReadErrorKind {
+    pub(crate) fn at(self, path: impl Into<PathBuf>, place: Option<Place>) -> ReadError {
+        ReadError {
+            path: path.into(),
+            place,
+            kind: Box::new(self),
+        }
+    }
+}
+
+/// What a cell may have meant.
+fn hint(text: &str) -> &'static str {
+    let digits = text.chars().filter(char::is_ascii_digit).count();
+    let marks = text.chars().filter(|c| matches!(c, '.' | ',')).count();
+    if digits > 0 && marks > 1 {
+        " (are thousands separated?)"
+    } else if digits > 0 && text.contains(',') {
+        " (decimal commas in a file of decimal points?)"
+    } else if digits > 0 && text.contains('.') {
+        " (decimal points in a file of decimal commas?)"
+    } else {
+        ""
+    }
+}
+
+fn nearest(name: &str, known: &[String]) -> String {
+    let near = known
+        .iter()
+        .map(|other| (strsim::damerau_levenshtein(name, other), other))
+        .min_by_key(|(distance, _)| *distance);
+    match near {
+        Some((distance, other)) if 2 * distance <= other.chars().count() => {
+            format!(" (did you mean `{other}`?)")
+        }
+        _ => String::new(),
+    }
+}

@@ -1,0 +1,55 @@
+//! Series of pendulums on disk: computed ones written, measured ones read.
+//!
+//! A [`CsvWriter`] writes rows of [`Cell`]s under [`Column`]s with units.
+//!
+//! A file of measurements becomes angles in two steps, each of which says what it
+//! found and what it assumed ([`Finding`]):
+//!
+//! 1. [`Table::read`] makes out how the file is written: delimiter, decimal mark, header,
+//!    units, whether Tracker or DeepLabCut wrote it. Its cells are numbers or missing.
+//! 2. [`AngleColumns`] or [`Markers`] take the angles out of it, as a [`Recording`]: in
+//!    radians from the vertical, over seconds, without jumps of a turn, outliers marked.
+//!
+//! ```
+//! use branched_pendulum_data::{AngleColumns, Table, TableOptions};
+//!
+//! let text = "\
+//! time [s];upper [deg];lower [deg]
+//! 0,00;10,0;-5,0
+//! 0,01;10,1;
+//! 0,02;10,2;-4,8
+//! ";
+//! let table = Table::parse("swing.csv", text, &TableOptions::default())?;
+//! let recording = AngleColumns::default().read(&table)?;
+//! assert_eq!(recording.times, [0.0, 0.01, 0.02]);
+//! let lower = &recording.links[1];
+//! assert_eq!(lower.angle(0), Some((-5.0_f64).to_radians()));
+//! assert_eq!(lower.angle(1), None);
+//! let told: Vec<String> = recording.findings.iter().map(ToString::to_string).collect();
+//! assert!(told.contains(&"detected: semicolons between cells, decimal commas".to_owned()));
+//! assert!(told.contains(&"assumed: angles from the downward vertical".to_owned()));
+//! # Ok::<(), branched_pendulum_data::ReadError>(())
+//! ```
+
+mod angles;
+mod error;
+mod finding;
+mod format;
+mod header;
+mod markers;
+mod outliers;
+mod recording;
+mod table;
+mod timing;
+mod write;
+
+pub use angles::{AngleColumns, AngleUnit, AngleZero};
+pub use error::{Place, ReadError, ReadErrorKind};
+pub use finding::{Basis, Finding};
+pub use format::{DecimalMark, Delimiter};
+pub use header::{FileKind, Track};
+pub use markers::{Gravity, LinkMarkers, Markers};
+pub use recording::{LinkSeries, Recording, Sample};
+pub use table::{Table, TableOptions};
+pub use timing::{Clock, Gap, Timing};
+pub use write::{Cell, Column, CsvError, CsvWriter};

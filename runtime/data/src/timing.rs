@@ -1,0 +1,241 @@
+//! Times of samples.
+
+use super::error::{ReadError, ReadErrorKind};
+use super::finding::{Basis, Finding};
+use super::header::{FileKind, is_frame, is_time};
+use super::table::Table;
+
+/// Where the times of a table come from.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub enum Clock {
+    /// The column that is called a time, in the unit of its header, seconds without one.
+    #[default]
+    Detect,
+    /// The column of that name.
+    Column(String),
+    /// Frames at that rate, in hertz: the column that numbers them, or one frame a row.
+    FrameRate(f64),
+}
+
+/// How evenly samples follow each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timing {
+    /// Median of the time from one sample to the next, s.
+    pub interval: f64,
+    /// Root mean square deviation from it, but for gaps, s.
+    pub jitter: f64,
+    /// Places where samples are missing.
+    pub gaps: Vec<Gap>,
+}
+
+/// A place where rows are missing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Time of the last sample before, s.
+    pub start: f64,
+    /// Time of the first one after, s.
+    pub end: f64,
+}
+
+/// Intervals of so many usual ones are gaps.
+const GAP: f64 = 1.5;
+
+impl Timing {
+    fn of(times: &[f64]) -> Self {
+        let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let interval = median(steps.clone());
+        let usual = steps.iter().filter(|&&step| step <= GAP * interval);
+        let (count, sum) = usual.fold((0_u32, 0.0), |(count, sum), step| {
+            (count + 1, sum + (step - interval).powi(2))
+        });
+        let gaps = times
+            .windows(2)
+            .filter(|pair| pair[1] - pair[0] > GAP * interval);
+        Self {
+            interval,
+            jitter: (sum / f64::from(count.max(1))).sqrt(),
+            gaps: gaps
+                .map(|pair| Gap {
+                    start: pair[0],
+                    end: pair[1],
+                })
+                .collect(),
+        }
+    }
+}
+
+/// Returns the middle value, 0 of none.
+pub(crate) fn median(mut values: Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    if values.is_empty() {
+        return 0.0;
+    }
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Times of a table's rows, the column that they stand in, and what was found.
+pub(crate) struct Times {
+    pub(crate) seconds: Vec<f64>,
+    pub(crate) column: Option<usize>,
+    pub(crate) timing: Timing,
+    pub(crate) findings: Vec<Finding>,
+}
+
+/// Smallest number of rows that make a motion.
+const ROWS: usize = 3;
+
+impl Times {
+    pub(crate) fn read(table: &Table, clock: &Clock) -> Result<Self, ReadError> {
+        if table.rows() < ROWS {
+            let (found, needed) = (table.rows(), ROWS);
+            return Err(table.refused(ReadErrorKind::TooFewRows { found, needed }));
+        }
+        let mut findings = Vec::new();
+        let (column, scale) = match clock {
+            Clock::FrameRate(rate) => frames(table, *rate, &mut findings)?,
+            Clock::Column(name) => {
+                let column = table.column(name)?;
+                (
+                    Some(column),
+                    unit(table, column, Basis::Given, &mut findings)?,
+                )
+            }
+            Clock::Detect => {
+                let column = time_column(table)?;
+                (
+                    Some(column),
+                    unit(table, column, Basis::Detected, &mut findings)?,
+                )
+            }
+        };
+        let mut seconds: Vec<f64> = Vec::with_capacity(table.rows());
+        for row in 0..table.rows() {
+            let value = match column {
+                Some(column) => table.values(column)[row].ok_or_else(|| {
+                    table.refused_at(ReadErrorKind::TimeMissing, row, Some(column))
+                })?,
+                None => row as f64,
+            };
+            let time = value * scale;
+            if let Some(&previous) = seconds.last()
+                && !(time > previous && time.is_finite())
+            {
+                let kind = ReadErrorKind::TimeOrder { previous, time };
+                return Err(table.refused_at(kind, row, column));
+            }
+            seconds.push(time);
+        }
+        let timing = Timing::of(&seconds);
+        let rate = 1.0 / timing.interval;
+        let percent = 100.0 * timing.jitter / timing.interval;
+        let text = format!("{rate:.6} samples a second, intervals even to {percent:.2} % (rms)");
+        findings.push(Finding::new(Basis::Detected, text));
+        for Gap { start, end } in &timing.gaps {
+            let text = format!("no rows between {start} s and {end} s");
+            findings.push(Finding::new(Basis::Detected, text));
+        }
+        Ok(Self {
+            seconds,
+            column,
+            timing,
+            findings,
+        })
+    }
+}
+
+/// The column that numbers frames, if there is one, and the time of a frame.
+fn frames(
+    table: &Table,
+    rate: f64,
+    findings: &mut Vec<Finding>,
+) -> Result<(Option<usize>, f64), ReadError> {
+    if !(rate.is_finite() && rate > 0.0) {
+        return Err(table.refused(ReadErrorKind::FrameRate { value: rate }));
+    }
+    let column = table
+        .columns()
+        .iter()
+        .position(|column| is_frame(&column.name));
+    let text = match column {
+        Some(column) => {
+            let name = &table.columns()[column].name;
+            format!("`{name}` counts frames, {rate} a second")
+        }
+        None => format!("each row is a frame, {rate} a second"),
+    };
+    findings.push(Finding::new(Basis::Given, text));
+    Ok((column, 1.0 / rate))
+}
+
+/// The column that is called a time; one without names is the first.
+fn time_column(table: &Table) -> Result<usize, ReadError> {
+    let named = table
+        .columns()
+        .iter()
+        .position(|column| is_time(&column.name));
+    if let Some(column) = named {
+        return Ok(column);
+    }
+    let frame = table.columns().iter().find(|column| is_frame(&column.name));
+    if let Some(column) = frame {
+        let name = column.name.clone();
+        return Err(table.refused(ReadErrorKind::FrameNumbers { name }));
+    }
+    let in_seconds = |unit: &str| seconds(unit).is_some();
+    let by_unit = table
+        .columns()
+        .iter()
+        .position(|column| in_seconds(&column.unit));
+    let bare = table.kind() == FileKind::Wide && table.columns()[0].name == "column 1";
+    by_unit
+        .or(bare.then_some(0))
+        .ok_or_else(|| table.refused(ReadErrorKind::NoTime))
+}
+
+fn seconds(unit: &str) -> Option<f64> {
+    Some(match unit {
+        "s" | "sec" | "seconds" => 1.0,
+        "ms" => 1e-3,
+        "µs" | "us" => 1e-6,
+        "min" => 60.0,
+        _ => return None,
+    })
+}
+
+/// The unit of a column of times, in seconds. Whole numbers that count up by one are
+/// frames, unless their unit is named.
+fn unit(
+    table: &Table,
+    column: usize,
+    basis: Basis,
+    findings: &mut Vec<Finding>,
+) -> Result<f64, ReadError> {
+    let (name, unit) = (&table.columns()[column].name, &table.columns()[column].unit);
+    if unit.is_empty() {
+        let values = table.values(column);
+        let counts = values.windows(2).all(|pair| match pair {
+            [Some(one), Some(next)] => one.fract() == 0.0 && *next == one + 1.0,
+            _ => false,
+        });
+        if counts {
+            let name = name.clone();
+            return Err(table.refused(ReadErrorKind::FrameNumbers { name }));
+        }
+        findings.push(Finding::new(basis, format!("`{name}` is the time")));
+        let text = format!("`{name}` is in seconds, since its header names no unit");
+        findings.push(Finding::new(Basis::Assumed, text));
+        return Ok(1.0);
+    }
+    let scale = seconds(unit).ok_or_else(|| {
+        table.refused(ReadErrorKind::Unit {
+            name: name.clone(),
+            unit: unit.clone(),
+            quantity: "time",
+        })
+    })?;
+    findings.push(Finding::new(
+        basis,
+        format!("`{name}` is the time, in {unit}"),
+    ));
+    Ok(scale)
+}

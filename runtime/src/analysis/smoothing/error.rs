@@ -1,0 +1,113 @@
+//! Why data were not smoothed.
+
+use core::fmt;
+
+/// Why data were not smoothed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SmoothingError {
+    /// As many data as times are needed.
+    Length {
+        /// Number of times.
+        times: usize,
+        /// Number of data.
+        data: usize,
+    },
+    /// Fewer than four data that are not missing.
+    TooFew {
+        /// Number of data.
+        found: usize,
+    },
+    /// A time that is not finite or not later than the one before.
+    Time {
+        /// Its index.
+        index: usize,
+        /// The time, s.
+        value: f64,
+    },
+    /// A datum that is infinite or NaN.
+    Datum {
+        /// Its index.
+        index: usize,
+        /// The datum.
+        value: f64,
+    },
+    /// The system's dimension is not that of the state, or the state is not measured angles
+    /// and their rates.
+    Dimension {
+        /// Dimension of the system.
+        dimension: usize,
+        /// Numbers of the state.
+        state: usize,
+        /// Numbers that are measured.
+        measured: usize,
+    },
+    /// The model's motion leaves the data, or cannot be integrated.
+    Diverged,
+    /// A noise, a jerk or an acceleration that is not finite and positive.
+    Option {
+        /// Its name.
+        name: &'static str,
+        /// The value given.
+        value: f64,
+    },
+}
+
+impl fmt::Display for SmoothingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Length { times, data } => write!(f, "{times} times for {data} data"),
+            Self::TooFew { found } => {
+                write!(f, "{found} data that are not missing; smoothing needs 4")
+            }
+            Self::Time { index, value } => write!(
+                f,
+                "time {index} is {value} s: times are finite and each later than the one before"
+            ),
+            Self::Datum { index, value } => {
+                write!(f, "datum {index} is {value}; missing ones are none")
+            }
+            Self::Dimension {
+                dimension,
+                state,
+                measured,
+            } => write!(
+                f,
+                "a system of dimension {dimension} for states of {state} numbers, {measured} of \
+                 them measured; a state is the measured angles and their rates"
+            ),
+            Self::Diverged => write!(f, "the motion of the model does not stay near the data"),
+            Self::Option { name, value } => {
+                write!(f, "the {name} is {value}: it must be finite and positive")
+            }
+        }
+    }
+}
+
+impl core::error::Error for SmoothingError {}
+
+pub(super) fn check_times(times: &[f64]) -> Result<(), SmoothingError> {
+    for (index, &value) in times.iter().enumerate() {
+        let is_later = index == 0 || value > times[index - 1];
+        if !(value.is_finite() && is_later) {
+            return Err(SmoothingError::Time { index, value });
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn check_option(name: &'static str, value: Option<f64>) -> Result<(), SmoothingError> {
+    match value {
+        Some(value) if !(value.is_finite() && value > 0.0) => {
+            Err(SmoothingError::Option { name, value })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Median of the intervals between times, of which there are two or more.
+pub(super) fn usual_interval(times: &[f64]) -> f64 {
+    let mut intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let middle = intervals.len() / 2;
+    *intervals.select_nth_unstable_by(middle, f64::total_cmp).1
+}

@@ -1,0 +1,176 @@
+//! Kalman filter and Rauch–Tung–Striebel smoother of a motion whose jerk is white noise.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::error::{SmoothingError, check_option, check_times, usual_interval};
+use super::gaussian::{Gaussian, Innovations, Step};
+use super::likelihood::largest;
+use super::series::{Scale, SmoothedMotion};
+
+/// A smoother that knows of a motion only that it is smooth: the third derivative is white
+/// noise of a spectral density q, the data have white noise of a standard deviation σ.
+///
+/// H. E. Rauch, F. Tung, C. T. Striebel, *Maximum likelihood estimates of linear dynamic
+/// systems*, AIAA Journal 3 (1965). Times may be uneven, data may be missing.
+///
+/// # Examples
+///
+/// The velocity of an oscillation, 240 noisy pictures a second:
+///
+/// ```
+/// use branched_pendulum::analysis::KinematicSmoother;
+///
+/// // Noise of 1 mrad, from a generator of your choice.
+/// let mut state = 1_u32;
+/// let mut noise = || {
+///     let sum: f64 = (0..12)
+///         .map(|_| {
+///             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+///             f64::from(state) / f64::from(u32::MAX) - 0.5
+///         })
+///         .sum();
+///     1e-3 * sum
+/// };
+/// let times: Vec<f64> = (0..480).map(|i| f64::from(i) / 240.0).collect();
+/// let data: Vec<Option<f64>> = times.iter().map(|t| Some((6.0 * t).sin() + noise())).collect();
+///
+/// let smoothed = KinematicSmoother::default().smooth(&times, &data)?;
+/// assert!((smoothed.noise() - 1e-3).abs() < 2e-4);
+/// let [_, velocity, _] = smoothed.mean(240);
+/// let [_, deviation, _] = smoothed.deviation(240);
+/// assert!((velocity - 6.0 * (6.0 * times[240]).cos()).abs() < 3.0 * deviation);
+/// assert!(deviation < 0.02);
+/// # Ok::<(), branched_pendulum::analysis::SmoothingError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct KinematicSmoother {
+    /// Standard deviation σ of the data, in their unit; without it the one of largest
+    /// likelihood.
+    pub noise: Option<f64>,
+    /// Spectral density q of the jerk, in the data's unit squared over s⁵; without it the
+    /// one of largest likelihood.
+    pub jerk: Option<f64>,
+}
+
+impl KinematicSmoother {
+    /// Estimates the motion at all times, where data are missing too. Linear in the number
+    /// of times, for each of some 50 values of q that are tried.
+    ///
+    /// # Errors
+    ///
+    /// [`SmoothingError`].
+    pub fn smooth(
+        &self,
+        times: &[f64],
+        data: &[Option<f64>],
+    ) -> Result<SmoothedMotion<3>, SmoothingError> {
+        self.check(times, data)?;
+        let unit = usual_interval(times);
+        let problem = Problem { times, data, unit };
+        let scale = unit.powi(5);
+        let likelihood = |noise: &dyn Fn(f64) -> Option<f64>| {
+            let of = |log: f64| {
+                problem
+                    .filter(log.exp(), |_| ())
+                    .log_likelihood(noise(log.exp()))
+            };
+            largest(of, LOG_RATIOS).exp()
+        };
+        let noise_of = |jerk: f64, ratio: f64| (jerk * scale / ratio).sqrt();
+        let ratio = match (self.noise, self.jerk) {
+            (Some(noise), Some(jerk)) => jerk * scale / (noise * noise),
+            (noise, None) => likelihood(&|_| noise),
+            (None, Some(jerk)) => likelihood(&|ratio| Some(noise_of(jerk, ratio))),
+        };
+        let mut steps = Vec::with_capacity(times.len());
+        let innovations = problem.filter(ratio, |step| steps.push(step));
+        let noise = match (self.noise, self.jerk) {
+            (Some(noise), _) => noise,
+            (None, Some(jerk)) => noise_of(jerk, ratio),
+            (None, None) => innovations.noise(),
+        };
+        let scale = Scale {
+            noise,
+            density: ratio * noise * noise / scale,
+            factors: Vector3::new(1.0, 1.0 / unit, 1.0 / (unit * unit)),
+        };
+        Ok(SmoothedMotion::new(times, &steps, innovations, scale))
+    }
+
+    fn check(&self, times: &[f64], data: &[Option<f64>]) -> Result<(), SmoothingError> {
+        if times.len() != data.len() {
+            let (times, data) = (times.len(), data.len());
+            return Err(SmoothingError::Length { times, data });
+        }
+        let found = data.iter().flatten().count();
+        if found < FEWEST {
+            return Err(SmoothingError::TooFew { found });
+        }
+        check_times(times)?;
+        for (index, datum) in data.iter().enumerate() {
+            if let Some(value) = *datum
+                && !value.is_finite()
+            {
+                return Err(SmoothingError::Datum { index, value });
+            }
+        }
+        check_option("noise", self.noise)?;
+        check_option("jerk", self.jerk)
+    }
+}
+
+/// Smallest number of data: three are met by a parabola.
+const FEWEST: usize = 4;
+/// Logarithms of q τ⁵/σ² among which the likeliest is sought, τ the usual interval.
+const LOG_RATIOS: [f64; 2] = [-60.0, 20.0];
+/// Variance of the state before the first datum, in σ²: its weight beside the data is the
+/// inverse.
+pub(super) const DIFFUSE: f64 = 1e10;
+
+/// Data with times in units of the usual interval.
+struct Problem<'a> {
+    times: &'a [f64],
+    data: &'a [Option<f64>],
+    /// The usual interval, s.
+    unit: f64,
+}
+
+impl Problem<'_> {
+    /// Runs the filter with r = q τ⁵/σ², and hands its steps on.
+    fn filter(&self, ratio: f64, mut keep: impl FnMut(Step<3>)) -> Innovations {
+        let first = self.data.iter().flatten().next().copied().unwrap_or(0.0);
+        let mut state = Gaussian {
+            mean: Vector3::new(first, 0.0, 0.0),
+            variance: Matrix3::from_diagonal_element(DIFFUSE),
+        };
+        let mut innovations = Innovations::new(3);
+        let mut before = self.times.first().copied().unwrap_or(0.0);
+        for (&time, datum) in self.times.iter().zip(self.data) {
+            let (transition, noise) = step((time - before) / self.unit, ratio);
+            let predicted = state.step(transition * state.mean, &transition, &noise);
+            state = predicted;
+            if let Some(datum) = *datum {
+                innovations.push(state.update(0, datum));
+            }
+            keep(Step {
+                transition,
+                predicted,
+                updated: state,
+            });
+            before = time;
+        }
+        innovations
+    }
+}
+
+/// Transition over h usual intervals and the variance that the jerk adds, in units of σ²
+/// (physics §8).
+fn step(h: f64, ratio: f64) -> (Matrix3<f64>, Matrix3<f64>) {
+    let transition = Matrix3::new(1.0, h, 0.5 * h * h, 0.0, 1.0, h, 0.0, 0.0, 1.0);
+    let factorial = [1.0, 1.0, 2.0];
+    let noise = Matrix3::from_fn(|i, j| {
+        let power = 5 - i - j;
+        h.powi(power as i32) / (power as f64 * factorial[2 - i] * factorial[2 - j])
+    });
+    (transition, noise * ratio)
+}

@@ -1,0 +1,25 @@
+//! Angles, velocities and accelerations behind measured angles, with their errors.
+//!
+//! [`KinematicSmoother`] knows of the motion only that it is smooth: its jerk is white noise
+//! (physics §8), so that the estimate is the quintic smoothing spline of the data. How much
+//! noise and how much jerk there is, it finds out by likelihood. A [`SmoothedMotion`] gives
+//! means and standard deviations, and draws: motions that the data allow, as likely as they
+//! are. What does not follow linearly from the motion (energies, W, its integral over time)
+//! is computed from draws, by [`bands`].
+//!
+//! Smooth symmetric coordinates, not links' own angles: differences of identical branches
+//! are smaller and slower than the angles, and what belongs to both is not noise of either.
+
+mod bands;
+mod error;
+mod gaussian;
+mod kinematic;
+mod likelihood;
+mod model;
+mod series;
+
+pub use bands::{Bands, bands};
+pub use error::SmoothingError;
+pub use kinematic::KinematicSmoother;
+pub use model::ModelSmoother;
+pub use series::SmoothedMotion;

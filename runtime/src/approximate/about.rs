@@ -1,0 +1,160 @@
+//! The linear model of a model.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::error::LinearError;
+use super::linear::{Linear, check_size};
+use super::matrix::{Matrix, number};
+use super::measured::errors;
+use crate::integrate::Factored;
+use crate::scalar::Dual;
+use crate::system::{Cast, Energy, Pendulum, Workspace};
+
+/// Most steps of the search for an equilibrium, and its longest, rad.
+const MOST_STEPS: usize = 100;
+const LONGEST_STEP: f64 = 0.5;
+
+/// Errors of matrices that come from accelerations, relative.
+const ROUNDING: f64 = 1e-10;
+
+impl Linear {
+    /// The model of small motions about the equilibrium next to the angles `near` (rad),
+    /// with the errors that it has there: each mode alone is followed for a second at
+    /// two small amplitudes, by this model and by the full one.
+    ///
+    /// # Errors
+    ///
+    /// [`LinearError`], if there is no equilibrium at which torques depend on angles and
+    /// rates in the symmetric way of springs and friction.
+    pub fn about<P>(model: &P, near: &[f64]) -> Result<Self, LinearError>
+    where
+        P: Cast<f64>,
+        P::Of<Dual<f64, 1>>: Energy<Dual<f64, 1>>,
+    {
+        if near.len() != P::LINKS {
+            return Err(LinearError::Length {
+                name: "near",
+                expected: P::LINKS,
+                found: near.len(),
+            });
+        }
+        check_size(P::LINKS)?;
+        let dual = model.cast(Dual::<f64, 1>::constant);
+        let slopes = Slopes::at_rest(&dual, near.to_vec())?;
+        let mass = mass(&dual, &slopes.equilibrium);
+        let negative = |entries: &[f64]| {
+            let slopes = Matrix::new(near.len(), near.len(), |row, column| {
+                -number(entries[row * near.len() + column])
+            });
+            mass.times(&slopes)
+        };
+        let (stiffness, damping) = (negative(&slopes.by_angles), negative(&slopes.by_rates));
+        let equilibrium = slopes.equilibrium.clone();
+        let mut linear = Self::new(equilibrium, [mass, stiffness, damping], ROUNDING)?;
+        linear.errors = errors(model, &linear, &slopes);
+        Ok(linear)
+    }
+}
+
+/// An equilibrium and the derivatives of accelerations there, row by row.
+pub(super) struct Slopes {
+    pub(super) equilibrium: Vec<f64>,
+    pub(super) by_angles: Vec<f64>,
+    pub(super) by_rates: Vec<f64>,
+}
+
+impl Slopes {
+    /// Searches by Newton's method.
+    fn at_rest(model: &impl Pendulum<Dual<f64, 1>>, near: Vec<f64>) -> Result<Self, LinearError> {
+        let n = near.len();
+        let zeros = || vec![0.0; n * n];
+        let mut slopes = Self {
+            equilibrium: near,
+            by_angles: zeros(),
+            by_rates: zeros(),
+        };
+        let mut size = f64::INFINITY;
+        for _ in 0..MOST_STEPS {
+            let mut step = slopes.derive(model);
+            if !step.iter().chain(&slopes.by_angles).all(|a| a.is_finite()) {
+                return Err(LinearError::NotFinite);
+            }
+            // At rest already: there may be no stiffness at all.
+            if step.iter().all(|&acceleration| acceleration == 0.0) {
+                return Ok(slopes);
+            }
+            let mut factored = Factored::new(n);
+            factored.entries.copy_from_slice(&slopes.by_angles);
+            if !factored.factorise() {
+                return Err(LinearError::NoEquilibrium);
+            }
+            factored.solve(&mut step);
+            let before = size;
+            size = step
+                .iter()
+                .fold(0.0, |size, part| f64::max(size, part.abs()));
+            // Rounding is reached where steps no longer shrink.
+            if size == 0.0 || (size < 1e-9 && size >= 0.5 * before) {
+                return Ok(slopes);
+            }
+            let factor = f64::min(LONGEST_STEP / size, 1.0);
+            for (angle, part) in slopes.equilibrium.iter_mut().zip(step) {
+                *angle -= factor * part;
+            }
+        }
+        Err(LinearError::NoEquilibrium)
+    }
+
+    /// Derives at the present angles, and returns the accelerations.
+    fn derive(&mut self, model: &impl Pendulum<Dual<f64, 1>>) -> Vec<f64> {
+        let n = self.equilibrium.len();
+        let angles = self.equilibrium.iter();
+        let mut theta: Vec<_> = angles
+            .map(|&angle| Dual::<f64, 1>::constant(angle))
+            .collect();
+        let mut omega = vec![Dual::constant(0.0); n];
+        let mut alpha = omega.clone();
+        let mut workspace = Workspace::new();
+        for column in 0..2 * n {
+            let (moved, slopes) = if column < n {
+                (&mut theta, &mut self.by_angles)
+            } else {
+                (&mut omega, &mut self.by_rates)
+            };
+            moved[column % n].tangents = [1.0];
+            let time = Dual::constant(0.0);
+            model.accelerations_with(&mut workspace, time, &theta, &omega, &mut alpha);
+            for (row, alpha) in alpha.iter().enumerate() {
+                slopes[row * n + column % n] = alpha.tangents[0];
+            }
+            let moved = if column < n { &mut theta } else { &mut omega };
+            moved[column % n].tangents = [0.0];
+        }
+        alpha.iter().map(|alpha| alpha.value).collect()
+    }
+}
+
+/// The mass matrix: ∂K/∂ω_i at the rates that have one at link j alone.
+fn mass(model: &impl Energy<Dual<f64, 1>>, angles: &[f64]) -> Matrix {
+    let n = angles.len();
+    let constant = |&angle: &f64| Dual::<f64, 1>::constant(angle);
+    let theta: Vec<_> = angles.iter().map(constant).collect();
+    let mut omega = vec![Dual::constant(0.0); n];
+    let mut workspace = Workspace::new();
+    let mut entry = |i: usize, j: usize| {
+        omega[j].value = 1.0;
+        omega[i].tangents = [1.0];
+        let energy = model.kinetic_energy_with(&mut workspace, &theta, &omega);
+        omega[j].value = 0.0;
+        omega[i].tangents = [0.0];
+        energy.tangents[0]
+    };
+    let mut lower = vec![0.0; n * n];
+    for i in 0..n {
+        for j in 0..=i {
+            lower[i * n + j] = entry(i, j);
+        }
+    }
+    Matrix::new(n, n, |i, j| number(lower[i.max(j) * n + i.min(j)]))
+}

@@ -1,0 +1,337 @@
+//! The linear model, frame by frame.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::Approximation;
+use super::error::LinearError;
+use super::linear::Linear;
+use super::matrix::Matrix;
+use crate::scalar::{Double, Real, Scalar};
+
+/// A [`Linear`] model with its exact propagation by frames of one length.
+///
+/// [`step`](Approximation::step) moves a full state. For many frames it is cheaper to
+/// leave the motion in modes: [`set_state`](Self::set_state) once,
+/// [`advance`](Self::advance) for each frame, and angles or the whole state where they
+/// are looked at.
+///
+/// Cost, in products, for m modes of n links: a frame takes 4b² for each group of b
+/// modes that friction couples, so 4m where it couples none, and 4m² at most; angles
+/// take mn, states two times as many each way; torques mn and 2b² a group. Nothing is
+/// allocated after construction.
+///
+/// Without friction and torques the energy of the model stays, but for rounding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearFrames<T> {
+    frame: T,
+    links: usize,
+    equilibrium: Vec<T>,
+    groups: Vec<Group<T>>,
+    /// Shapes of the modes that take part, in the order of the groups.
+    shapes: Vec<T>,
+    /// Of all modes, those that take part first.
+    projections: Vec<T>,
+    estimates: Vec<Estimate<T>>,
+    /// Coordinates and rates of the modes, group by group, at a frame and at the next.
+    now: Vec<T>,
+    next: Vec<T>,
+    forces: Vec<T>,
+}
+
+/// Modes that friction couples.
+#[derive(Clone, Debug, PartialEq)]
+struct Group<T> {
+    size: usize,
+    /// Column by column: from coordinates and rates to those a frame later.
+    propagator: Vec<T>,
+    /// Column by column: from constant torques on the modes.
+    response: Vec<T>,
+}
+
+/// How the error of a mode is estimated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Estimate<T> {
+    /// Amplitude of a rate, s.
+    per_rate: T,
+    /// Largest part of an angle in the shape.
+    peak: T,
+    /// Relative errors by amplitude, and by its square.
+    errors: [T; 2],
+}
+
+impl<T: Real> LinearFrames<T> {
+    pub(super) fn new(linear: &Linear, frame: f64) -> Result<Self, LinearError> {
+        if !(frame.is_finite() && frame > 0.0) {
+            return Err(LinearError::Frame { value: frame });
+        }
+        let rounded = |value: Double| T::from_parts(value.high(), value.low());
+        let by_columns = |matrix: &Matrix| -> Vec<T> {
+            let columns = matrix.transposed();
+            columns.entries().iter().copied().map(rounded).collect()
+        };
+        let groups = linear.groups();
+        let mut order: Vec<usize> = groups.iter().flatten().copied().collect();
+        let group = |modes: &Vec<usize>| {
+            let (propagator, response) = linear.propagator(modes, frame);
+            Group {
+                size: modes.len(),
+                propagator: by_columns(&propagator),
+                response: by_columns(&response),
+            }
+        };
+        let groups: Vec<Group<T>> = groups.iter().map(group).collect();
+        let finite = |group: &Group<T>| group.propagator.iter().all(|entry| entry.is_finite());
+        if !groups.iter().all(finite) {
+            return Err(LinearError::NotFinite);
+        }
+        let kept = order.len();
+        let links = linear.equilibrium.len();
+        let shapes = linear.shapes.transposed();
+        let shape = |&mode: &usize| shapes.row(mode).iter().copied().map(rounded);
+        let kept_shapes = order.iter().flat_map(shape).collect();
+        order.extend(kept..links);
+        let projection = |&mode: &usize| linear.projections.row(mode).iter().copied().map(rounded);
+        Ok(Self {
+            frame: T::from_f64(frame),
+            links,
+            equilibrium: linear.equilibrium.iter().map(|&a| T::from_f64(a)).collect(),
+            groups,
+            shapes: kept_shapes,
+            projections: order.iter().flat_map(projection).collect(),
+            estimates: order
+                .iter()
+                .map(|&mode| Estimate::new(linear, mode))
+                .collect(),
+            now: vec![T::ZERO; 2 * kept],
+            next: vec![T::ZERO; 2 * kept],
+            forces: vec![T::ZERO; kept],
+        })
+    }
+
+    /// Number of modes that take part.
+    pub fn modes(&self) -> usize {
+        self.forces.len()
+    }
+
+    /// Number of modes in each group that friction couples.
+    pub fn group_sizes(&self) -> impl Iterator<Item = usize> {
+        self.groups.iter().map(|group| group.size)
+    }
+
+    /// Takes a full state, as far as the modes have it.
+    pub fn set_state(&mut self, state: &[T]) {
+        if state.len() != 2 * self.links {
+            self.now.fill(T::NAN);
+            return;
+        }
+        let mut projections = self.projections.chunks_exact(self.links);
+        let (theta, omega) = state.split_at(self.links);
+        let mut now = &mut self.now[..];
+        for group in &self.groups {
+            let (own, rest) = now.split_at_mut(2 * group.size);
+            let (coordinates, rates) = own.split_at_mut(group.size);
+            let modes = coordinates.iter_mut().zip(rates).zip(&mut projections);
+            for ((coordinate, rate), row) in modes {
+                *coordinate = product(row, theta, &self.equilibrium);
+                *rate = product(row, omega, &[]);
+            }
+            now = rest;
+        }
+    }
+
+    /// Moves on by a frame.
+    pub fn advance(&mut self) {
+        self.propagate();
+        core::mem::swap(&mut self.now, &mut self.next);
+    }
+
+    /// Moves on by a frame under torques (N m) that stay the same during it.
+    pub fn advance_under(&mut self, torques: &[T]) {
+        if torques.len() != self.links {
+            self.now.fill(T::NAN);
+            return;
+        }
+        let shapes = self.shapes.chunks_exact(self.links);
+        for (force, shape) in self.forces.iter_mut().zip(shapes) {
+            *force = product(shape, torques, &[]);
+        }
+        self.propagate();
+        let (mut next, mut forces) = (&mut self.next[..], &self.forces[..]);
+        for group in &self.groups {
+            let (own, rest) = next.split_at_mut(2 * group.size);
+            let (pushing, others) = forces.split_at(group.size);
+            add_columns(own, &group.response, pushing);
+            (next, forces) = (rest, others);
+        }
+        core::mem::swap(&mut self.now, &mut self.next);
+    }
+
+    fn propagate(&mut self) {
+        let (mut now, mut next) = (&self.now[..], &mut self.next[..]);
+        for group in &self.groups {
+            let (own, others) = now.split_at(2 * group.size);
+            let (moved, rest) = next.split_at_mut(2 * group.size);
+            moved.fill(T::ZERO);
+            add_columns(moved, &group.propagator, own);
+            (now, next) = (others, rest);
+        }
+    }
+
+    /// Writes the angles, rad; NaN for another number of them than links.
+    pub fn angles_into(&self, angles: &mut [T]) {
+        if angles.len() != self.links {
+            angles.fill(T::NAN);
+            return;
+        }
+        angles.copy_from_slice(&self.equilibrium);
+        self.add_shapes(angles, 0);
+    }
+
+    /// Writes the full state: angles, then angular velocities.
+    pub fn state_into(&self, state: &mut [T]) {
+        if state.len() != 2 * self.links {
+            state.fill(T::NAN);
+            return;
+        }
+        let (theta, omega) = state.split_at_mut(self.links);
+        self.angles_into(theta);
+        omega.fill(T::ZERO);
+        self.add_shapes(omega, 1);
+    }
+
+    /// Adds the shapes times coordinates (0) or rates (1).
+    fn add_shapes(&self, sums: &mut [T], half: usize) {
+        let (mut now, mut shapes) = (&self.now[..], &self.shapes[..]);
+        for group in &self.groups {
+            let (own, others) = now.split_at(2 * group.size);
+            let (columns, rest) = shapes.split_at(group.size * self.links);
+            add_columns(sums, columns, &own[half * group.size..][..group.size]);
+            (now, shapes) = (others, rest);
+        }
+    }
+
+    /// Returns error and amplitude, rad.
+    fn estimate(&self, state: &[T]) -> (T, T) {
+        if state.len() != 2 * self.links {
+            return (T::NAN, T::NAN);
+        }
+        let (theta, omega) = state.split_at(self.links);
+        let rows = self.projections.chunks_exact(self.links);
+        // Sums of squares: of all amplitudes, of those dropped, and of those kept times
+        // their errors: E²₁, E₁E₂, E²₂.
+        let (mut all, mut dropped, mut by_errors) = (T::ZERO, T::ZERO, [T::ZERO; 3]);
+        for (number, (row, estimate)) in rows.zip(&self.estimates).enumerate() {
+            let coordinate = product(row, theta, &self.equilibrium);
+            let rate = estimate.per_rate * product(row, omega, &[]);
+            let peak = estimate.peak * estimate.peak;
+            let square = peak * (coordinate * coordinate + rate * rate);
+            all += square;
+            if number < self.modes() {
+                let [first, second] = estimate.errors;
+                by_errors[0] += square * first * first;
+                by_errors[1] += square * first * second;
+                by_errors[2] += square * second * second;
+            } else {
+                dropped += square;
+            }
+        }
+        let amplitude = all.sqrt();
+        let [first, mixed, second] = by_errors;
+        let two = T::from_f64(2.0);
+        let curved = all * (first + amplitude * (two * mixed + amplitude * second));
+        ((dropped + curved).sqrt(), amplitude)
+    }
+}
+
+impl<T: Real> Approximation<T> for LinearFrames<T> {
+    fn frame(&self) -> T {
+        self.frame
+    }
+
+    fn step(&mut self, state: &mut [T]) {
+        self.set_state(state);
+        self.advance();
+        self.state_into(state);
+    }
+
+    fn step_under(&mut self, state: &mut [T], torques: &[T]) {
+        self.set_state(state);
+        self.advance_under(torques);
+        self.state_into(state);
+    }
+
+    fn validity(&self, state: &[T]) -> T {
+        let (error, amplitude) = self.estimate(state);
+        if amplitude == T::ZERO {
+            error
+        } else {
+            error / amplitude
+        }
+    }
+
+    fn error(&self, state: &[T]) -> T {
+        self.estimate(state).0
+    }
+}
+
+impl<T: Real> Estimate<T> {
+    fn new(linear: &Linear, mode: usize) -> Self {
+        let square = linear.squares[mode].high().abs();
+        // A mode slower than the second that counts goes as far as its rate takes it.
+        let per_rate = 1.0 / Real::max(Scalar::sqrt(square), 1.0);
+        let shape = (0..linear.equilibrium.len()).map(|link| linear.shapes.at(link, mode).high());
+        let peak = shape.fold(0.0, |peak, part| Real::max(peak, part.abs()));
+        Self {
+            per_rate: T::from_f64(per_rate),
+            peak: T::from_f64(peak),
+            errors: linear.errors[mode].map(T::from_f64),
+        }
+    }
+}
+
+/// Σ row (values − origin), an origin without entries being zero; in eight sums, for
+/// vector registers.
+#[inline]
+fn product<T: Real>(row: &[T], values: &[T], origin: &[T]) -> T {
+    let mut sums = [T::ZERO; 8];
+    if origin.is_empty() {
+        for (row, values) in row.chunks(8).zip(values.chunks(8)) {
+            for ((sum, &factor), &value) in sums.iter_mut().zip(row).zip(values) {
+                *sum += factor * value;
+            }
+        }
+    } else {
+        for ((row, values), origin) in row.chunks(8).zip(values.chunks(8)).zip(origin.chunks(8)) {
+            let terms = row.iter().zip(values).zip(origin);
+            for (sum, ((&factor, &value), &origin)) in sums.iter_mut().zip(terms) {
+                *sum += factor * (value - origin);
+            }
+        }
+    }
+    sums.into_iter().fold(T::ZERO, |sum, part| sum + part)
+}
+
+/// Adds columns times factors, four at a time: one pass over the sums for four columns.
+#[inline]
+fn add_columns<T: Real>(sums: &mut [T], columns: &[T], factors: &[T]) {
+    let rows = sums.len();
+    let mut fours = factors.chunks_exact(4);
+    let mut rest = columns;
+    for factors in &mut fours {
+        let (four, others) = rest.split_at(4 * rows);
+        let (ab, cd) = four.split_at(2 * rows);
+        let ((a, b), (c, d)) = (ab.split_at(rows), cd.split_at(rows));
+        let &[p, q, r, s] = factors else { continue };
+        let columns = a.iter().zip(b).zip(c.iter().zip(d));
+        for (sum, ((&a, &b), (&c, &d))) in sums.iter_mut().zip(columns) {
+            *sum += (p * a + q * b) + (r * c + s * d);
+        }
+        rest = others;
+    }
+    for (column, &factor) in rest.chunks_exact(rows).zip(fours.remainder()) {
+        for (sum, &entry) in sums.iter_mut().zip(column) {
+            *sum += factor * entry;
+        }
+    }
+}

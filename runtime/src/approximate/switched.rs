@@ -1,0 +1,196 @@
+//! The cheaper model where it is good enough.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::Approximation;
+use crate::integrate::Frames;
+use crate::scalar::Real;
+use crate::system::{Forced, Ode, UnderTorques};
+
+/// A motion by frames that takes an approximation while its error allows that, and the
+/// full model otherwise.
+///
+/// Before each frame the approximation tells its error ([`Approximation::error`]), which
+/// counts for as many seconds as errors add up. Above the tolerance (rad) the full model
+/// takes the state over; the approximation has it back where its error has been below
+/// half of the tolerance for a tenth of a second. The state is handed over as it is.
+///
+/// # Examples
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::approximate::{Linear, Switched};
+/// use branched_pendulum::integrate::{Frames, longest_sub_step};
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::UnderTorques;
+///
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     limb: rod(mass = 0.4, length = 0.5, friction = 0.05) [
+///         twig: rod(mass = 0.1, length = 0.3, friction = 0.005) * 2
+///     ],
+///     emit(energies, forces),
+/// )]
+/// struct Branch;
+///
+/// let branch = Branch::<f64>::new();
+/// let start = State::at_rest(0.0, &[1.0, 0.5, 0.8]);
+/// let sub_step = longest_sub_step(&branch);
+/// let full = Frames::new(UnderTorques::of(&branch, vec![0.0; 3]), &start, sub_step)?;
+/// let linear = Linear::about(&branch, &[0.0; 3])?;
+/// let seconds = linear.fading_time();
+/// let mut motion = Switched::new(full, linear.frames(1.0 / 60.0)?, 1e-2, seconds);
+/// for _ in 0..1200 {
+///     motion.advance_under(&[0.0; 3]);
+/// }
+/// // It swings widely first, and comes to rest.
+/// assert!(motion.log().full_frames > 60 && motion.log().approximate_frames > 600);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Switched<O, A, T> {
+    /// Holds the state, whichever model moves it.
+    full: Frames<O, T>,
+    approximation: A,
+    /// Largest error that the approximation may tell of a second.
+    limit: T,
+    /// The state while the approximation moves it.
+    moved: Vec<T>,
+    approximate: bool,
+    /// Frames for which the approximation has been good enough.
+    calm: u64,
+    calm_frames: u64,
+    log: SwitchLog,
+}
+
+/// The account of a [`Switched`] motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SwitchLog {
+    /// Frames by the full model.
+    pub full_frames: u64,
+    /// Frames by the approximation.
+    pub approximate_frames: u64,
+    /// Number of times that the state went from one to the other.
+    pub switches: u64,
+}
+
+impl fmt::Display for SwitchLog {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            full_frames,
+            approximate_frames,
+            switches,
+        } = self;
+        write!(
+            f,
+            "{full_frames} frames by the full model, {approximate_frames} by the approximation, \
+             {switches} switches"
+        )
+    }
+}
+
+/// Time for which the approximation must be good enough before it takes over, s.
+const CALM: f64 = 0.1;
+
+impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
+    /// A motion from the state of `full`, with errors up to `tolerance` (rad) where they
+    /// add up over a time of `seconds`: the length of the run, or where friction lets
+    /// them fade sooner, that of [`Linear::fading_time`](super::Linear::fading_time);
+    /// less than a second counts as one. A tolerance that is no number, or not positive,
+    /// is one that only the full model meets.
+    pub fn new(full: Frames<O, T>, approximation: A, tolerance: T, seconds: T) -> Self {
+        let calm_frames = (CALM / approximation.frame().to_f64()) as u64;
+        Self {
+            moved: full.state().to_vec(),
+            full,
+            approximation,
+            limit: tolerance / T::ONE.max(seconds),
+            approximate: false,
+            // The start may be calm already.
+            calm: calm_frames,
+            calm_frames,
+            log: SwitchLog::default(),
+        }
+    }
+
+    /// Moves on by a frame of the approximation.
+    pub fn advance(&mut self) {
+        self.frame(|approximation, _, state| approximation.step(state));
+    }
+
+    /// The state.
+    pub fn state(&self) -> &[T] {
+        self.full.state()
+    }
+
+    /// Time of the state, s.
+    pub fn time(&self) -> f64 {
+        self.full.time()
+    }
+
+    /// True while the approximation moves the state.
+    pub fn is_approximate(&self) -> bool {
+        self.approximate
+    }
+
+    /// The account of all frames so far.
+    pub fn log(&self) -> SwitchLog {
+        self.log
+    }
+
+    fn frame(&mut self, step: impl FnOnce(&mut A, &O, &mut [T])) {
+        self.choose();
+        let frame = self.approximation.frame();
+        if self.approximate {
+            self.moved.copy_from_slice(self.full.state());
+            step(&mut self.approximation, self.full.ode(), &mut self.moved);
+            let time = self.full.time() + frame.to_f64();
+            if self.full.set_state(time, &self.moved).is_ok() {
+                self.log.approximate_frames += 1;
+                return;
+            }
+            // Torques that are no numbers: the full model knows what to do.
+            self.switch(false);
+        }
+        self.full.advance(frame);
+        self.log.full_frames += 1;
+    }
+
+    /// Takes the model for the next frame.
+    fn choose(&mut self) {
+        let error = self.approximation.error(self.full.state());
+        if self.approximate {
+            if error.to_f64().is_nan() || error > self.limit {
+                self.switch(false);
+            }
+            return;
+        }
+        let half = T::from_f64(0.5) * self.limit;
+        self.calm = if error < half { self.calm + 1 } else { 0 };
+        if self.calm > self.calm_frames {
+            self.switch(true);
+        }
+    }
+
+    fn switch(&mut self, approximate: bool) {
+        (self.approximate, self.calm) = (approximate, 0);
+        self.log.switches += 1;
+    }
+}
+
+impl<P: Forced<T>, A: Approximation<T>, T: Real> Switched<UnderTorques<P, Vec<T>>, A, T> {
+    /// Moves on by a frame under torques (N m) that stay the same during it; torques of
+    /// another number than links are none.
+    pub fn advance_under(&mut self, torques: &[T]) {
+        let held = self.full.ode_mut().torques_mut();
+        held.resize(P::LINKS, T::ZERO);
+        if torques.len() == held.len() {
+            held.copy_from_slice(torques);
+        } else {
+            held.fill(T::ZERO);
+        }
+        self.frame(|approximation, ode, state| approximation.step_under(state, ode.torques()));
+    }
+}

@@ -1,0 +1,251 @@
+//! Pendulums of which some links are moved.
+
+use core::fmt;
+
+use super::{Forced, Ode, Workspace};
+use crate::scalar::Scalar;
+
+/// Links whose motion is handed over together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PrescribedLinks {
+    /// Their names, with `_and_` between.
+    pub name: &'static str,
+    /// Their indices.
+    pub links: &'static [usize],
+}
+
+/// A state, and what acts on it from outside.
+#[derive(Clone, Copy, Debug)]
+pub struct PrescribedMotion<'a, T> {
+    /// Angles of all links, rad.
+    pub theta: &'a [T],
+    /// Angular velocities of all links, rad/s.
+    pub omega: &'a [T],
+    /// Generalized torques from outside on all links, N m.
+    pub torques: &'a [T],
+    /// Angular accelerations of the prescribed links, rad/s².
+    pub prescribed: &'a [T],
+}
+
+/// A model of which some links can be moved as the caller says: a hand holds them, a
+/// motor turns them. `prescribed(LINK, …)` in the description; each such entry is a set of
+/// links, which move together, and the model moves by itself all the same wherever it is
+/// not asked for a set.
+#[diagnostic::on_unimplemented(
+    message = "no link of `{Self}` has a prescribed motion",
+    note = "a model has some with `prescribed(LINK)` in its attribute"
+)]
+pub trait Prescribed<T: Scalar>: Forced<T> {
+    /// The sets of links.
+    const PRESCRIBED: &'static [PrescribedLinks];
+
+    /// Writes the angular accelerations (rad/s²) of all links where those of a set are
+    /// given, and the reactions: the torques (N m) on these links that make them move so,
+    /// beyond those from outside. Their power is that of the reactions times the
+    /// velocities of their links. NaN where lengths do not fit or there is no such set.
+    fn accelerations_prescribed_into(
+        &self,
+        set: usize,
+        time: T,
+        motion: PrescribedMotion<'_, T>,
+        alpha: &mut [T],
+        reactions: &mut [T],
+    );
+}
+
+impl<T: Scalar, P: Prescribed<T>> Prescribed<T> for &P {
+    const PRESCRIBED: &'static [PrescribedLinks] = P::PRESCRIBED;
+
+    #[inline]
+    fn accelerations_prescribed_into(
+        &self,
+        set: usize,
+        time: T,
+        motion: PrescribedMotion<'_, T>,
+        alpha: &mut [T],
+        reactions: &mut [T],
+    ) {
+        (**self).accelerations_prescribed_into(set, time, motion, alpha, reactions);
+    }
+}
+
+/// Angle, angular velocity and angular acceleration of a link.
+pub type LinkCourse<T> = [T; 3];
+
+/// A pendulum of which a set of links moves as a function of time, as a first-order
+/// system in absolute angles: the state is the angles of all links followed by their
+/// angular velocities. Of the prescribed links it is to start as the function says, and
+/// stays so; the equations take their motion from the function alone.
+///
+/// # Examples
+///
+/// A hand swings a limb to and fro, and the twig follows:
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::PrescribedOde;
+///
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     limb: rod(mass = 0.4, length = 0.5) [
+///         twig: rod(mass = 0.1, length = 0.3, friction = 1e-3)
+///     ],
+///     prescribed(limb),
+///     emit(energies),
+/// )]
+/// struct Branch;
+///
+/// let branch = Branch::new();
+/// let (width, pace) = (0.3_f64, 2.0_f64);
+/// let hand = |time: f64, course: &mut [[f64; 3]]| {
+///     let (sine, cosine) = (pace * time).sin_cos();
+///     course[0] = [width * sine, pace * width * cosine, -pace * pace * width * sine];
+/// };
+/// let held = PrescribedOde::new(&branch, 0, hand).expect("it has that set");
+/// let start = State::from_positions_and_velocities(0.0, &[0.0, 0.0], &[0.6, 0.0])?;
+/// let method = Dop853::new(Options::with_tolerance(1e-10));
+/// let end = method.integrate(&held, &start, 3.0, |_| ControlFlow::Continue(()))?.state;
+/// assert!((end.values[0] - 0.3 * 6.0_f64.sin()).abs() < 1e-9);
+///
+/// // The torque that the hand exerts, and its power.
+/// let mut torque = [0.0];
+/// held.reactions_into(end.time, &end.values, &mut torque);
+/// let power = torque[0] * end.velocities()[0];
+/// assert!(power.is_finite() && torque[0].abs() > 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy)]
+pub struct PrescribedOde<P, F> {
+    pendulum: P,
+    index: usize,
+    set: PrescribedLinks,
+    course: F,
+}
+
+impl<P, F> PrescribedOde<P, F> {
+    /// The pendulum, or a reference to one, of which the links of that set move as
+    /// `course(time, out)` writes; `None` without such a set.
+    pub fn new<T: Scalar>(pendulum: P, set: usize, course: F) -> Option<Self>
+    where
+        P: Prescribed<T>,
+        F: Fn(T, &mut [LinkCourse<T>]),
+    {
+        Some(Self {
+            pendulum,
+            index: set,
+            set: *P::PRESCRIBED.get(set)?,
+            course,
+        })
+    }
+
+    /// The set of links.
+    pub fn set(&self) -> &PrescribedLinks {
+        &self.set
+    }
+
+    /// Writes the reactions (N m) on the links of the set in a state at `time`: the
+    /// torques that make them move so. Allocates.
+    pub fn reactions_into<T: Scalar>(&self, time: T, state: &[T], reactions: &mut [T])
+    where
+        P: Prescribed<T>,
+        F: Fn(T, &mut [LinkCourse<T>]),
+    {
+        let nan = T::from_f64(f64::NAN);
+        if reactions.len() != self.set.links.len() {
+            return reactions.fill(nan);
+        }
+        let mut rates = alloc::vec![nan; state.len()];
+        self.fill(
+            &mut Workspace::new(),
+            time,
+            state,
+            &mut rates,
+            Some(reactions),
+        );
+    }
+
+    /// Writes the rates, and the reactions where they are asked for.
+    fn fill<T: Scalar>(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        state: &[T],
+        rates: &mut [T],
+        reactions: Option<&mut [T]>,
+    ) where
+        P: Prescribed<T>,
+        F: Fn(T, &mut [LinkCourse<T>]),
+    {
+        let (links, held) = (P::LINKS, self.set.links.len());
+        if state.len() != 2 * links || rates.len() != 2 * links {
+            rates.fill(T::from_f64(f64::NAN));
+            return;
+        }
+        let room = workspace.numbers(3 * links + 5 * held);
+        let (all, own) = room.split_at_mut(3 * links);
+        let (motion, torques) = all.split_at_mut(2 * links);
+        let (course, others) = own.split_at_mut(3 * held);
+        let (prescribed, spare) = others.split_at_mut(held);
+        torques.fill(T::from_f64(0.0));
+        motion.copy_from_slice(state);
+        let (theta, omega) = motion.split_at_mut(links);
+        let (course, _) = course.as_chunks_mut::<3>();
+        (self.course)(time, course);
+        for ((&link, &mut [angle, rate, alpha]), prescribed) in
+            self.set.links.iter().zip(course).zip(&mut *prescribed)
+        {
+            *prescribed = alpha;
+            if let (Some(theta), Some(omega)) = (theta.get_mut(link), omega.get_mut(link)) {
+                (*theta, *omega) = (angle, rate);
+            }
+        }
+        let (velocities, alpha) = rates.split_at_mut(links);
+        velocities.copy_from_slice(omega);
+        let motion = PrescribedMotion {
+            theta,
+            omega,
+            torques,
+            prescribed,
+        };
+        let reactions = reactions.unwrap_or(spare);
+        self.pendulum
+            .accelerations_prescribed_into(self.index, time, motion, alpha, reactions);
+    }
+}
+
+impl<P: fmt::Debug, F> fmt::Debug for PrescribedOde<P, F> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            pendulum,
+            index: _,
+            set,
+            course: _,
+        } = self;
+        formatter
+            .debug_struct("PrescribedOde")
+            .field("pendulum", pendulum)
+            .field("set", set)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<T, P, F> Ode<T> for PrescribedOde<P, F>
+where
+    T: Scalar,
+    P: Prescribed<T>,
+    F: Fn(T, &mut [LinkCourse<T>]),
+{
+    fn dimension(&self) -> usize {
+        2 * P::LINKS
+    }
+
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        self.rates_with(&mut Workspace::new(), time, state, rates);
+    }
+
+    #[inline]
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        self.fill(workspace, time, state, rates, None);
+    }
+}

@@ -1,0 +1,9 @@
+//! What acts on a tree from outside at run time: torques in every form of tree, links whose
+//! motion is prescribed, parameters that change.
+
+mod balance;
+mod changes;
+mod gusts;
+mod lanes;
+mod prescribed;
+mod reduced;
