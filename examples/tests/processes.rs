@@ -19,7 +19,7 @@ struct Program {
     arguments: &'static [&'static str],
 }
 
-const PROGRAMS: [Program; 8] = [
+const PROGRAMS: [Program; 10] = [
     Program {
         path: env!("CARGO_BIN_EXE_branched-double"),
         arguments: &["--angles", "40:43:0.2", "--duration", "4", "--rate", "50"],
@@ -31,6 +31,10 @@ const PROGRAMS: [Program; 8] = [
     Program {
         path: env!("CARGO_BIN_EXE_advise"),
         arguments: &["--horizon", "1", "--right", "angles:1e-3"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_analyse"),
+        arguments: &["--duration", "1", "--draws", "50"],
     },
     Program {
         path: env!("CARGO_BIN_EXE_transfer-orders"),

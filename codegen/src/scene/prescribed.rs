@@ -47,6 +47,10 @@ pub(super) fn resolve_prescribed(
             name: written.join("_and_"),
             links: found,
         };
+        // Nothing of it was readable, which is reported.
+        if set.links.is_empty() {
+            continue;
+        }
         if sets.iter().any(|known| known.name == set.name) {
             let message = OutputMessage::DuplicateRequest { name: set.name };
             report.error(name.span(), message);

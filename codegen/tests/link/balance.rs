@@ -17,6 +17,10 @@ struct Algebra<'s> {
     unit: Formula,
 }
 
+/// Reciprocal of the unit of torques of a bush: of the inertia of its leaf `right` about
+/// its pivot, 0.1 kg · (0.25 m)² / 3.
+const PER_TORQUE: i64 = 480;
+
 /// Symbols that stand for elements of arguments.
 fn stand_in(argument: Argument, index: usize) -> SymbolId {
     let known = ARGUMENTS.iter().position(|known| *known == argument);
@@ -123,13 +127,17 @@ impl Algebra<'_> {
             false => Formula::zero(),
         };
         let joint = |index| self.s(stand_in(Argument::Motion, index));
+        let outside = match self.strips.has_outside_torques {
+            true => Formula::integer(PER_TORQUE),
+            false => Formula::zero(),
+        };
         let terms = [
             self.s(s.torque),
             &has(Column::Spring) * &(&joint(3) - &has(Column::Rest)),
             &has(Column::Friction) * &joint(4),
             &has(Column::Drag) * &self.s(s.omega),
             -has(Column::DriveTorque),
-            -(&has(Column::PerTorque) * &joint(5)),
+            -(&outside * &joint(5)),
         ];
         terms.into_iter().sum()
     }
@@ -246,7 +254,12 @@ fn with_algebra(text: &str, own_unit: bool, work: impl FnOnce(&Algebra<'_>) + Se
 
 #[test]
 fn the_functions_of_a_bush_are_the_balance() {
-    with_algebra(BUSH, true, |algebra| {
+    functions_are_the_balance(BUSH);
+    functions_are_the_balance(&format!("{BUSH}, emit(forces)"));
+}
+
+fn functions_are_the_balance(text: &str) {
+    with_algebra(text, true, |algebra| {
         let below = (Argument::Sums, algebra.below());
         algebra.assert_inner(&algebra.outputs("inner", &[below]));
         algebra.assert_leaf(&algebra.outputs("leaf", &[]));

@@ -3,6 +3,7 @@
 use branched_pendulum::analysis::advice::{
     AdviceError, Advisor, Candidates, ModelForm, TimeLimit, Wanted,
 };
+use branched_pendulum::approximate::{Approximation, Linear};
 use branched_pendulum::prelude::*;
 use clap::ValueEnum;
 
@@ -84,6 +85,9 @@ pub struct Question {
 
 /// Pixels a metre.
 const PIXELS: f64 = 1000.0;
+
+/// Highest frequency of the slow modes of the branch, Hz.
+const SLOW: f64 = 3.0;
 
 /// Largest drift of the energy beyond the horizon of chaos, J.
 const DRIFT: f64 = 1e-6;
@@ -168,7 +172,7 @@ fn paper<R>(
         .series(&written_out, AbsoluteAngles(&model))
         .rates(&symmetric, SymmetricCoordinates(&model));
     if question.starts > 1 {
-        candidates = candidates.lanes_with_series(&written_out, &model);
+        candidates = candidates.lanes_with_series(&written_out, AbsoluteAngles(&model));
     }
     ask(&advisor, &candidates)
 }
@@ -221,11 +225,52 @@ fn branch<R>(
     let in_phase = ModelForm::new("in phase")
         .entry("in_phase(all)")
         .reduced(BranchInPhase::WHOLE);
-    let candidates = Candidates::new()
+    let mut candidates = Candidates::new();
+    // What has no linear model is not asked for one.
+    if let Ok(all) = Linear::about(&model, &vec![0.0; links]) {
+        candidates = linear(candidates, "linear", "", &all, 1.0 / question.rate);
+        let slow = all.truncate(SLOW);
+        let truncate = format!(".truncate({SLOW:.1})");
+        candidates = linear(
+            candidates,
+            "slow modes",
+            &truncate,
+            &slow,
+            1.0 / question.rate,
+        );
+    }
+    let candidates = candidates
         .series(&in_phase, AbsoluteAngles(&chain))
         .rates(&in_loops, AbsoluteAngles(&loops))
         .series(&ModelForm::new("written out"), AbsoluteAngles(&model));
     ask(&advisor, &candidates)
+}
+
+/// Adds a linear model by frames of this length, in `f64` and in `f32`.
+fn linear<'a>(
+    candidates: Candidates<'a>,
+    name: &str,
+    truncated: &str,
+    linear: &Linear,
+    frame: f64,
+) -> Candidates<'a> {
+    let form = |scalar: &str| {
+        ModelForm::new(name).entry("emit(energies)").system(format!(
+            "let mut linear = Linear::about(&model, &[0.0; N])?{truncated}.frames::<{scalar}>({frame:?})?; linear.step(&mut state);"
+        ))
+    };
+    let (Ok(mut double), Ok(mut single)) =
+        (linear.frames::<f64>(frame), linear.frames::<f32>(frame))
+    else {
+        return candidates;
+    };
+    candidates
+        .frames(&form("f64"), "f64", frame, move |state: &mut [f64]| {
+            double.step(state);
+        })
+        .frames(&form("f32"), "f32", frame, move |state: &mut [f32]| {
+            single.step(state);
+        })
 }
 
 /// The root at an angle, the others within a thousandth of a radian of hanging below it.

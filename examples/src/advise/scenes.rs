@@ -72,10 +72,15 @@ branch! {
     /// A branch of 31 links.
     Branch: emit(energies, positions, taylor),
 }
-branch! {
-    /// The same, in loops.
-    BranchLoops: code = loops,
-}
+/// The same, in loops.
+#[branched_pendulum(
+    gravity = 9.80665,
+    limb: generations(count = 5, branching = 2, shape = rod, mass = 0.4, length = 0.5,
+        mass_ratio = 0.4, length_ratio = 0.7, spring = 4, spring_ratio = 0.25,
+        friction = 0.02, friction_ratio = 0.25),
+    code = loops,
+)]
+pub struct BranchLoops;
 branch! {
     /// The same with all copies in phase: five links.
     BranchInPhase: in_phase(all), emit(taylor),

@@ -34,12 +34,12 @@ impl<T: Scalar> Kernel<T> for Motions<'_, '_, T> {
                 velocities: storage
                     .velocities
                     .and_then(|column| column.window(start, rows)),
-                torques: (storage.sizes.forced).then(|| {
-                    let given = self
-                        .torques
-                        .map(|torques| torques.get(whole..).unwrap_or_default());
-                    (storage.torques.window(start, rows), given)
-                }),
+                torques: match storage.sizes.forced {
+                    true => storage.torques.window(start, rows),
+                    false => None,
+                },
+                given_torques: (self.torques)
+                    .map(|torques| torques.get(whole..).unwrap_or_default()),
                 ahead: block.ahead(),
                 alpha: self.alpha.and_then(|alpha| alpha.from(whole)),
             };
@@ -54,8 +54,10 @@ struct Span<'a, T> {
     omega: &'a [T],
     sincos: Option<Columns<'a, T, 2>>,
     velocities: Option<Columns<'a, T, 1>>,
-    /// Torques from outside, where equations read them, and those that are given.
-    torques: Option<(Option<Columns<'a, T, 1>>, Option<&'a [T]>)>,
+    /// Torques from outside, where equations read them.
+    torques: Option<Columns<'a, T, 1>>,
+    /// Those that are given; none for zero.
+    given_torques: Option<&'a [T]>,
     /// How far the links are that come next.
     ahead: Option<usize>,
     /// The results, where they are written next.
@@ -79,9 +81,12 @@ impl<T: Scalar> Span<'_, T> {
                 if let Some(velocities) = self.velocities {
                     velocities.store::<V, 1>(places[i], &[at(self.omega, places[i])])?;
                 }
-                if let Some((own, given)) = self.torques {
-                    let torques = given.map_or(V::from_f64(0.0), |given| at(given, places[i]));
-                    own?.store::<V, 1>(places[i], &[torques])?;
+                if let Some(torques) = self.torques {
+                    let given = match self.given_torques {
+                        Some(given) => at(given, places[i]),
+                        None => V::from_f64(0.0),
+                    };
+                    torques.store::<V, 1>(places[i], &[given])?;
                 }
                 if let Some(ahead) = self.ahead {
                     let next = places[i] + ahead;

@@ -218,7 +218,7 @@ fn lanes_are_candidates_for_many_starts() {
     }
     let all = Candidates::new()
         .series(&form, AbsoluteAngles(&paper))
-        .lanes_with_series(&form, &paper);
+        .lanes_with_series(&form, AbsoluteAngles(&paper));
     let advice = advisor.advise(&all).unwrap();
     println!("{advice}");
     let right = |run: &branched_pendulum::analysis::advice::Measured| {

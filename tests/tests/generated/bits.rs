@@ -70,7 +70,8 @@ impl<const S: usize> Values for Budget<f64, S> {
 macro_rules! agree {
     ($scene:literal, $model:expr, $parameters:expr, $n:literal,
      $(timed: [$($timed:ident),*], rates: [$($rates:ident),*],)?
-     $(forces: [$($forces:ident),*], under: [$($under:ident),*], none: [$($none:ident),*],)?
+     $(forces: [$($forces:ident),*], under: [$($under:ident),*], fed: [$($fed:ident),*],
+       braked: [$($braked:ident),*], none: [$($none:ident),*],)?
      two: [$($two:ident),*], one: [$($one:ident),*]) => {{
         let stages = scene($scene);
         let model = $model;
@@ -104,6 +105,8 @@ macro_rules! agree {
                 checked += 1;)*
             $(compare(stringify!($under), model.$under(&first, &second, &third).values());
                 checked += 1;)*
+            $(compare(stringify!($fed), model.$fed(&second, &third).values()); checked += 1;)*
+            $(compare(stringify!($braked), model.$braked(&second).values()); checked += 1;)*
             $(compare(stringify!($none), model.$none().values()); checked += 1;)*)?
             $($(compare(stringify!($timed), model.$timed(time, &first, &second).values());
                 checked += 1;)*
@@ -124,7 +127,7 @@ fn branch() {
     };
     agree!("branch", Branch::new(parameters).unwrap(), [0.03, 0.2], 5,
         forces: [pivot_torques, centre_torques, end_torques], under: [accelerations_under],
-        none: [link_properties],
+        fed: [outside_power], braked: [friction_power], none: [link_properties],
         two: [accelerations, kinetic_energy, momenta, velocities, canonical_rates,
               pivot_velocities, centre_velocities, end_velocities],
         one: [potential_energy, pivots, centres, ends]);

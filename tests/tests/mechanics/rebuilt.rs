@@ -200,7 +200,7 @@ fn drive() {
         let drive = mechanics.drive.as_ref().expect("the scene has one");
         for (entry, power) in [
             ("drive_power", &drive.power),
-            ("friction_power", &drive.friction_power),
+            ("friction_power", &mechanics.friction_power),
         ] {
             let power = power.as_ref().expect("the scene asks for energies");
             algebra.assert_rebuilt(entry, &[power], &[]);
@@ -253,7 +253,7 @@ fn powers_are_those_of_the_forces() {
         let frame = &mechanics.absolute;
         for (forces, power) in [
             (&frame.drive, &drive.power),
-            (&frame.dissipative_forces, &drive.friction_power),
+            (&frame.dissipative_forces, &mechanics.friction_power),
         ] {
             let power = Formula::from_expr(power.as_ref().expect("asked for"));
             let difference = &sum(forces, &frame.velocities) - &power;

@@ -1,6 +1,5 @@
 //! The one who measures and chooses.
 
-use std::error::Error;
 use std::fmt;
 use std::hint::black_box;
 use std::time::Instant;
@@ -9,6 +8,7 @@ use super::candidate::{Candidate, SettingRange};
 use super::candidates::Candidates;
 use super::choice::{Measured, TimeLimit, choose};
 use super::comparison::Comparison;
+use super::error::AdviceError;
 use super::paths::Paths;
 use super::report::Advice;
 use super::search::bracket;
@@ -25,34 +25,6 @@ pub struct Advisor<'a> {
     wanted: Vec<Wanted<'a>>,
     conserved: Option<Wanted<'a>>,
     limit: Option<TimeLimit>,
-}
-
-/// Why there is no advice.
-#[derive(Debug)]
-#[non_exhaustive]
-pub enum AdviceError {
-    /// The request makes no sense.
-    Request(&'static str),
-    /// There is no reference: the equations were not integrated to the end.
-    Reference(Box<dyn Error + Send + Sync>),
-}
-
-impl fmt::Display for AdviceError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Request(what) => write!(f, "advice needs {what}"),
-            Self::Reference(_) => write!(f, "there is no reference to measure errors against"),
-        }
-    }
-}
-
-impl Error for AdviceError {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        match self {
-            Self::Request(_) => None,
-            Self::Reference(error) => Some(error.as_ref()),
-        }
-    }
 }
 
 /// Samples of a motion where the caller has not said how many.

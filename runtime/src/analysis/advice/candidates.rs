@@ -9,7 +9,7 @@ use super::in_lanes::{IntegratedInLanes, LaneSamplable, LanesByRates, LanesBySer
 use super::integrated::{ByRates, BySeries, Integrated, Samplable};
 use crate::integrate::Method;
 use crate::scalar::{Lane, Real};
-use crate::system::{Cast, CastOde, TaylorOde, TaylorPendulum};
+use crate::system::{AbsoluteAngles, CastOde, LaneOde, TaylorOde, TaylorPendulum};
 
 /// Candidates among which [`Advisor::advise`](super::Advisor::advise) chooses.
 #[derive(Default)]
@@ -98,16 +98,16 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    /// Adds a model in absolute angles by the explicit pairs of `form` in the lanes of
-    /// vector registers, in `f64` and in `f32`: for several starts.
+    /// Adds a system by the explicit pairs of `form` in the lanes of vector registers, in
+    /// `f64` and in `f32`: for several starts.
     #[must_use]
-    pub fn lanes<P>(mut self, form: &ModelForm<'a>, model: &'a P) -> Self
+    pub fn lanes<O>(mut self, form: &ModelForm<'a>, ode: O) -> Self
     where
-        P: Cast<f64> + Sync,
-        P::Of<f32>: Sync + 'a,
+        O: LaneOde<f64> + CastOde<f64, f32> + Sync + 'a,
+        <O as CastOde<f64, f32>>::Of: LaneOde<f32> + Sync + 'a,
     {
-        let single = model.cast(|value| value as f32);
-        self.add_lanes(form, "f64", Rc::new(LanesByRates(model)), false);
+        let single = ode.cast(|value: f64| value as f32);
+        self.add_lanes(form, "f64", Rc::new(LanesByRates(ode)), false);
         self.add_lanes::<f32>(form, "f32", Rc::new(LanesByRates(single)), false);
         self
     }
@@ -115,9 +115,9 @@ impl<'a> Candidates<'a> {
     /// Adds a model in absolute angles by the explicit pairs of `form` and by Taylor
     /// series in the lanes of vector registers, in `f64`: for several starts.
     #[must_use]
-    pub fn lanes_with_series<P>(mut self, form: &ModelForm<'a>, model: &'a P) -> Self
+    pub fn lanes_with_series<P>(mut self, form: &ModelForm<'a>, model: AbsoluteAngles<P>) -> Self
     where
-        P: TaylorPendulum<f64> + Sync,
+        P: TaylorPendulum<f64> + Sync + 'a,
     {
         self.add_lanes(form, "f64", Rc::new(LanesBySeries(model)), true);
         self

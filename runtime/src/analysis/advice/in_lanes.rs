@@ -7,11 +7,11 @@ use std::rc::Rc;
 
 use super::candidate::{Candidate, CandidateName, SettingRange, Visit};
 use super::form::ModelForm;
-use super::integrated::{entered, left, of_scalar, settings, written};
+use super::integrated::{entered, left, of_scalar, settings, system_in, written};
 use crate::ensemble::{Ensemble, Samples};
 use crate::integrate::{Dop853, Dopri5, Method, Options, Taylor, Verner98};
 use crate::scalar::Lane;
-use crate::system::{AbsoluteAngles, Cast, State, TaylorPendulum};
+use crate::system::{AbsoluteAngles, LaneOde, State, TaylorPendulum};
 
 /// A model that the methods for lanes sample.
 pub(super) trait LaneSamplable<T: Lane> {
@@ -30,8 +30,8 @@ pub(super) fn one_thread() -> Ensemble<'static> {
 }
 
 /// One of the explicit pairs in lanes.
-pub(super) fn by_pair<T: Lane, P: Cast<T> + Sync>(
-    model: &P,
+pub(super) fn by_pair<T: Lane, O: LaneOde<T> + Sync>(
+    system: &O,
     method: Method,
     tolerance: T,
     starts: &[State<T>],
@@ -39,17 +39,18 @@ pub(super) fn by_pair<T: Lane, P: Cast<T> + Sync>(
 ) -> Vec<Samples<T>> {
     let options = Options::with_tolerance(tolerance);
     let ensemble = one_thread();
-    let model = &AbsoluteAngles(model);
     match method {
-        Method::Dopri5 => ensemble.sample_in_lanes(&Dopri5::new(options), model, starts, times),
-        Method::Verner98 => ensemble.sample_in_lanes(&Verner98::new(options), model, starts, times),
-        _ => ensemble.sample_in_lanes(&Dop853::new(options), model, starts, times),
+        Method::Dopri5 => ensemble.sample_in_lanes(&Dopri5::new(options), system, starts, times),
+        Method::Verner98 => {
+            ensemble.sample_in_lanes(&Verner98::new(options), system, starts, times)
+        }
+        _ => ensemble.sample_in_lanes(&Dop853::new(options), system, starts, times),
     }
 }
 
-pub(super) struct LanesByRates<P>(pub(super) P);
+pub(super) struct LanesByRates<O>(pub(super) O);
 
-impl<T: Lane, P: Cast<T> + Sync> LaneSamplable<T> for LanesByRates<P> {
+impl<T: Lane, O: LaneOde<T> + Sync> LaneSamplable<T> for LanesByRates<O> {
     fn sample(
         &self,
         method: Method,
@@ -61,7 +62,7 @@ impl<T: Lane, P: Cast<T> + Sync> LaneSamplable<T> for LanesByRates<P> {
     }
 }
 
-pub(super) struct LanesBySeries<P>(pub(super) P);
+pub(super) struct LanesBySeries<P>(pub(super) AbsoluteAngles<P>);
 
 impl<T: Lane, P: TaylorPendulum<T> + Sync> LaneSamplable<T> for LanesBySeries<P> {
     fn sample(
@@ -74,7 +75,7 @@ impl<T: Lane, P: TaylorPendulum<T> + Sync> LaneSamplable<T> for LanesBySeries<P>
         match method {
             Method::Taylor => {
                 let series = Taylor::new(Options::with_tolerance(tolerance));
-                one_thread().sample_in_lanes(&series, &AbsoluteAngles(&self.0), starts, times)
+                one_thread().sample_in_lanes(&series, &self.0, starts, times)
             }
             _ => by_pair(&self.0, method, tolerance, starts, times),
         }
@@ -131,12 +132,9 @@ impl<T: Lane> Candidate for IntegratedInLanes<'_, T> {
 
     fn to_write(&self, setting: f64) -> Vec<String> {
         let mut lines = written(&self.form, self.method, self.scalar, setting);
-        let model = match self.scalar {
-            "f64" => "&model",
-            _ => "&model.cast(|value| value as f32)",
-        };
+        let system = system_in(&self.form, self.scalar);
         lines.push(format!(
-            "Ensemble::new().sample_in_lanes(&method, {model}, &starts, &times);"
+            "Ensemble::new().sample_in_lanes(&method, &{system}, &starts, &times);"
         ));
         lines
     }

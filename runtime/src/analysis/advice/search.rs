@@ -32,11 +32,14 @@ pub(super) fn bracket(
         if ratio <= 1.0 {
             good = Some((at, ratio));
         } else {
-            let no_better =
-                bad.is_some_and(|(coarser, before)| at < coarser && ratio > 0.5 * before);
+            // Finer by some decades, it should be better by a good part of as many.
+            let no_better = bad.is_some_and(|(coarser, before)| {
+                let expected = power * (coarser - at);
+                at < coarser && (before / ratio).log10() < 0.2 * expected
+            });
             useless = if no_better { useless + 1 } else { 0 };
             bad = Some((at, ratio));
-            if good.is_none() && (seconds > allowed || useless == 2) {
+            if good.is_none() && (seconds > allowed || useless == 3) {
                 return;
             }
         }
@@ -57,7 +60,7 @@ pub(super) fn bracket(
             }
             (None, Some((coarse, _))) if coarse <= finest => return,
             (None, Some((coarse, high))) => {
-                let further = distance(high).max(2.0 * range.resolution());
+                let further = distance(high).max(4.0 * range.resolution());
                 // A step half as long costs twice as much.
                 let dearer = match range {
                     SettingRange::Step { .. } => 10.0_f64.powf(0.5 * further),
@@ -122,6 +125,21 @@ mod tests {
         }
     }
 
+    /// Where the search begins, errors are a little too large, and go up and down.
+    #[test]
+    fn an_error_that_is_nearly_right_is_pursued() {
+        let mut found = f64::NAN;
+        bracket(TOLERANCE, 1e-6, f64::INFINITY, |at| {
+            let bump = if (-7.9..-7.1).contains(&at) { 0.3 } else { 0.0 };
+            let ratio = 1.2 * 10.0_f64.powf(at + 7.0 + bump);
+            if ratio <= 1.0 {
+                found = at;
+            }
+            (ratio, 1.0)
+        });
+        assert!(found < -7.0, "{found}");
+    }
+
     #[test]
     fn what_costs_too_much_is_left() {
         // Good at a step of 1e-4, where it costs 1e4.
@@ -138,13 +156,13 @@ mod tests {
             count += 1;
             (5.0, 1.0)
         });
-        assert_eq!(count, 3);
+        assert_eq!(count, 4);
         // Nor is there anything to choose where nothing is chosen.
         bracket(SettingRange::Fixed, 1e-6, f64::INFINITY, |_| {
             count += 1;
             (0.1, 1.0)
         });
-        assert_eq!(count, 4);
+        assert_eq!(count, 5);
     }
 
     #[test]

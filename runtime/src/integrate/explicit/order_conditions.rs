@@ -6,6 +6,8 @@
 
 use std::vec::Vec;
 
+use super::pair::EmbeddedPair;
+
 /// Nodes and rows of a table, by stage.
 pub(super) struct ButcherTable {
     pub(super) nodes: Vec<f64>,
@@ -13,6 +15,15 @@ pub(super) struct ButcherTable {
 }
 
 impl ButcherTable {
+    /// The table of a pair.
+    pub(super) fn of<M: EmbeddedPair>() -> Self {
+        let rows = M::ROWS.iter().copied();
+        Self {
+            nodes: M::NODES.to_vec(),
+            rows: core::iter::once(&[][..]).chain(rows).collect(),
+        }
+    }
+
     pub(super) fn assert_row_sums(&self) {
         for (row, node) in self.rows.iter().zip(&self.nodes) {
             let sum: f64 = row.iter().map(|(_, weight)| weight).sum();

@@ -1,5 +1,6 @@
 //! Methods with steps of a given length.
 
+mod explicit;
 mod gauss;
 mod grid;
 mod linear;

@@ -1,14 +1,11 @@
 //! The classical Runge–Kutta method.
 
-use alloc::vec;
-use alloc::vec::Vec;
-
-use super::grid::{FixedStep, Grid, GridSteps};
-use super::projected::Corrected;
+use super::explicit::{ExplicitFormula, ExplicitStep};
+use super::grid::{Grid, GridSteps};
 use crate::integrate::error::InputError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
-use crate::integrate::piece::{Form, Piece};
+use crate::integrate::piece::Form;
 use crate::integrate::request::all_finite;
 use crate::integrate::steps::Failure;
 use crate::scalar::Real;
@@ -18,7 +15,7 @@ use crate::system::{Ode, State};
 ///
 /// No error estimate: it is here for comparison, and for loops whose steps are
 /// given. Four evaluations a step; values inside a step are those of the cubic
-/// through its ends with their rates (order 3) and cost nothing. Memory: 7
+/// through its ends with their rates (order 3) and cost nothing. Memory: 6
 /// vectors of the state's length; steps allocate nothing. The last step is
 /// shorter where the span is no multiple of the step.
 ///
@@ -67,113 +64,53 @@ impl<T: Real> Rk4<T> {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Rk4<T> {
-    type Steps = GridSteps<Rk4Step<T>, T>;
+    type Steps = GridSteps<ExplicitStep<Rk4Formula, T>, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
-        self.grid().steps(Rk4Step::new(&start.values))
+        self.grid().steps(ExplicitStep::new(&start.values))
     }
 }
 
-/// The vectors that a step works on.
-#[derive(Clone, Debug)]
+/// The formula of [`Rk4`].
+#[derive(Clone, Copy, Debug)]
 #[allow(unreachable_pub)]
-pub struct Rk4Step<T> {
-    start: Vec<T>,
-    end: Vec<T>,
-    stage: Vec<T>,
-    sum: Vec<T>,
-    rates: Vec<T>,
-    start_rates: Vec<T>,
-    end_rates: Vec<T>,
-    step: T,
-}
+pub struct Rk4Formula;
 
-impl<T: Real> Rk4Step<T> {
-    pub(super) fn new(start: &[T]) -> Self {
-        let zeros = || vec![T::ZERO; start.len()];
-        Self {
-            start: start.to_vec(),
-            end: zeros(),
-            stage: zeros(),
-            sum: zeros(),
-            rates: zeros(),
-            start_rates: zeros(),
-            end_rates: zeros(),
-            step: T::ZERO,
-        }
-    }
-}
-
-impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for Rk4Step<T> {
-    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
-        system.evaluate(time, &self.start, &mut self.start_rates)
-    }
+impl<T: Real, O: Ode<T> + ?Sized> ExplicitFormula<T, O> for Rk4Formula {
+    const FORM: Form = Form::Hermite;
 
     fn make(
-        &mut self,
+        own: &mut ExplicitStep<Self, T>,
         system: &mut Evaluator<'_, T, O>,
         time: T,
-        step: T,
     ) -> Result<(), Failure<T>> {
-        self.step = step;
+        let step = own.step;
         let half = T::from_f64(0.5) * step;
         let two = T::from_f64(2.0);
         let (middle, end_time) = (time + half, time + step);
-        self.sum.copy_from_slice(&self.start_rates);
-        self.rates.copy_from_slice(&self.start_rates);
+        // The end holds the sum of the rates until it is known.
+        own.end.copy_from_slice(&own.start_rates);
+        own.rates.copy_from_slice(&own.start_rates);
         for (at, length, weight) in [
             (middle, half, two),
             (middle, half, two),
             (end_time, step, T::ONE),
         ] {
-            for (i, value) in self.stage.iter_mut().enumerate() {
-                *value = self.start[i] + length * self.rates[i];
+            for (i, value) in own.stage.iter_mut().enumerate() {
+                *value = own.start[i] + length * own.rates[i];
             }
-            system.evaluate(at, &self.stage, &mut self.rates)?;
-            for (sum, &rate) in self.sum.iter_mut().zip(&self.rates) {
+            system.evaluate(at, &own.stage, &mut own.rates)?;
+            for (sum, &rate) in own.end.iter_mut().zip(&own.rates) {
                 *sum += weight * rate;
             }
         }
         let sixth = step / T::from_f64(6.0);
-        for (i, end) in self.end.iter_mut().enumerate() {
-            *end = self.start[i] + sixth * self.sum[i];
+        for (end, &start) in own.end.iter_mut().zip(&own.start) {
+            *end = start + sixth * *end;
         }
-        if !all_finite(&self.end) {
-            return Err(NonFinite::new(end_time, &self.end).into());
+        if !all_finite(&own.end) {
+            return Err(NonFinite::new(end_time, &own.end).into());
         }
-        Ok(system.evaluate(end_time, &self.end, &mut self.end_rates)?)
-    }
-
-    fn piece(&self) -> Piece<'_, T> {
-        Piece {
-            form: Form::Hermite,
-            start: &self.start,
-            end: &self.end,
-            terms: [&self.start_rates, &self.end_rates],
-            length: self.step,
-        }
-    }
-
-    fn advance(&mut self) {
-        core::mem::swap(&mut self.start, &mut self.end);
-        core::mem::swap(&mut self.start_rates, &mut self.end_rates);
-    }
-
-    fn set_start(&mut self, values: &[T]) {
-        self.start.copy_from_slice(values);
-    }
-}
-
-impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Rk4Step<T> {
-    fn correct(
-        &mut self,
-        system: &mut Evaluator<'_, T, O>,
-        time: T,
-        correction: &[T],
-    ) -> Result<(), Failure<T>> {
-        for (end, &correction) in self.end.iter_mut().zip(correction) {
-            *end += correction;
-        }
-        Ok(system.evaluate(time, &self.end, &mut self.end_rates)?)
+        Ok(system.evaluate(end_time, &own.end, &mut own.end_rates)?)
     }
 }

@@ -3,11 +3,12 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::grid::{FixedStep, Grid, GridSteps};
+use super::explicit::{ExplicitFormula, ExplicitStep};
+use super::grid::{Grid, GridSteps};
 use crate::integrate::error::{InputError, Inseparable};
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
-use crate::integrate::piece::{Form, Piece};
+use crate::integrate::piece::Form;
 use crate::integrate::request::all_finite;
 use crate::integrate::steps::Failure;
 use crate::scalar::{Real, Scalar};
@@ -94,7 +95,7 @@ impl<T: Real> StoermerVerlet<T> {
 }
 
 impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<C>> for StoermerVerlet<T> {
-    type Steps = GridSteps<VerletStep<T>, T>;
+    type Steps = GridSteps<ExplicitStep<VerletFormula, T>, T>;
 
     fn steps(
         &self,
@@ -107,7 +108,7 @@ impl<T: Real, C: Canonical<T>> Integrator<T, CanonicalVariables<C>> for Stoermer
             halvings: 0,
             step_limit: self.step_limit,
         };
-        grid.steps(VerletStep::new(&start.values))
+        grid.steps(ExplicitStep::new(&start.values))
     }
 }
 
@@ -161,88 +162,41 @@ fn check_separable<T: Real, C: Canonical<T>>(
     Ok(())
 }
 
-/// The vectors that a step works on.
-#[derive(Clone, Debug)]
+/// The formula of [`StoermerVerlet`].
+#[derive(Clone, Copy, Debug)]
 #[allow(unreachable_pub)]
-pub struct VerletStep<T> {
-    start: Vec<T>,
-    end: Vec<T>,
-    /// Coordinates with the momenta of the middle of the step.
-    stage: Vec<T>,
-    rates: Vec<T>,
-    /// Rates at the start of the step, of which those of the momenta count.
-    start_rates: Vec<T>,
-    end_rates: Vec<T>,
-    step: T,
-}
+pub struct VerletFormula;
 
-impl<T: Real> VerletStep<T> {
-    fn new(start: &[T]) -> Self {
-        let zeros = || vec![T::ZERO; start.len()];
-        Self {
-            start: start.to_vec(),
-            end: zeros(),
-            stage: zeros(),
-            rates: zeros(),
-            start_rates: zeros(),
-            end_rates: zeros(),
-            step: T::ZERO,
-        }
-    }
-}
-
-impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for VerletStep<T> {
-    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
-        system.evaluate(time, &self.start, &mut self.start_rates)
-    }
+/// Of the rates at the ends of a step those of the momenta count.
+impl<T: Real, O: Ode<T> + ?Sized> ExplicitFormula<T, O> for VerletFormula {
+    const FORM: Form = Form::Linear;
 
     fn make(
-        &mut self,
+        own: &mut ExplicitStep<Self, T>,
         system: &mut Evaluator<'_, T, O>,
         time: T,
-        step: T,
     ) -> Result<(), Failure<T>> {
-        self.step = step;
-        let n = self.start.len() / 2;
+        let (step, n) = (own.step, own.start.len() / 2);
         let half = T::from_f64(0.5) * step;
         // p at h/2 = p + h/2 F(q)
-        self.stage.copy_from_slice(&self.start);
+        own.stage.copy_from_slice(&own.start);
         for k in n..2 * n {
-            self.stage[k] = self.start[k] + half * self.start_rates[k];
+            own.stage[k] = own.start[k] + half * own.start_rates[k];
         }
         // q at h = q + h v(p at h/2)
-        system.evaluate(time + half, &self.stage, &mut self.rates)?;
+        system.evaluate(time + half, &own.stage, &mut own.rates)?;
         for k in 0..n {
-            self.stage[k] = self.start[k] + step * self.rates[k];
+            own.stage[k] = own.start[k] + step * own.rates[k];
         }
         // p at h = p at h/2 + h/2 F(q at h)
-        system.write(time + step, &self.stage, &mut self.end_rates);
-        self.end.copy_from_slice(&self.stage);
+        system.write(time + step, &own.stage, &mut own.end_rates);
+        own.end.copy_from_slice(&own.stage);
         for k in n..2 * n {
-            self.end[k] = self.stage[k] + half * self.end_rates[k];
+            own.end[k] = own.stage[k] + half * own.end_rates[k];
         }
-        if all_finite(&self.end) && all_finite(&self.end_rates) {
+        if all_finite(&own.end) && all_finite(&own.end_rates) {
             return Ok(());
         }
-        Err(NonFinite::new(time + step, &self.end).into())
-    }
-
-    fn piece(&self) -> Piece<'_, T> {
-        Piece {
-            form: Form::Linear,
-            start: &self.start,
-            end: &self.end,
-            terms: [&[]; 2],
-            length: self.step,
-        }
-    }
-
-    fn advance(&mut self) {
-        core::mem::swap(&mut self.start, &mut self.end);
-        core::mem::swap(&mut self.start_rates, &mut self.end_rates);
-    }
-
-    fn set_start(&mut self, values: &[T]) {
-        self.start.copy_from_slice(values);
+        Err(NonFinite::new(time + step, &own.end).into())
     }
 }

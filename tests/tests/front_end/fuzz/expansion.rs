@@ -25,6 +25,10 @@ fn watch(present: Present) {
     std::thread::spawn(move || {
         loop {
             std::thread::sleep(Duration::from_millis(500));
+            // The test is over.
+            if Arc::strong_count(&present) == 1 {
+                return;
+            }
             let Ok(present) = present.lock() else { return };
             let memory = peak_memory().unwrap_or(0);
             if processor_time().saturating_sub(present.0) > 4 * TIME || memory > 2 * MEMORY {

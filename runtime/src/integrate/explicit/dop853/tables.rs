@@ -238,28 +238,15 @@ pub(super) const D: [TableRow<12>; 4] = [
 
 #[cfg(test)]
 mod tests {
+    use std::vec::Vec;
+
     use super::*;
+    use crate::integrate::explicit::dop853::DormandPrince8;
+    use crate::integrate::explicit::order_conditions::ButcherTable;
 
     /// All rows of the stages' table, in order; stage 13 repeats the weights.
-    fn rows() -> [&'static [(usize, f64)]; STAGES_DENSE] {
-        [
-            &[],
-            &A2,
-            &A3,
-            &A4,
-            &A5,
-            &A6,
-            &A7,
-            &A8,
-            &A9,
-            &A10,
-            &A11,
-            &A12,
-            &B,
-            &A14,
-            &A15,
-            &A16,
-        ]
+    fn rows() -> Vec<&'static [(usize, f64)]> {
+        ButcherTable::of::<DormandPrince8>().rows
     }
 
     /// Sum over a row of coefficient times `value(stage)`, and the sum of the

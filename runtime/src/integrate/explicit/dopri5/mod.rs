@@ -46,22 +46,14 @@ mod tests {
         ButcherTable, continuous, order, stage_values,
     };
 
-    fn table() -> ButcherTable {
-        let rows: [&[(usize, f64)]; tables::STAGES_DENSE] = [&[], &A2, &A3, &A4, &A5, &A6, &B];
-        ButcherTable {
-            nodes: C.to_vec(),
-            rows: rows.to_vec(),
-        }
-    }
-
     #[test]
     fn rows_sum_to_their_nodes() {
-        table().assert_row_sums();
+        ButcherTable::of::<DormandPrince5>().assert_row_sums();
     }
 
     #[test]
     fn both_formulas_have_their_orders_and_no_more() {
-        let values = stage_values(&table(), 6);
+        let values = stage_values(&ButcherTable::of::<DormandPrince5>(), 6);
         assert_eq!(order(&values, &B), 5);
         let mut embedded = E.map(|(stage, weight)| (stage, -weight));
         for entry in &mut embedded {
@@ -73,7 +65,7 @@ mod tests {
 
     #[test]
     fn the_dense_output_has_order_four_everywhere() {
-        let values = stage_values(&table(), 4);
+        let values = stage_values(&ButcherTable::of::<DormandPrince5>(), 4);
         continuous(&values, 4, |s, weights| {
             let r = 1.0 - s;
             for &(stage, weight) in &B {

@@ -49,51 +49,21 @@ mod tests {
         ButcherTable, continuous, order, stage_values,
     };
 
-    fn table() -> ButcherTable {
-        let rows: [&[(usize, f64)]; tables::STAGES_DENSE] = [
-            &[],
-            &A2,
-            &A3,
-            &A4,
-            &A5,
-            &A6,
-            &A7,
-            &A8,
-            &A9,
-            &A10,
-            &A11,
-            &A12,
-            &A13,
-            &A14,
-            &A15,
-            &A16,
-            &B,
-            &A18,
-            &A19,
-            &A20,
-            &A21,
-        ];
-        ButcherTable {
-            nodes: C.to_vec(),
-            rows: rows.to_vec(),
-        }
-    }
-
     #[test]
     fn rows_sum_to_their_nodes() {
-        table().assert_row_sums();
+        ButcherTable::of::<Verner9>().assert_row_sums();
     }
 
     #[test]
     fn both_formulas_have_their_orders_and_no_more() {
-        let values = stage_values(&table(), 10);
+        let values = stage_values(&ButcherTable::of::<Verner9>(), 10);
         assert_eq!(order(&values, &B), 9);
         assert_eq!(order(&values, &B_EIGHTH), 8);
     }
 
     #[test]
     fn the_dense_output_has_order_eight_everywhere() {
-        let values = stage_values(&table(), 8);
+        let values = stage_values(&ButcherTable::of::<Verner9>(), 8);
         continuous(&values, 8, |s, weights| {
             let powers = bernstein(s);
             weights.add(1, powers[0] / 8.0);
