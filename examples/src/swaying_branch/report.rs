@@ -62,7 +62,7 @@ pub fn write_trials(job: &Job, trials: &[Trial]) -> Result<(), Failure> {
 
 /// Cost against error, a panel for each wind.
 fn chart(trials: &[Trial]) -> Chart {
-    let title = "Branch of 31 links, a frame of 1/60 s: cost against error";
+    let title = "Branch of 31 links: cost of a frame against error";
     let chart = Chart::new(title, Axis::log("time of a frame (µs)"));
     let chart = chart.size(900.0, 140.0 + 260.0 * trials.len() as f64);
     trials.iter().fold(chart, |chart, trial| {
