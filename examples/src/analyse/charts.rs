@@ -26,7 +26,11 @@ pub fn chart(source: &Source, estimate: &Estimate) -> Chart {
         .collect();
     let angle = Panel::new(Axis::linear("θ_d (rad)"))
         .series(Series::points("measured", times, &data).color(LIGHT))
-        .series(Series::line("estimated", times, &difference).color(BLUE))
+        .series(
+            Series::line("estimated", times, &difference)
+                .color(BLUE)
+                .dash(Dash::Solid),
+        )
         .zero_line();
     let energy = with_band(Axis::linear("H_d (J)"), source, estimate, quantity::ENERGY);
     let transfer =
@@ -57,7 +61,11 @@ fn with_band(axis: Axis, source: &Source, estimate: &Estimate, index: usize) -> 
     let mean: Vec<f64> = rows().map(|(mean, _)| mean[index]).collect();
     let panel = Panel::new(axis)
         .series(Series::band("95 %", &source.times, &edge(-1.0), &edge(1.0)).color(LIGHT))
-        .series(Series::line("estimated", &source.times, &mean).color(BLUE));
+        .series(
+            Series::line("estimated", &source.times, &mean)
+                .color(BLUE)
+                .dash(Dash::Solid),
+        );
     let truth: Option<Vec<f64>> = match index {
         quantity::ENERGY => Some(source.truth.iter().map(|s| s.antiphase_energy).collect()),
         quantity::TRANSFER => Some(
