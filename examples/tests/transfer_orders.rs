@@ -255,7 +255,7 @@ fn a_command_line_that_cannot_be_followed_is_explained() {
             &["--output", "a", "--output", "b"],
             "cannot be used multiple times",
         ),
-        (&["--seed", "1"], "unexpected argument '--seed'"),
+        (&["--noise", "1"], "unexpected argument '--noise'"),
     ] {
         let output = program(arguments);
         let error = String::from_utf8(output.stderr).unwrap();

@@ -37,14 +37,15 @@ pub fn near_threshold(count: u32) -> Vec<State<f64>> {
         .collect()
 }
 
+/// A model of its own, and where it starts.
+type Release = (AbsoluteAngles<Damped>, State<f64>);
+
 /// Paper's pendulums with friction from zero to 1e-3 N m s in every pivot, released
 /// from 50°.
 ///
 /// # Errors
 /// None: the parameters are possible.
-pub fn friction_scan(
-    count: u32,
-) -> Result<Vec<(AbsoluteAngles<Damped>, State<f64>)>, ParameterError> {
+pub fn friction_scan(count: u32) -> Result<Vec<Release>, ParameterError> {
     let step = FRICTION / f64::from(count.max(2) - 1);
     (0..count)
         .map(|i| DampedParameters {

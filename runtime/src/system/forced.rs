@@ -16,7 +16,7 @@ use crate::scalar::Scalar;
 )]
 pub trait Forced<T: Scalar>: Cast<T> + Sized {
     /// Writes the angular accelerations, in rad/s², as
-    /// [`Pendulum::accelerations_into`] does, with generalized torques Q (N m) on top of
+    /// [`Pendulum::accelerations_into`](super::Pendulum::accelerations_into) does, with generalized torques Q (N m) on top of
     /// all others: M θ̈ + b = Q. Their power is Q·ω. All slices have length
     /// [`LINKS`](super::Pendulum::LINKS); for others the results are NaN.
     ///

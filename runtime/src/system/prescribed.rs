@@ -108,11 +108,12 @@ pub type LinkCourse<T> = [T; 3];
 /// let end = method.integrate(&held, &start, 3.0, |_| ControlFlow::Continue(()))?.state;
 /// assert!((end.values[0] - 0.3 * 6.0_f64.sin()).abs() < 1e-9);
 ///
-/// // The torque that the hand exerts, and its power.
+/// // The torque that the hand exerts: under it the free tree moves in the same way.
 /// let mut torque = [0.0];
 /// held.reactions_into(end.time, &end.values, &mut torque);
-/// let power = torque[0] * end.velocities()[0];
-/// assert!(power.is_finite() && torque[0].abs() > 0.1);
+/// let (theta, omega) = (end.positions().try_into()?, end.velocities().try_into()?);
+/// let [alpha, _] = branch.accelerations_under(theta, omega, &[torque[0], 0.0]);
+/// assert!((alpha + pace * pace * theta[0]).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy)]

@@ -105,8 +105,7 @@ fn nested() -> Tree {
 
 fn agrees(compiled: &Compiled, tree: &Tree, what: &str) {
     let mut random = Random::new(3);
-    let [mut accelerations, mut kinetic, mut potential] =
-        [const { () }; 3].map(|()| Worst::default());
+    let [mut accelerations, mut kinetic, mut potential] = std::array::from_fn(|_| Worst::default());
     for count in 0..200 {
         let theta = random.around_zero(tree.links.len(), 3.0);
         let omega = random.around_zero(tree.links.len(), 8.0);

@@ -153,7 +153,8 @@ mod tests {
         let expected = Choice {
             chosen: Some(2),
             runner_up: Some(4),
-            next_cheaper: Some(3),
+            // Not 3, which is dearer but of the chosen candidate.
+            next_cheaper: Some(1),
             closest: None,
         };
         assert_eq!(choose(&runs, None, 1), expected);

@@ -10,6 +10,7 @@ pub(super) fn widest() -> InstructionSet {
 }
 
 #[inline(always)]
+#[allow(clippy::extra_unused_type_parameters)] // Registers that there are none of here.
 pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
     _set: InstructionSet,
     kernel: K,
