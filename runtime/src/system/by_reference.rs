@@ -1,12 +1,15 @@
 //! Traits of models and systems, for references to them.
 
 /// Implements a trait for references to what implements it. Its methods are listed as
-/// signatures; all are handed on, those with a default too. Generic ones are not for
-/// this macro.
+/// signatures; all are handed on, those with a default too. Functions on any scalar are
+/// listed behind `for`.
 macro_rules! by_reference {
     (impl<T $(: $bound:ident)?> $trait:ident<T> for &P $(where P: ?$sized:ident)? {
         $(const $constant:ident: $kind:ty;)*
         $(static fn $of_type:ident($index:ident: $number:ty) -> $answer:ty;)*
+        $(for fn $of_scalar:ident<$scalar:ident: $kind_of_scalar:ident>(
+            $($own:ident: $own_type:ty),*
+        );)*
         $(fn $function:ident(&self $(, $argument:ident: $type:ty)*) $(-> $result:ty)?;)*
     }) => {
         impl<T $(: $bound)?, P: $trait<T> $(+ ?$sized)?> $trait<T> for &P {
@@ -16,6 +19,13 @@ macro_rules! by_reference {
                 #[inline]
                 fn $of_type($index: $number) -> $answer {
                     P::$of_type($index)
+                }
+            )*
+
+            $(
+                #[inline(always)]
+                fn $of_scalar<$scalar: $kind_of_scalar>($($own: $own_type),*) {
+                    P::$of_scalar($($own),*)
                 }
             )*
 

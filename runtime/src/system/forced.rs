@@ -5,6 +5,7 @@ mod fused;
 use alloc::vec::Vec;
 use core::fmt;
 
+use super::by_reference::by_reference;
 use super::{Cast, LaneOde, Ode, Workspace};
 use crate::scalar::Scalar;
 
@@ -68,42 +69,19 @@ pub trait Forced<T: Scalar>: Cast<T> + Sized {
     );
 }
 
-impl<T: Scalar, P: Forced<T>> Forced<T> for &P {
-    #[inline]
-    fn accelerations_under_with(
-        &self,
-        workspace: &mut Workspace<T>,
-        time: T,
-        theta: &[T],
-        omega: &[T],
-        torques: &[T],
-        alpha: &mut [T],
-    ) {
-        (**self).accelerations_under_with(workspace, time, theta, omega, torques, alpha);
-    }
-
-    #[inline(always)]
-    fn accelerations_under_of<S: Scalar>(
-        pendulum: &Self::Of<S>,
-        time: S,
-        theta: &[S],
-        omega: &[S],
-        torques: &[S],
-        alpha: &mut [S],
-    ) {
-        P::accelerations_under_of(pendulum, time, theta, omega, torques, alpha);
-    }
-
-    #[inline]
-    fn accelerations_under_into(
-        &self,
-        time: T,
-        theta: &[T],
-        omega: &[T],
-        torques: &[T],
-        alpha: &mut [T],
-    ) {
-        (**self).accelerations_under_into(time, theta, omega, torques, alpha);
+by_reference! {
+    impl<T: Scalar> Forced<T> for &P {
+        for fn accelerations_under_of<S: Scalar>(
+            pendulum: &Self::Of<S>, time: S, theta: &[S], omega: &[S], torques: &[S],
+            alpha: &mut [S]
+        );
+        fn accelerations_under_with(
+            &self, workspace: &mut Workspace<T>, time: T, theta: &[T], omega: &[T],
+            torques: &[T], alpha: &mut [T]
+        );
+        fn accelerations_under_into(
+            &self, time: T, theta: &[T], omega: &[T], torques: &[T], alpha: &mut [T]
+        );
     }
 }
 

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use super::by_reference::by_reference;
 use super::{Forced, Ode, Workspace};
 use crate::scalar::Scalar;
 
@@ -53,19 +54,13 @@ pub trait Prescribed<T: Scalar>: Forced<T> {
     );
 }
 
-impl<T: Scalar, P: Prescribed<T>> Prescribed<T> for &P {
-    const PRESCRIBED: &'static [PrescribedLinks] = P::PRESCRIBED;
-
-    #[inline]
-    fn accelerations_prescribed_into(
-        &self,
-        set: usize,
-        time: T,
-        motion: PrescribedMotion<'_, T>,
-        alpha: &mut [T],
-        reactions: &mut [T],
-    ) {
-        (**self).accelerations_prescribed_into(set, time, motion, alpha, reactions);
+by_reference! {
+    impl<T: Scalar> Prescribed<T> for &P {
+        const PRESCRIBED: &'static [PrescribedLinks];
+        fn accelerations_prescribed_into(
+            &self, set: usize, time: T, motion: PrescribedMotion<'_, T>, alpha: &mut [T],
+            reactions: &mut [T]
+        );
     }
 }
 

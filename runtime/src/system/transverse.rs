@@ -1,5 +1,6 @@
 //! Small differences between copies that move in phase.
 
+use super::by_reference::by_reference;
 use super::cast::put;
 use super::{Cast, LaneOde, Ode, Workspace};
 use crate::scalar::{Scalar, at};
@@ -283,75 +284,24 @@ fn fill<T: Scalar>(
     differ(motion, [difference, difference_rate], second);
 }
 
-impl<T: Scalar, P: Transverse<T>> Transverse<T> for &P {
-    const TRANSVERSE: &'static [TransverseSector] = P::TRANSVERSE;
-
-    #[inline(always)]
-    fn transverse_accelerations_of<S: Scalar>(
-        model: &Self::Of<S>,
-        sector: usize,
-        time: S,
-        motion: InPhaseMotion<'_, S>,
-        difference: &[S],
-        difference_rate: &[S],
-        accelerations: &mut [S],
-    ) {
-        P::transverse_accelerations_of(
-            model,
-            sector,
-            time,
-            motion,
-            difference,
-            difference_rate,
-            accelerations,
+by_reference! {
+    impl<T: Scalar> Transverse<T> for &P {
+        const TRANSVERSE: &'static [TransverseSector];
+        for fn transverse_accelerations_of<S: Scalar>(
+            model: &Self::Of<S>, sector: usize, time: S, motion: InPhaseMotion<'_, S>,
+            difference: &[S], difference_rate: &[S], accelerations: &mut [S]
         );
-    }
-
-    #[inline]
-    fn transverse_accelerations_into(
-        &self,
-        sector: usize,
-        time: T,
-        motion: InPhaseMotion<'_, T>,
-        difference: &[T],
-        difference_rate: &[T],
-        accelerations: &mut [T],
-    ) {
-        (**self).transverse_accelerations_into(
-            sector,
-            time,
-            motion,
-            difference,
-            difference_rate,
-            accelerations,
+        fn transverse_accelerations_into(
+            &self, sector: usize, time: T, motion: InPhaseMotion<'_, T>, difference: &[T],
+            difference_rate: &[T], accelerations: &mut [T]
         );
-    }
-
-    #[inline]
-    fn transverse_energy_of(
-        &self,
-        sector: usize,
-        theta: &[T],
-        difference: &[T],
-        difference_rate: &[T],
-    ) -> T {
-        (**self).transverse_energy_of(sector, theta, difference, difference_rate)
-    }
-
-    #[inline]
-    fn transverse_transfer_of(
-        &self,
-        sector: usize,
-        time: T,
-        motion: InPhaseMotion<'_, T>,
-        difference: &[T],
-        difference_rate: &[T],
-    ) -> T {
-        (**self).transverse_transfer_of(sector, time, motion, difference, difference_rate)
-    }
-
-    #[inline]
-    fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T {
-        (**self).transverse_friction_power_of(sector, difference_rate)
+        fn transverse_energy_of(
+            &self, sector: usize, theta: &[T], difference: &[T], difference_rate: &[T]
+        ) -> T;
+        fn transverse_transfer_of(
+            &self, sector: usize, time: T, motion: InPhaseMotion<'_, T>, difference: &[T],
+            difference_rate: &[T]
+        ) -> T;
+        fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T;
     }
 }
