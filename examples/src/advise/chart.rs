@@ -1,6 +1,8 @@
 //! Accuracy against cost of all models, methods and scalars, with the front of the best
 //! and the advisor's choices.
 
+use std::collections::BTreeMap;
+
 use branched_pendulum::analysis::advice::{Advice, CandidateName, Measured, pareto};
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
@@ -39,7 +41,7 @@ pub fn draw(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         progress.next();
     }
     write(job, &all)?;
-    job.chart("accuracy-cost", &chart(&all))
+    job.chart("accuracy-cost", &chart(&all, arguments.horizon))
 }
 
 fn survey(scene: SceneName, arguments: &Arguments) -> Result<Surveyed, Failure> {
@@ -134,24 +136,47 @@ fn write(job: &Job, all: &[Surveyed]) -> Result<(), Failure> {
     })
 }
 
-fn chart(all: &[Surveyed]) -> Chart {
-    let title = "Largest error of an angle in 10 s against the time that it takes";
+/// Colours of the models, in the order of their names.
+const COLOURS: [Color; 6] = [
+    Color::rgb(0, 114, 178),
+    Color::rgb(213, 94, 0),
+    Color::rgb(0, 158, 115),
+    Color::rgb(204, 121, 167),
+    Color::rgb(230, 159, 0),
+    Color::rgb(86, 180, 233),
+];
+
+fn chart(all: &[Surveyed], horizon: f64) -> Chart {
+    let title = format!("Largest error of an angle in {horizon} s against the time that it takes");
+    let names = || all.iter().flat_map(|surveyed| &surveyed.names);
+    let mut models: Vec<&str> = names().map(|name| name.model.as_str()).collect();
+    models.sort_unstable();
+    models.dedup();
+    let look = |name: &CandidateName| {
+        let model = models.iter().position(|model| *model == name.model);
+        let symbol = match name.scalar {
+            "f32" => Symbol::Triangle,
+            _ => Symbol::Circle,
+        };
+        (COLOURS[model.unwrap_or(0) % COLOURS.len()], symbol)
+    };
     let chart = Chart::new(title, Axis::log("time (µs)"))
         .columns(all.len())
         .size(1500.0, 640.0);
     all.iter().fold(chart, |chart, surveyed| {
         let axis = Axis::log(format!("error (rad), {}", surveyed.scene.title()));
         let mut panel = Panel::new(axis.range(1e-14, 10.0));
-        let mut labels: Vec<String> = surveyed.names.iter().map(series_of).collect();
-        labels.sort();
-        labels.dedup();
+        let names = surveyed.names.iter();
+        let looks: BTreeMap<String, (Color, Symbol)> =
+            names.map(|name| (series_of(name), look(name))).collect();
         let point = |run: &Measured| (1e6 * run.seconds, run.ratio());
-        for label in labels {
+        for (label, (color, symbol)) in looks {
             let own = surveyed.runs.iter().filter(|run| {
                 run.ratio().is_finite() && series_of(&surveyed.names[run.candidate]) == label
             });
             let (x, y): (Vec<f64>, Vec<f64>) = own.map(point).unzip();
-            panel = panel.series(Series::points(label, &x, &y));
+            let points = Series::points(label, &x, &y);
+            panel = panel.series(points.color(color).symbol(symbol));
         }
         let front = pareto(&surveyed.runs).into_iter();
         let (x, y): (Vec<f64>, Vec<f64>) = front.map(|index| point(&surveyed.runs[index])).unzip();
