@@ -19,10 +19,10 @@ pub struct Arguments {
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
     /// columns of the angles of parent and children; all but the time without it
-    #[arg(long, value_name = "A,B,C", value_delimiter = ',', num_args = 3)]
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
     pub columns: Vec<String>,
     /// dots of parent and children, UPPER:LOWER for each, in place of angles
-    #[arg(long, value_name = "U:L", value_delimiter = ',', num_args = 3, conflicts_with = "columns", value_parser = pair)]
+    #[arg(long, value_name = "U:L", value_delimiter = ',', conflicts_with = "columns", value_parser = pair)]
     pub dots: Vec<(String, String)>,
     /// y of dots grows downwards, as rows of a picture
     #[arg(long)]
@@ -131,5 +131,34 @@ fn pair(text: &str) -> Result<(String, String), String> {
             Ok((upper.to_owned(), lower.to_owned()))
         }
         _ => Err("two names with a colon between: UPPER:LOWER".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::Arguments;
+
+    #[test]
+    fn links_are_named_between_commas() {
+        let parse = |option: &str, value: &str| {
+            Arguments::try_parse_from(["analyse", "swing.csv", option, value])
+        };
+        assert_eq!(
+            parse("--columns", "a,b,c").unwrap().columns,
+            ["a", "b", "c"]
+        );
+        let dots = parse("--dots", "top:mid,left:end,right:tip").unwrap().dots;
+        let pair = |upper: &str, lower: &str| (upper.to_owned(), lower.to_owned());
+        assert_eq!(
+            dots,
+            [
+                pair("top", "mid"),
+                pair("left", "end"),
+                pair("right", "tip")
+            ]
+        );
+        assert!(parse("--dots", "top,mid").is_err());
     }
 }

@@ -121,6 +121,14 @@ pub fn report(arguments: &Arguments, source: &Source, estimate: &Estimate) -> St
         percent(trust.closure),
         percent(trust.closure_deviation)
     ));
+    // With the model the rule of quadrature is what is left of it.
+    if !arguments.model && trust.closure > 3.0 * trust.closure_deviation {
+        line(
+            "  that is too much: the pendulum is not the paper's with this friction, or the \
+             pictures are too few"
+                .to_owned(),
+        );
+    }
     let white = estimate.whiteness;
     line(match white.abs() {
         ..3.0 => format!("  what is left over is white ({white:.1} deviations)"),
@@ -149,5 +157,5 @@ pub fn transfer_error(source: &Source, estimate: &Estimate) -> Option<f64> {
         let off = row[quantity::TRANSFER] - truth;
         (error + off * off, size + truth * truth)
     });
-    (!source.truth.is_empty()).then(|| (error / size).sqrt())
+    (size > 0.0).then(|| (error / size).sqrt())
 }
