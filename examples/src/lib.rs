@@ -9,6 +9,7 @@ pub mod analyse;
 pub mod branched_double;
 pub mod energy_cascade;
 pub mod failure;
+pub mod film;
 pub mod integration_speed;
 pub mod program;
 pub mod quadrature;

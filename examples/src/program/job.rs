@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-use branched_pendulum_charts::Chart;
+use branched_pendulum_charts::{Chart, Film};
 use branched_pendulum_data::{Column, CsvError, CsvWriter};
 use serde_json::{Map, Value, json};
 
@@ -260,6 +260,18 @@ impl Job {
         }
         self.write(&format!("{name}.svg"), chart.to_svg()?.as_bytes())?;
         self.write(&format!("{name}.png"), &chart.to_png()?)
+    }
+
+    /// Writes a film as SVG and as animated PNG; `name` has no extension.
+    ///
+    /// # Errors
+    /// [`Failure::Chart`] or [`Failure::File`].
+    pub fn film(&self, name: &str, film: &Film) -> Result<(), Failure> {
+        if self.folder.is_none() {
+            return Ok(());
+        }
+        self.write(&format!("{name}.svg"), film.to_svg()?.as_bytes())?;
+        self.write(&format!("{name}.png"), &film.to_png()?)
     }
 
     /// Names of the files that are complete, in the order of writing.
