@@ -12,6 +12,7 @@ use branched_pendulum_data::{Column, CsvError, CsvWriter};
 use serde_json::{Map, Value, json};
 
 use super::files::{Ledger, Part, SharedLedger, locked};
+use super::interrupt::Interruption;
 use super::progress::Progress;
 use crate::failure::Failure;
 
@@ -117,6 +118,7 @@ pub struct Job {
     pub(super) record: Arc<Mutex<Record>>,
     pub(super) ledger: SharedLedger,
     pub(super) progress: Arc<Mutex<Progress>>,
+    pub(super) interruption: Arc<Interruption>,
     folder: Option<PathBuf>,
     /// Nobody reads the standard output any more.
     closed: Cell<bool>,
@@ -157,6 +159,7 @@ impl Job {
             record: Arc::new(Mutex::new(record)),
             ledger,
             progress: Arc::default(),
+            interruption: Arc::default(),
             folder,
             closed: Cell::new(false),
             kept: None,
@@ -202,11 +205,29 @@ impl Job {
         }
     }
 
+    /// What a run of a test would have printed.
+    pub fn printed(&self) -> String {
+        let kept = self.kept.as_ref();
+        kept.map_or(String::new(), |kept| kept.borrow().clone())
+    }
+
     /// Shows the progress of `parts` parts from now on.
     pub fn progress(&self, parts: usize) -> Progress {
         let progress = Progress::new(parts);
         *locked(&self.progress) = progress.clone();
         progress
+    }
+
+    /// Takes Ctrl-C from now on: it ends the run no more, but
+    /// [`is_interrupted`](Self::is_interrupted) says that it came, for a program that
+    /// then stops its work and writes what there is. A second one ends the run.
+    pub fn take_interruption(&self) {
+        self.interruption.take();
+    }
+
+    /// Returns true where Ctrl-C came that the program takes.
+    pub fn is_interrupted(&self) -> bool {
+        self.interruption.signal().is_some()
     }
 
     /// Puts a value into the record.

@@ -2,7 +2,8 @@
 //!
 //! A [`Chart`] is a title, a shared x axis and one or more [`Panel`]s, above each
 //! other or in columns; a panel holds [`Series`] (lines, symbols, bands, the cells
-//! of a map), marker lines and a y axis.
+//! of a map), marker lines and a y axis. Maps whose colour is a value share a scale of
+//! colours, which stands at the right as a bar.
 //!
 //! ```no_run
 //! use branched_pendulum_charts::{Axis, Chart, ChartError, Panel};
@@ -73,6 +74,7 @@ mod guides;
 mod label;
 mod legend;
 mod png;
+mod shades;
 mod style;
 mod svg;
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! From matrices and trajectories to physics: linear modes, of a whole tree and
-//! sector by sector, spectra, motions estimated from data, the growth of deviations, and
-//! how far truncated transfers reach; and which model and method to take ([`advice`]).
+//! sector by sector, spectra, motions estimated from data, the growth of deviations and of
+//! differences between copies, and how far truncated transfers reach; and which model and
+//! method to take ([`advice`]).
 
 pub mod advice;
 pub mod equilibrium;
+pub mod growth;
 pub mod modes;
 pub mod sector_modes;
 pub mod smoothing;
