@@ -1,5 +1,6 @@
 //! From matrices and trajectories to physics: linear modes, of a whole tree and
-//! sector by sector, spectra, motions estimated from data, the growth of deviations, and
+//! sector by sector, spectra, averages with their errors ([`statistics`]), motions
+//! estimated from data, the growth of deviations, and
 //! how far truncated transfers reach; and which model and method to take ([`advice`]).
 
 pub mod advice;
@@ -8,6 +9,7 @@ pub mod modes;
 pub mod sector_modes;
 pub mod smoothing;
 pub mod spectrum;
+pub mod statistics;
 pub mod truncation;
 pub mod variational;
 
