@@ -7,6 +7,7 @@
 pub mod advise;
 pub mod analyse;
 pub mod branched_double;
+pub mod cascade;
 pub mod critical_angle;
 pub mod energy_cascade;
 pub mod failure;

@@ -11,9 +11,12 @@ use branched_pendulum_charts::{Chart, Film};
 use branched_pendulum_data::{Column, CsvError, CsvWriter};
 use serde_json::{Map, Value, json};
 
-use super::files::{Ledger, Part, SharedLedger, locked};
+use super::checkpoint::CHECKPOINT;
+use super::files::{Ledger, Part, SharedLedger, locked, replace};
 use super::interrupt::Interruption;
 use super::progress::Progress;
+use super::sealed::RunIdentity;
+use super::sweep;
 use crate::failure::Failure;
 
 /// Name of the record of a run.
@@ -63,15 +66,20 @@ impl Record {
         };
         let mut files = ledger.files.clone();
         files.retain(|file| file != RECORD);
+        let on = if folder.join(CHECKPOINT).exists() {
+            "; the same command goes on from the checkpoint there"
+        } else {
+            ""
+        };
         if files.is_empty() {
             if self.made {
                 let _ = fs::remove_dir(folder);
             }
-            return Ok(Some("no file was finished".to_owned()));
+            return Ok(Some(format!("no file was finished{on}")));
         }
         let count = files.len();
         let plural = if count == 1 { "file is" } else { "files are" };
-        let left = format!("{count} {plural} in {}", folder.display());
+        let left = format!("{count} {plural} in {}{on}", folder.display());
         if std::mem::replace(&mut self.closed, true) {
             return Ok(Some(left));
         }
@@ -89,13 +97,9 @@ impl Record {
             "ended": ended,
             "files": files,
         });
-        let (part, path) = (folder.join(".run.json.part"), folder.join(RECORD));
-        let written = fs::write(&part, format!("{record:#}\n"));
-        let written = written.and_then(|()| fs::rename(&part, &path));
-        written.map_err(|source| {
-            let _ = fs::remove_file(&part);
-            Failure::File { path, source }
-        })?;
+        let path = folder.join(RECORD);
+        replace(&path, format!("{record:#}\n").as_bytes())
+            .map_err(|source| Failure::File { path, source })?;
         ledger.files.push(RECORD.to_owned());
         Ok(Some(left))
     }
@@ -234,6 +238,23 @@ impl Job {
     pub fn report(&self, name: &str, value: impl Into<Value>) {
         let mut record = locked(&self.record);
         record.report.insert(name.to_owned(), value.into());
+    }
+
+    /// The folder of results, if there is one.
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
+    /// What the run computes, whichever part of it this process does.
+    pub fn identity(&self) -> RunIdentity {
+        let record = locked(&self.record);
+        let mut arguments = record.arguments.clone();
+        arguments.retain(|name, _| !sweep::OPTIONS.contains(&name.as_str()));
+        RunIdentity {
+            program: record.program.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            arguments: Value::Object(arguments).to_string(),
+        }
     }
 
     /// Writes a file of results, if there is a folder for them.

@@ -23,6 +23,7 @@ mod serde;
 mod smoothing;
 mod spectrum;
 mod stability;
+mod statistics;
 mod stepper;
 mod taylor;
 mod trajectory;

@@ -6,10 +6,10 @@ use branched_pendulum::integrate::{Dop853, Integrator, Options, Rk4};
 use branched_pendulum::system::{OdeFn, State};
 
 /// Normal numbers by sums of twelve (Irwin and Hall), from a xorshift generator.
-struct Normal(u64);
+pub(crate) struct Normal(pub(crate) u64);
 
 impl Normal {
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         let mut uniform = || {
             self.0 ^= self.0 << 13;
             self.0 ^= self.0 >> 7;
