@@ -9,6 +9,7 @@ pub mod growth;
 pub mod modes;
 pub mod sector_modes;
 pub mod smoothing;
+#[cfg(feature = "spectra")]
 pub mod spectrum;
 pub mod statistics;
 pub mod truncation;
@@ -20,4 +21,8 @@ pub use sector_modes::{SectorBlock, SectorModes, SectorModesError};
 pub use smoothing::{
     Bands, KinematicSmoother, ModelSmoother, SmoothedMotion, SmoothingError, bands,
 };
-pub use spectrum::{Peak, Spectrum, SpectrumError, SpectrumOptions, Window};
+#[cfg(feature = "spectra")]
+pub use spectrum::{
+    Combination, Line, LineSearch, Lines, Passage, Passages, Spectrum, SpectrumError,
+    SpectrumOptions, Window,
+};
