@@ -16,6 +16,7 @@ mod bodies;
 pub mod coordinates;
 mod drive;
 mod expand;
+mod friction;
 mod layout;
 mod link_properties;
 mod names;
@@ -40,6 +41,7 @@ mod unequal;
 mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
+pub use friction::{FrictionLaw, NonlinearFriction};
 pub use drive::{Drive, Signal, TimeFunction};
 pub use layout::Layout;
 pub use link_properties::LINK_PROPERTIES;
@@ -175,6 +177,8 @@ pub struct Link {
     pub spring: Option<Quantity>,
     /// Relative angle at which the spring is at rest, rad; `None` for zero.
     pub rest: Option<Quantity>,
+    /// Friction and drag that are not viscous.
+    pub nonlinear: NonlinearFriction,
 }
 
 /// A point of a link, from the link's pivot, m.

@@ -22,7 +22,7 @@ impl EntryList<'_, '_> {
         let joints = scene
             .links
             .iter()
-            .any(|link| link.friction.is_some() || link.spring.is_some());
+            .any(crate::scene::Link::has_joint_torque);
         let functions = Functions {
             table: &table,
             joints,
