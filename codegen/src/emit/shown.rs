@@ -19,7 +19,10 @@ impl Emission<'_> {
 
     /// Returns true if any friction or drag is not viscous.
     pub(super) fn has_nonlinear_friction(&self) -> bool {
-        self.scene.links.iter().any(|link| !link.nonlinear.is_none())
+        self.scene
+            .links
+            .iter()
+            .any(|link| !link.nonlinear.is_none())
     }
 
     /// The rates of the momenta, with the torques that the scene has.

@@ -143,7 +143,10 @@ impl Derivation<'_> {
             energy: shared(&energy),
             transfer: shared(&transfer),
             friction: shared(&friction),
-            braked: frame.torques.iter().any(|torque| friction.symbols().contains(&torque.slope)),
+            braked: frame
+                .torques
+                .iter()
+                .any(|torque| friction.symbols().contains(&torque.slope)),
             sector,
         }
     }

@@ -2,8 +2,8 @@
 
 use super::lower::{Environment, Lowering};
 use super::symmetric::{
-    ConstantValues, CouplingValues, Fields, LawValues, OrbitLinks, OrbitValues, Pose, SeriesArithmetic,
-    SymmetricMotion, SymmetricTree, TruncatedSeries,
+    ConstantValues, CouplingValues, Fields, LawValues, OrbitLinks, OrbitValues, Pose,
+    SeriesArithmetic, SymmetricMotion, SymmetricTree, TruncatedSeries,
 };
 use super::{Argument, ValueId};
 use crate::mechanics::expression::Expr;
@@ -45,12 +45,11 @@ pub(super) fn law_values(lowering: &mut Lowering<'_>, law: &LawConstants) -> Law
     let frame = &lowering.mechanics.absolute;
     let mut environment = Environment::new(frame, Argument::Theta, Some(Argument::Omega), None);
     let law = lowering.law(&mut environment, law);
-    let [coulomb, quadratic, width] = [law.coulomb, law.quadratic, law.width].map(|value| {
-        match lowering.builder.is(value, 0) {
+    let [coulomb, quadratic, width] =
+        [law.coulomb, law.quadratic, law.width].map(|value| match lowering.builder.is(value, 0) {
             true => TruncatedSeries::default(),
             false => TruncatedSeries::of_order(0, value),
-        }
-    });
+        });
     LawValues {
         coulomb,
         quadratic,

@@ -42,8 +42,8 @@ mod unequal;
 mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
-pub use friction::{FrictionLaw, NonlinearFriction};
 pub use drive::{Drive, Signal, TimeFunction};
+pub use friction::{FrictionLaw, NonlinearFriction};
 pub use layout::Layout;
 pub use link_properties::LINK_PROPERTIES;
 pub use names::is_keyword;

@@ -304,7 +304,10 @@ fn lock(
             let sum = Quantity::sum(parent.drag.take().into_iter().chain([copies]));
             parent.drag = Some(sum);
         }
-        if !parent.nonlinear.take_ground(&mut link.nonlinear, link.copies) {
+        if !parent
+            .nonlinear
+            .take_ground(&mut link.nonlinear, link.copies)
+        {
             let name = link.name.clone();
             report.error(link.span, TreeMessage::LockedWidth { link: name });
             return None;

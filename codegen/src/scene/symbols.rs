@@ -176,9 +176,10 @@ fn add_constants<'a>(
     }
     type Law = fn(&Link) -> &Option<FrictionLaw>;
     let laws: [(&[&str], Law); 2] = [
-        (&["coulomb", "quadratic_friction", "friction_width"], |link| {
-            &link.nonlinear.joint
-        }),
+        (
+            &["coulomb", "quadratic_friction", "friction_width"],
+            |link| &link.nonlinear.joint,
+        ),
         (&["quadratic_drag", "drag_width"], |link| {
             &link.nonlinear.ground
         }),

@@ -151,12 +151,7 @@ impl Properties<'_> {
     }
 }
 
-fn node(
-    random: &mut Random,
-    parent: Option<(usize, &Node)>,
-    copies: usize,
-    braked: bool,
-) -> Node {
+fn node(random: &mut Random, parent: Option<(usize, &Node)>, copies: usize, braked: bool) -> Node {
     let shape = random.below(10);
     let mut properties = Properties {
         random,

@@ -82,7 +82,10 @@ impl Link {
     /// Torque of drag on the link at its angular velocity, N m, and its size.
     pub(crate) fn ground_torque(&self, omega: f64) -> (f64, f64) {
         let (torque, terms) = self.laws[1].torque(omega, 0.0);
-        (-self.drag * omega - torque, (self.drag * omega).abs() + terms)
+        (
+            -self.drag * omega - torque,
+            (self.drag * omega).abs() + terms,
+        )
     }
 
     /// The link's value less its parent's.
