@@ -304,6 +304,7 @@ impl Emission<'_> {
             | Purpose::PointTorques(_)
             | Purpose::LinkProperties => self.positions_meaning(purpose),
             Purpose::Link(function) => vec![link_meaning(function).into()],
+            Purpose::Scale(function) => vec![function.meaning().into()],
             Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
             Purpose::RootDrive => vec![
                 "What the drive adds to the apparent gravity at the root's pivot at `time` (in s), −a_x/l and −a_y/l, and its torque τ/(m l²) on the root.".into(),

@@ -22,6 +22,7 @@ mod sink;
 mod strip_docs;
 mod strip_forced;
 mod strip_powers;
+mod strip_scales;
 mod strip_tables;
 mod strips;
 mod stub;

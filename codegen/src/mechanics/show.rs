@@ -2,8 +2,8 @@
 
 use super::expression::{Expr, SymbolId};
 use super::{
-    Counting, DriveTerms, Frame, LinkBalance, LinkPositions, MatrixEntry, MeanTree, Mechanics,
-    OrbitMechanics, RelativePosition, Temporal, TransferParts, TransverseFormulas,
+    Counting, DriveTerms, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree,
+    Mechanics, OrbitMechanics, RelativePosition, Temporal, TransferParts, TransverseFormulas,
     TransverseMechanics, text,
 };
 use crate::scene::CoordinateKind;
@@ -231,7 +231,9 @@ impl Mechanics {
 
     fn link(&self, f: &mut fmt::Formatter<'_>, link: &LinkBalance) -> fmt::Result {
         writeln!(f, "one link, with the subtrees on one pivot of it")?;
-        link.formulas(&self.symbols)
+        let mut formulas = link.formulas(&self.symbols);
+        formulas.extend(self.scales.iter().flat_map(LinkScales::formulas));
+        formulas
             .iter()
             .try_for_each(|formula| self.line(f, &formula.left, &formula.right))
     }

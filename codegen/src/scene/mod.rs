@@ -370,6 +370,13 @@ pub struct Requests {
     pub forces: bool,
 }
 
+impl Requests {
+    /// Returns true if budgets by scale are asked for.
+    pub fn scales(&self) -> bool {
+        self.budget.as_ref().is_some_and(|budget| budget.scales)
+    }
+}
+
 /// Forms of the sectors' budget that are asked for; at least one. The forms
 /// differ in the definition of a sector's kinetic energy.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -385,6 +392,9 @@ pub struct BudgetRequest {
     pub velocity: bool,
     /// Energy transfer from each sector to each other, by Parseval.
     pub matrix: bool,
+    /// Energies and transfers by scale, in loops: all sectors that branch in one
+    /// generation together, by Parseval.
+    pub scales: bool,
     /// Orders in the amplitude of the differences through which the transfers
     /// are expanded. Comes with `momenta` and `symmetric`.
     pub amplitude_orders: Vec<u32>,

@@ -257,6 +257,7 @@ impl Display for BudgetRequest {
             parseval,
             velocity,
             matrix,
+            scales,
             amplitude_orders,
             angle_orders,
             small,
@@ -267,6 +268,7 @@ impl Display for BudgetRequest {
             (parseval, "parseval"),
             (velocity, "velocity"),
             (matrix, "matrix"),
+            (scales, "scales"),
         ];
         let named = flags.iter().filter(|(wanted, _)| **wanted);
         let forms: Vec<String> = named
