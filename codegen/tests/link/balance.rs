@@ -107,6 +107,11 @@ impl Algebra<'_> {
                 | Column::Drag
                 | Column::Spring
                 | Column::Rest
+                | Column::Coulomb
+                | Column::QuadraticFriction
+                | Column::FrictionWidth
+                | Column::QuadraticDrag
+                | Column::DragWidth
                 | Column::PerTorque
                 | Column::DriveTorque => self.s(SymbolId(20_000 + *column as u32)),
             };
