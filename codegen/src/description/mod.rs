@@ -48,12 +48,14 @@ mod item;
 mod list;
 mod parse;
 mod requests;
+mod source;
 mod text;
 
 use proc_macro2::{Ident, Span, TokenStream};
 
 pub use expression::{Expression, ExpressionKind};
 pub use parse::parse;
+pub use source::parse_text;
 
 /// The name of time in `drive(...)`, s.
 pub const TIME: &str = "t";

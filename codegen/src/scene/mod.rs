@@ -31,6 +31,7 @@ mod reduction;
 mod requests;
 mod resolve;
 mod rule;
+mod run_time;
 mod sectors;
 mod singular;
 mod symbols;
@@ -52,6 +53,7 @@ pub use observables::{
 };
 pub use quantity::Quantity;
 pub use resolve::resolve;
+pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};
 pub use transverse::TransverseSector;
 pub use unequal::UnequalNode;

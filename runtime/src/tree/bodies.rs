@@ -1,6 +1,7 @@
 //! Links of a tree in loops as bodies: energies with lateral offsets, momentum and
 //! powers of driven trees.
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::sum::Sum;
@@ -9,19 +10,22 @@ use crate::scalar::kind::{compiled, compiled_once};
 use crate::system::Workspace;
 
 /// Parents of the links.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// The parent of each link, before it; the root's own is 0.
     Parents(&'static [u32]),
+    /// Parents likewise, of a tree that is not known before the program runs.
+    Shared(Arc<[u32]>),
     /// Copies of each generation under each link of the one before, 1 for the
     /// root; links stand as in a [`Tree`](super::Tree).
     Generations(&'static [usize]),
 }
 
 impl Shape {
-    pub(super) fn links(self) -> usize {
+    pub(super) fn links(&self) -> usize {
         match self {
             Self::Parents(parents) => parents.len(),
+            Self::Shared(parents) => parents.len(),
             Self::Generations(copies) => super::links(copies),
         }
     }
@@ -29,13 +33,15 @@ impl Shape {
     /// Goes from the root to the leaves: the link, its parent but for the root,
     /// and the number of its row.
     #[inline(always)]
-    pub(super) fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
-        match self {
-            Self::Parents(parents) => {
-                for (link, &parent) in parents.iter().enumerate() {
-                    visit(link, (link > 0).then_some(parent as usize), link);
-                }
+    pub(super) fn each(&self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
+        let mut listed = |parents: &[u32]| {
+            for (link, &parent) in parents.iter().enumerate() {
+                visit(link, (link > 0).then_some(parent as usize), link);
             }
+        };
+        match self {
+            Self::Parents(parents) => listed(parents),
+            Self::Shared(parents) => listed(parents),
             Self::Generations(copies) => {
                 // Where the generation before starts, and how many links it has.
                 let (mut above, mut count) = (0, 1);
@@ -114,7 +120,7 @@ impl<T: Scalar> Bodies<T> {
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<S> {
         Bodies {
-            shape: self.shape,
+            shape: self.shape.clone(),
             rows: self.rows.iter().map(|&value| convert(value)).collect(),
             rests: self.rests.iter().map(|&value| convert(value)).collect(),
             laws: self.laws.iter().map(|&value| convert(value)).collect(),
