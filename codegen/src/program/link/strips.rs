@@ -161,8 +161,7 @@ impl Lowering<'_> {
             };
             let forces = forces.map(&mut optional);
             let rest = optional(&link.rest);
-            let laws = self.law_constants(link);
-            let laws = laws.map(|constant| self.builder.constant(constant));
+            let laws = self.laws(link);
             given.push(Given {
                 inertia: composite[0],
                 moment: [composite[1], composite[2]],
