@@ -45,6 +45,7 @@ mod properties;
 mod root;
 mod shared;
 mod skeleton;
+mod small;
 mod states;
 mod strips;
 mod sum;
@@ -60,6 +61,7 @@ pub use bodies::{Bodies, Shape};
 pub use equations::{LinkEquations, LinkMotion, Row};
 pub use properties::PropertyTable;
 pub use root::RootDrive;
+pub use small::{LinkStates, SmallTree};
 
 use crate::scalar::kind::{compiled, compiled_once};
 use crate::scalar::{Scalar, at};

@@ -15,6 +15,7 @@ mod parameters;
 mod random_trees;
 mod rebuilt;
 mod reductions;
+mod run_time;
 mod reference;
 mod scans;
 mod sectors;
