@@ -22,15 +22,17 @@ pub(crate) struct Ways<E, T> {
     small: Option<SmallTree<E, T>>,
 }
 
-/// Most links that are computed one by one (`costs_of_one_state` in the tests).
-const SMALL: usize = 40;
+/// Most links that are computed one by one, by form: from there on strips are faster
+/// (`costs_of_one_state` in the tests).
+const SMALL_STRAIGHT: usize = 40;
+const SMALL_GENERAL: usize = 100;
 
 impl<E: LinkEquations, T: Scalar> Ways<E, T> {
-    fn new(parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
+    fn new(parents: &[u32], rows: Vec<T>, gravity: T, most: usize) -> Self {
         let above = [T::from_f64(0.0), gravity];
         Self {
             strips: Tree::with_parents(parents, &rows, above),
-            small: (parents.len() <= SMALL).then(|| SmallTree::new(parents, rows, above)),
+            small: (parents.len() <= most).then(|| SmallTree::new(parents, rows, above)),
         }
     }
 
@@ -51,11 +53,11 @@ pub(crate) struct Acting<'a, T> {
 
 impl<T: Scalar> Equations<T> {
     pub(crate) fn straight(parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
-        Self::Straight(Ways::new(parents, rows, gravity))
+        Self::Straight(Ways::new(parents, rows, gravity, SMALL_STRAIGHT))
     }
 
     pub(crate) fn general(parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
-        Self::General(Ways::new(parents, rows, gravity))
+        Self::General(Ways::new(parents, rows, gravity, SMALL_GENERAL))
     }
 
     pub(crate) fn is_general(&self) -> bool {

@@ -53,7 +53,8 @@ fn random_trees_agree_with_their_programs() {
             let error = tree.potential_energy(&theta) - potential;
             energies.note(error, motion.potential_terms, place);
             let momenta = compiled.evaluate("momenta", &[&theta, &omega]);
-            for (link, (own, other)) in tree.momenta(&theta, &omega).iter().zip(momenta).enumerate() {
+            for (link, (own, other)) in tree.momenta(&theta, &omega).iter().zip(momenta).enumerate()
+            {
                 let row = motion.mass_terms.row(link);
                 let size: f64 = row.iter().zip(&omega).map(|(m, w)| m * w.abs()).sum();
                 energies.note(own - other, size, place);
@@ -82,7 +83,10 @@ fn linear_modes_agree_with_the_derived_matrices() {
         let derived = compiled.evaluate(entry, &[&theta]);
         let size = derived.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
         for (own, derived) in own.iter().flatten().zip(derived) {
-            assert!((own - derived).abs() < 1e-14 * size, "{entry}: {own} {derived}");
+            assert!(
+                (own - derived).abs() < 1e-14 * size,
+                "{entry}: {own} {derived}"
+            );
         }
     }
 }

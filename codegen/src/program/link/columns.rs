@@ -119,7 +119,7 @@ impl Column {
             Self::Spring => "stiffness of the torsion spring over m l²",
             Self::Rest => "angle at which the torsion spring is at rest",
             Self::PerTorque => "1/(m l²), factor of torques from outside",
-            Self::DriveTorque => "torque on the root over m l², stated anew by every evaluation",
+            Self::DriveTorque => "torque on the root over m l², stated by each evaluation",
         }
     }
 }

@@ -59,7 +59,14 @@ fn what_is_derived_for_one_tree_is_refused_where_it_stands() {
 
 #[test]
 fn texts_that_are_no_tokens_or_too_much_are_refused() {
-    for text in ["gravity = \"", "a [", "gravity = 9.81 )", "'", "\u{7f}", "/*"] {
+    for text in [
+        "gravity = \"",
+        "a [",
+        "gravity = 9.81 )",
+        "'",
+        "\u{7f}",
+        "/*",
+    ] {
         assert!(message(text).starts_with("error: "), "{text}");
     }
     assert!(message("").contains("gravity"));
@@ -109,10 +116,42 @@ const SEEDS: [&str; 5] = [
 ];
 
 const PIECES: [&str; 36] = [
-    "0", "1e300", "1e-300", "99999999999999999999", "1e99999", "-", "^", "^99", "^-99", "(", ")",
-    "[", "]", "*", "* 1000", "/", "/ 0", ",", ":", "=", "\"", "'", "é", "\u{0}", "r#type", "t",
-    "gravity", "mass", "at = (1, 2)", "generations(count = 9, branching = 3)", "each(1, 2)",
-    "emit(transfer)", "sin(t)", "\\", "//", "/*",
+    "0",
+    "1e300",
+    "1e-300",
+    "99999999999999999999",
+    "1e99999",
+    "-",
+    "^",
+    "^99",
+    "^-99",
+    "(",
+    ")",
+    "[",
+    "]",
+    "*",
+    "* 1000",
+    "/",
+    "/ 0",
+    ",",
+    ":",
+    "=",
+    "\"",
+    "'",
+    "é",
+    "\u{0}",
+    "r#type",
+    "t",
+    "gravity",
+    "mass",
+    "at = (1, 2)",
+    "generations(count = 9, branching = 3)",
+    "each(1, 2)",
+    "emit(transfer)",
+    "sin(t)",
+    "\\",
+    "//",
+    "/*",
 ];
 
 struct Random(u64);
