@@ -17,6 +17,7 @@ mod random_trees;
 mod rebuilt;
 mod reductions;
 mod reference;
+mod run_time;
 mod scans;
 mod sectors;
 mod solves;

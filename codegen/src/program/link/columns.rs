@@ -204,7 +204,7 @@ impl Column {
             Self::Stiffness => "stiffness of the torsion spring (N m)",
             Self::PivotFriction => "friction in the pivot (N m s)",
             Self::GroundDrag => "drag against the ground (N m s)",
-            Self::DriveTorque => "torque on the root over m l², stated anew by every evaluation",
+            Self::DriveTorque => "torque on the root over m l², stated by each evaluation",
         }
     }
 }

@@ -753,8 +753,7 @@ impl<T: ::branched_pendulum::Scalar> General<T> {
         /// 11. `drag`: drag against the ground over m l²
         /// 12. `spring`: stiffness of the torsion spring over m l²
         /// 13. `rest`: angle at which the torsion spring is at rest
-        /// 14. `drive_torque`: torque on the root over m l², stated anew by every
-        /// evaluation
+        /// 14. `drive_torque`: torque on the root over m l², stated by each evaluation
         static STRIPS: [[[f64; 2]; 14]; 4] = [
             [
                 [0.0, 0.0],
