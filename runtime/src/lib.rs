@@ -109,8 +109,8 @@ pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, Sectors};
 pub use system::{
-    Canonical, Cast, Energy, Forced, Pendulum, Positions, Prescribed, SymmetricPendulum,
-    TaylorPendulum, Transverse, WholeTree,
+    Canonical, Cast, Energy, Forced, Pendulum, Positions, Prescribed, SmallDifferences,
+    SymmetricPendulum, TaylorPendulum, Transverse, WholeTree,
 };
 pub use transfer_forms::{TransferForm, TransferForms};
 

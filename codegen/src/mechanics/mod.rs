@@ -28,6 +28,7 @@ mod rate_symbols;
 pub mod sectors;
 mod series;
 mod show;
+mod small;
 mod symmetric;
 mod transfer;
 mod transverse;
@@ -48,6 +49,7 @@ pub use observables::{
 pub use positions::{LinkPositions, RelativePosition};
 pub use print::{latex, text};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
+pub use small::{SmallFormulas, SmallMechanics};
 pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 

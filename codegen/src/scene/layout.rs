@@ -183,6 +183,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         taylor,
         positions: _,
         transverse,
+        small: _,
         forces: _,
         solve,
     } = &asked.resolved.requests;
@@ -196,6 +197,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         (budget.is_some(), "`emit(budget)`"),
         (*taylor, "`emit(taylor)`"),
         (*transverse, "`emit(transverse)`"),
+        (asked.resolved.acting.is_some(), "`emit(small)`"),
         (asked.observables, "`observe(…)`"),
         (asked.prescribed, "`prescribed(…)`"),
         (factorization, "`solve = factorization`"),

@@ -18,6 +18,7 @@ mod reductions;
 mod reference;
 mod scans;
 mod sectors;
+mod small;
 mod solves;
 mod support;
 mod symmetric;

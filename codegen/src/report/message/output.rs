@@ -115,7 +115,10 @@ pub enum OutputMessage {
         function: String,
     },
     /// Small differences of copies in phase where there are none.
-    NoTransverse,
+    NoTransverse {
+        /// `transverse` or `small`.
+        request: &'static str,
+    },
 }
 
 /// Use of a tree that copies which differ stand against.
@@ -289,8 +292,8 @@ impl OutputMessage {
                 format!("`{name}` would emit it again"),
                 format!("choose another name, as in `my_{name}`"),
             ),
-            M::NoTransverse => problem(
-                "`transverse` needs copies that move in phase",
+            M::NoTransverse { request } => problem(
+                format!("`{request}` needs copies that move in phase"),
                 "nothing moves in phase",
                 "add `in_phase(all)`, or `in_phase(child)` with a link that has copies",
             ),
