@@ -113,7 +113,9 @@ impl Emission<'_> {
             | Purpose::TransverseEnergy(_)
             | Purpose::TransverseTransfer(_)
             | Purpose::TransverseFriction(_) => self.transverse_formulas(purpose),
-            Purpose::AbsoluteVelocities
+            Purpose::SmallEnergy => self.small_formulas(),
+            Purpose::SmallAccelerations
+            | Purpose::AbsoluteVelocities
             | Purpose::AccelerationsUnder
             | Purpose::Prescribed(_)
             | Purpose::OutsidePower

@@ -30,6 +30,7 @@ mod scales;
 pub mod sectors;
 mod series;
 mod show;
+mod small;
 mod symmetric;
 mod transfer;
 mod transverse;
@@ -52,6 +53,7 @@ pub use positions::{LinkPositions, RelativePosition};
 pub use print::{latex, text};
 pub use scales::{LinkScales, ScaleSymbols};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
+pub use small::{SmallFormulas, SmallMechanics};
 pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 

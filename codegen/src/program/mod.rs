@@ -35,6 +35,7 @@ mod rotations;
 mod rules;
 mod scale;
 mod sectors;
+mod small;
 mod solve;
 mod symmetric;
 mod taylor;

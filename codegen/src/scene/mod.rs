@@ -366,6 +366,9 @@ pub struct Requests {
     pub positions: bool,
     /// Equations of small differences between copies in phase.
     pub transverse: bool,
+    /// Transverse sectors whose differences act back on the motion in phase, by number.
+    /// Comes with `transverse`.
+    pub small: Vec<usize>,
     /// Accelerations under torques that the caller hands over.
     pub forces: bool,
 }

@@ -218,6 +218,7 @@ impl Display for Requests {
             taylor,
             positions,
             transverse,
+            small,
             forces,
         } = self;
         write!(f, "accelerations")?;
@@ -238,6 +239,9 @@ impl Display for Requests {
             if *wanted {
                 write!(f, ", {name}")?;
             }
+        }
+        if !small.is_empty() {
+            write!(f, ", small in {} sectors", small.len())?;
         }
         if let Some(transfer) = transfer {
             write!(f, ", {transfer}")?;

@@ -20,6 +20,7 @@ mod reference;
 mod run_time;
 mod scans;
 mod sectors;
+mod small;
 mod solves;
 mod support;
 mod symmetric;
