@@ -7,9 +7,11 @@
 pub mod advise;
 pub mod analyse;
 pub mod branched_double;
+pub mod cascade;
 pub mod critical_angle;
 pub mod energy_cascade;
 pub mod failure;
+pub mod film;
 pub mod integration_speed;
 pub mod program;
 pub mod quadrature;

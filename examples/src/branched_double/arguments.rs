@@ -106,6 +106,9 @@ pub struct Arguments {
         value_parser = number(0.0..=1e-2, "")
     )]
     pub tolerance: f64,
+    /// writes a film of all releases as well, as SVG and as animated PNG
+    #[arg(long)]
+    pub animate: bool,
     /// Folder of results.
     #[command(flatten)]
     pub results: Results,

@@ -9,6 +9,8 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, Parser};
 use serde_json::{Map, Value};
 
+use super::sweep::Shard;
+
 /// The command line of a program.
 pub trait Arguments: Parser {
     /// Folder of results where none is given; none for a program that writes
@@ -17,6 +19,11 @@ pub trait Arguments: Parser {
 
     /// The options that all programs have.
     fn results(&self) -> &Results;
+
+    /// The shard of the run that is computed, if it is not all of it.
+    fn shard(&self) -> Option<Shard> {
+        None
+    }
 
     /// Compares options with each other.
     ///

@@ -1,4 +1,4 @@
-//! Charts from one description, as SVG and as PNG.
+//! Charts from one description, and films of trees, as SVG and as PNG.
 //!
 //! A [`Chart`] is a title, a shared x axis and one or more [`Panel`]s, above each
 //! other or in columns; a panel holds [`Series`] (lines, symbols, bands, the cells
@@ -68,6 +68,7 @@ mod decimate;
 mod description;
 mod drawing;
 mod error;
+mod film;
 mod font;
 mod guides;
 mod label;
@@ -82,4 +83,5 @@ mod ticks;
 
 pub use description::{Axis, Chart, Panel, Series};
 pub use error::ChartError;
+pub use film::{Film, FilmLink};
 pub use style::{Color, Dash, Symbol};
