@@ -208,7 +208,7 @@ fn list(arguments: &Arguments, tongues: &[Tongue]) -> String {
     let mut text = format!(
         "\nTongues of instability at some angles of the parent and at the paper's angle of the\n\
          children, 0°: where differences grow most, over {} s\n  \
-         parent            children          rate 1/s  f_eff Hz    f_+ Hz    f_− Hz  resonance\n",
+         parent                children              rate 1/s  f_eff Hz    f_+ Hz    f_− Hz  resonance\n",
         span(arguments)
     );
     for Tongue { edges, ridge } in tongues {
@@ -216,7 +216,7 @@ fn list(arguments: &Arguments, tongues: &[Tongue]) -> String {
         let [plus, minus] = ridge.modes;
         let [parent, children] = [0, 1].map(|i| match ridge.release[i] {
             angle if from[i] == to[i] => format!("{angle}°"),
-            angle => format!("{angle}° ({}–{})", from[i], to[i]),
+            angle => format!("{angle}° ({} to {})", from[i], to[i]),
         });
         let resonance = match ridge.resonance {
             None => "-".to_owned(),
@@ -227,7 +227,7 @@ fn list(arguments: &Arguments, tongues: &[Tongue]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "  {parent:16}  {children:18}{:8.4}  {:8.5}  {plus:8.5}  {minus:8.5}  {resonance}",
+            "  {parent:20}  {children:20}  {:8.4}  {:8.5}  {plus:8.5}  {minus:8.5}  {resonance}",
             ridge.rate, ridge.effective,
         );
     }
