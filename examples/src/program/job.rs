@@ -210,7 +210,7 @@ impl Job {
         }
     }
 
-    /// What a run of a test would have printed.
+    /// Text that a run of a test would have printed.
     pub fn printed(&self) -> String {
         let kept = self.kept.as_ref();
         kept.map_or(String::new(), |kept| kept.borrow().clone())
