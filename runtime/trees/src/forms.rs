@@ -1,17 +1,18 @@
 //! The forms of the equations: those of straight trees without torques in their joints
-//! are shorter.
+//! are shorter, and those of trees with viscous friction alone.
 
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::tree::{LinkEquations, RootDrive, Tree};
 
-use crate::equations::{GeneralEquations, StraightEquations};
+use crate::equations::{BrakedEquations, GeneralEquations, StraightEquations};
 
 /// A tree in one of the forms.
 #[derive(Clone, Debug)]
 pub(crate) enum Equations<T> {
     Straight(Tree<StraightEquations, T>),
     General(Tree<GeneralEquations, T>),
+    Braked(Tree<BrakedEquations, T>),
 }
 
 /// What moves a tree from outside.
@@ -32,14 +33,25 @@ impl<T: Scalar> Equations<T> {
         Self::General(Tree::with_parents(parents, rows, above))
     }
 
-    pub(crate) fn is_general(&self) -> bool {
-        matches!(self, Self::General(_))
+    pub(crate) fn braked(parents: &[u32], rows: &[T], gravity: T) -> Self {
+        let above = [T::from_f64(0.0), gravity];
+        Self::Braked(Tree::with_parents(parents, rows, above))
+    }
+
+    /// Returns a number by which the forms differ.
+    pub(crate) fn number(&self) -> u8 {
+        match self {
+            Self::Straight(_) => 0,
+            Self::General(_) => 1,
+            Self::Braked(_) => 2,
+        }
     }
 
     pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Equations<S> {
         match self {
             Self::Straight(tree) => Equations::Straight(tree.cast(convert)),
             Self::General(tree) => Equations::General(tree.cast(convert)),
+            Self::Braked(tree) => Equations::Braked(tree.cast(convert)),
         }
     }
 
@@ -54,6 +66,7 @@ impl<T: Scalar> Equations<T> {
         match self {
             Self::Straight(tree) => accelerate(tree, workspace, acting, given, alpha),
             Self::General(tree) => accelerate(tree, workspace, acting, given, alpha),
+            Self::Braked(tree) => accelerate(tree, workspace, acting, given, alpha),
         }
     }
 
@@ -64,6 +77,7 @@ impl<T: Scalar> Equations<T> {
         match self {
             Self::Straight(tree) => evaluate(tree, acting, given, alpha),
             Self::General(tree) => evaluate(tree, acting, given, alpha),
+            Self::Braked(tree) => evaluate(tree, acting, given, alpha),
         }
     }
 }

@@ -6,9 +6,12 @@
 //! anew, and a test tells when that is due.
 
 #[allow(dead_code, unreachable_pub)]
+mod braked;
+#[allow(dead_code, unreachable_pub)]
 mod general;
 #[allow(dead_code, unreachable_pub)]
 mod straight;
 
+pub(crate) use braked::BrakedEquations;
 pub(crate) use general::GeneralEquations;
 pub(crate) use straight::StraightEquations;

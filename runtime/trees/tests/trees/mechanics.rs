@@ -45,11 +45,52 @@ fn the_rate_of_the_energy_is_the_power_of_all_forces() {
     let state: Vec<f64> = THETA.into_iter().chain(OMEGA).collect();
     FirstIntegral::evaluate(&tree, &state, &mut slopes);
     let rates = OMEGA.iter().chain(&alpha);
-    let rate: f64 = slopes.iter().zip(rates).map(|(slope, rate)| slope * rate).sum();
+    let rate: f64 = slopes
+        .iter()
+        .zip(rates)
+        .map(|(slope, rate)| slope * rate)
+        .sum();
     let power = tree.friction_power(&OMEGA)
         + tree.outside_power(&OMEGA, &torques)
         + tree.drive_power(time, &THETA, &OMEGA);
     near(rate, power, 1e-12);
+}
+
+/// Coulomb and quadratic friction: the power again, and the torque of one rod by hand.
+#[test]
+fn laws_of_friction() {
+    let text = BENT
+        .replace(
+            "friction = 1e-3",
+            "friction(viscous = 1e-3, coulomb = 0.02, quadratic = m)",
+        )
+        .replace("drag = 1e-4", "drag(quadratic = 1e-3, width = 0.2)");
+    let description = TreeDescription::parse(&text).unwrap();
+    let tree = description.tree(&[("m", 0.07)]).unwrap();
+    let mut alpha = [0.0; 5];
+    let mut workspace = Workspace::new();
+    tree.accelerations_under_with(&mut workspace, 0.7, [&THETA, &OMEGA, &[0.0; 5]], &mut alpha);
+    let mut slopes = [0.0; 10];
+    let state: Vec<f64> = THETA.into_iter().chain(OMEGA).collect();
+    FirstIntegral::evaluate(&tree, &state, &mut slopes);
+    let rates = OMEGA.iter().chain(&alpha);
+    let rate: f64 = slopes
+        .iter()
+        .zip(rates)
+        .map(|(slope, rate)| slope * rate)
+        .sum();
+    let braking = tree.friction_power(&OMEGA);
+    assert!(braking < bent().friction_power(&OMEGA));
+    near(rate, braking + tree.drive_power(0.7, &THETA, &OMEGA), 1e-12);
+
+    let rod = PendulumTree::parse(
+        "gravity = 0, rod: rod(mass = 3, length = 1, friction(coulomb = 0.3, quadratic = 0.1, width = 4))",
+    );
+    // s = 5, D = (0.3/5 + 0.1 · 5) 3, I = 1.
+    let mut alpha = [0.0];
+    rod.unwrap()
+        .accelerations_into(0.0, &[0.0], &[3.0], &mut alpha);
+    near(alpha[0], -1.68, 1e-14);
 }
 
 /// x = 0.02 sin² 2t has ẍ = 0.16 cos 4t.
@@ -249,7 +290,11 @@ fn a_single_link_takes_its_drive() {
 #[test]
 fn slices_of_another_length_give_nan() {
     let tree = bent();
-    assert!(tree.accelerations(0.0, &[0.0; 3], &[0.0; 5]).iter().all(|a| a.is_nan()));
+    assert!(
+        tree.accelerations(0.0, &[0.0; 3], &[0.0; 5])
+            .iter()
+            .all(|a| a.is_nan())
+    );
     assert!(tree.kinetic_energy(&THETA, &[0.0]).is_nan());
     assert!(tree.momenta(&THETA, &[]).iter().all(|p| p.is_nan()));
     assert!(tree.modes(&[0.0; 2]).is_err());
