@@ -32,6 +32,14 @@ pub enum Failure {
         /// The integrator's error, whatever the precision it ran in.
         source: Box<dyn Error + Send + Sync>,
     },
+    /// A start of a cascade whose numbers are no longer finite.
+    #[error("start {start} has diverged at {time:.1} s: take more `--steps`")]
+    Diverged {
+        /// Its number.
+        start: usize,
+        /// Time, s.
+        time: f64,
+    },
     /// The linear modes could not be found.
     #[error("the linear modes could not be found")]
     Modes(#[from] ModesError),

@@ -1,90 +1,171 @@
 //! The tongues of instability between the two modes: where the growth rate is largest
 //! across them, and the frequencies there.
 
-use branched_pendulum::analysis::growth::{Checked, Growth, frequency_at_rest, turns_a_second};
+use branched_pendulum::analysis::growth::{Growth, frequency_at_rest, turns_a_second};
 use branched_pendulum::prelude::*;
 
 use super::arguments::Arguments;
 use super::map::{at_rest, first_sector};
 use super::normal_modes::NormalMode;
 use crate::critical_angle::scene::InPhase;
+use crate::critical_angle::windows::windows;
 use crate::failure::Failure;
 
-/// A place of largest growth across a tongue.
+/// A tongue of instability, crossed at one angle of the parent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tongue {
+    /// Angles of the children between which differences grow, degrees.
+    pub edges: [f64; 2],
+    /// The place of largest growth.
+    pub ridge: Ridge,
+}
+
+/// A place of the plane, and the frequencies there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ridge {
     /// Angles of release of parent and children, degrees.
     pub release: [f64; 2],
     /// Growth rate, 1/s.
-    pub rate: Checked,
+    pub rate: f64,
     /// Turns of the difference a second, f_eff, Hz.
-    pub effective: Checked,
+    pub effective: f64,
     /// Frequencies f_+ and f_− of the motion itself, Hz.
     pub modes: [f64; 2],
+    /// The resonance, if one is within [`CLOSE`].
+    pub resonance: Option<Resonance>,
 }
 
-impl Ridge {
-    /// f_eff − (f_+ + f_−)/2, Hz.
-    pub fn mismatch(&self) -> f64 {
-        self.effective.value - 0.5 * (self.modes[0] + self.modes[1])
-    }
+/// A resonance f_eff = (n_+ f_+ + n_− f_−)/2 with n_+ + n_− even.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resonance {
+    /// n_+ and n_−.
+    pub numbers: [i32; 2],
+    /// f_eff − (n_+ f_+ + n_− f_−)/2, Hz.
+    pub mismatch: f64,
 }
+
+/// Largest mismatch of a resonance, Hz.
+pub const CLOSE: f64 = 2e-3;
+
+/// Largest |n_+| + |n_−|.
+const HIGHEST: i32 = 4;
 
 /// Angles of the parent at which tongues are crossed, degrees.
-const PARENTS: [f64; 6] = [15.0, 20.0, 25.0, 30.0, 40.0, 50.0];
+const PARENTS: [f64; 7] = [15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0];
 
 /// Angles of the children at which they are, degrees.
-const CHILDREN: [f64; 2] = [-60.0, 110.0];
+const CHILDREN: std::ops::RangeInclusive<f64> = -60.0..=110.0;
 
-/// Step of the children's angle, degrees.
-const STEP: f64 = 0.25;
-
-/// Time over which frequencies are taken, s.
-const SPAN: f64 = 120.0;
+/// Time over which frequencies are taken, in spans of the map.
+const SPANS: f64 = 8.0;
 
 /// Growth rate from which on a place counts as unstable, 1/s.
 const LEAST: f64 = 0.02;
 
-/// Finds the places of largest growth across the tongues.
+/// Returns the time over which frequencies are taken, s.
+pub fn span(arguments: &Arguments) -> f64 {
+    SPANS * arguments.span
+}
+
+/// Finds the tongues at some angles of the parent; none where the motion is chaotic.
 ///
 /// # Errors
-/// [`Failure::Growth`].
+/// [`Failure::Growth`] or [`Failure::Integration`].
 pub fn find(
     arguments: &Arguments,
     model: &InPhase,
     modes: &[NormalMode],
-) -> Result<Vec<Ridge>, Failure> {
+) -> Result<Vec<Tongue>, Failure> {
     let ode = first_sector(model)?;
-    let growth = Growth {
-        frequency_hz: frequency_at_rest(&ode),
-        horizons: vec![SPAN],
-        tolerance: arguments.tolerance,
-    };
-    let mut ridges = Vec::new();
+    let growth = growth(model, span(arguments), arguments.tolerance)?;
+    let mut children = arguments.children();
+    children.retain(|angle| CHILDREN.contains(angle));
+    let mut tongues = Vec::new();
     for parent in PARENTS {
-        let count = ((CHILDREN[1] - CHILDREN[0]) / STEP) as usize;
-        let children = (0..=count).map(|k| CHILDREN[0] + k as f64 * STEP);
-        let children: Vec<f64> = children.collect();
-        let releases = children
-            .iter()
-            .map(|&c| (ode, at_rest::<InPhase>(parent, c)));
-        let releases: Vec<_> = releases.collect();
-        let grown = growth.in_lanes(&Ensemble::new(), &releases).into_iter();
-        let grown = grown.collect::<Result<Vec<_>, _>>()?;
-        for index in 1..count {
-            let [before, here, after] = [index - 1, index, index + 1].map(|i| grown[i].rate.value);
-            if here < LEAST || here < before || here <= after {
+        if parent > arguments.parent {
+            continue;
+        }
+        let releases = children.iter();
+        let releases = releases.map(|angle| (ode, at_rest::<InPhase>(parent, *angle)));
+        let grown = growth.in_lanes(&Ensemble::new(), &releases.collect::<Vec<_>>());
+        let rates = grown.into_iter().map(|grown| Ok(grown?.rate.value));
+        let rates = rates.collect::<Result<Vec<f64>, Failure>>()?;
+        for edges in windows(&children, |index| rates[index] >= LEAST) {
+            let inside = children.iter().zip(&rates);
+            let inside = inside.filter(|(angle, _)| (edges[0]..=edges[1]).contains(*angle));
+            let Some((&angle, _)) = inside.max_by(|a, b| a.1.total_cmp(b.1)) else {
                 continue;
+            };
+            let settings = (span(arguments), arguments.tolerance);
+            if let Some(ridge) = Ridge::at(model, modes, [parent, angle], settings)? {
+                tongues.push(Tongue { edges, ridge });
             }
-            ridges.push(Ridge {
-                release: [parent, children[index]],
-                rate: grown[index].rate,
-                effective: grown[index].frequency_hz,
-                modes: frequencies(model, modes, [parent, children[index]])?,
-            });
         }
     }
-    Ok(ridges)
+    Ok(tongues)
+}
+
+fn growth(model: &InPhase, span: f64, tolerance: f64) -> Result<Growth, Failure> {
+    Ok(Growth {
+        frequency_hz: frequency_at_rest(&first_sector(model)?),
+        horizons: vec![span],
+        tolerance,
+    })
+}
+
+impl Ridge {
+    /// Looks at one release over a time, with a tolerance; none for a chaotic motion,
+    /// which has no frequencies.
+    ///
+    /// # Errors
+    /// [`Failure::Growth`] or [`Failure::Integration`].
+    pub fn at(
+        model: &InPhase,
+        modes: &[NormalMode],
+        release: [f64; 2],
+        (span, tolerance): (f64, f64),
+    ) -> Result<Option<Self>, Failure> {
+        let start = (
+            first_sector(model)?,
+            at_rest::<InPhase>(release[0], release[1]),
+        );
+        let growth = growth(model, span, tolerance)?;
+        let Some(grown) = growth.in_lanes(&Ensemble::new(), &[start]).pop() else {
+            return Ok(None);
+        };
+        let grown = grown?;
+        if !(grown.rate.is_determined() && grown.frequency_hz.is_determined()) {
+            return Ok(None);
+        }
+        let modes = frequencies(model, modes, release, span)?;
+        Ok(Some(Self {
+            release,
+            rate: grown.rate.value,
+            effective: grown.frequency_hz.value,
+            modes,
+            resonance: Resonance::of(grown.frequency_hz.value, modes),
+        }))
+    }
+}
+
+impl Resonance {
+    /// The lowest one that is close.
+    fn of(effective: f64, [plus, minus]: [f64; 2]) -> Option<Self> {
+        let all = -HIGHEST..=HIGHEST;
+        let pairs = all.clone().flat_map(|n| all.clone().map(move |m| [n, m]));
+        let even = pairs.filter(|[n, m]| (n + m) % 2 == 0 && n.abs() + m.abs() <= HIGHEST);
+        let known = even.map(|numbers| {
+            let [n, m] = numbers.map(f64::from);
+            let mismatch = effective - 0.5 * (n * plus + m * minus);
+            Self { numbers, mismatch }
+        });
+        let close = known.filter(|resonance| resonance.mismatch.abs() <= CLOSE);
+        close.min_by_key(
+            |Self {
+                 numbers: [n, m], ..
+             }| n.abs() + m.abs(),
+        )
+    }
 }
 
 /// Frequencies of an in-phase motion: turns of the parts of the modes in it.
@@ -92,18 +173,19 @@ fn frequencies(
     model: &InPhase,
     modes: &[NormalMode],
     release: [f64; 2],
+    span: f64,
 ) -> Result<[f64; 2], Failure> {
-    const STEPS: usize = 6000;
-    let times: Vec<f64> = (0..=STEPS)
-        .map(|k| k as f64 * SPAN / STEPS as f64)
-        .collect();
+    const LOOKS_A_SECOND: f64 = 50.0;
+    let looks = (LOOKS_A_SECOND * span).ceil();
+    let times = (0..=looks as usize).map(|k| k as f64 * span / looks);
+    let times: Vec<f64> = times.collect();
     let start = State::at_rest(0.0, &release.map(f64::to_radians));
     let method = Dop853::new(Options::with_tolerance(1e-12));
     let mut states = Vec::new();
-    let all = method.sample(&AbsoluteAngles(model), &start, &times, |_, state| {
+    let run = method.sample(&AbsoluteAngles(model), &start, &times, |_, state| {
         states.push([[state[0], state[1]], [state[2], state[3]]]);
     });
-    all.map_err(|error| Failure::integration(release[0], error))?;
+    run.map_err(|error| Failure::integration(release[0], error))?;
     let mass = model.mass_matrix(&[0.0; 2]);
     let mut found = [f64::NAN; 2];
     for (mode, found) in modes.iter().zip(&mut found) {

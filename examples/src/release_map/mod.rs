@@ -33,7 +33,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             let map = map::over_ratios(arguments, job, |ratio| {
                 Ok(HeavyChildren::new(HeavyChildrenParameters { ratio })?)
             })?;
-            output::ratios(arguments, job, &map)
+            output::ratios(job, &map)
         }
         (Plane::Releases, Scene::Paper) => {
             let model = InPhase::new(InPhaseParameters { friction: 0.0 })?;

@@ -12,11 +12,13 @@ use crate::program::{Argument, ValueId};
 
 /// The links whose constants an entry point reads.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     Leaf,
     Inner,
     /// A child, while the motion is its parent's.
     Child,
+    /// Any link.
+    Any,
 }
 
 /// The functions of one link.
@@ -29,11 +31,17 @@ pub(super) struct Functions<'t> {
 
 impl Functions<'_> {
     /// A column: the number that all rows have, or an element of the row.
-    fn column(&self, list: &mut EntryList<'_, '_>, kind: Kind, column: Column) -> ValueId {
+    pub(super) fn column(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        kind: Kind,
+        column: Column,
+    ) -> ValueId {
         let builder = &mut list.lowering.builder;
         let common = match (kind, column) {
             (Kind::Inner, Column::DriveTorque) if self.drive_torque => None,
             (Kind::Child, _) => self.table.common_of_children(builder, column),
+            (Kind::Any, _) => self.table.common_of_all(builder, column),
             _ => self.table.common(builder, kind == Kind::Leaf, column),
         };
         match common {
@@ -42,7 +50,7 @@ impl Functions<'_> {
         }
     }
 
-    fn motion(&self, list: &mut EntryList<'_, '_>, element: Motion) -> ValueId {
+    pub(super) fn motion(&self, list: &mut EntryList<'_, '_>, element: Motion) -> ValueId {
         list.lowering
             .builder
             .input(Argument::Motion, element as usize)
@@ -61,18 +69,13 @@ impl Functions<'_> {
             Kind::Child => Kind::Inner,
             kind => kind,
         };
-        let zero = list.lowering.builder.integer(0);
         let mut at = |column| self.column(list, own, column);
         let moment = [at(Column::Moment), at(Column::LateralMoment)];
         let (inertia, mass) = (at(Column::Inertia), at(Column::Mass));
         let (length, inverse_length) = (at(Column::Length), at(Column::InverseLength));
         let drag = at(Column::Drag);
-        let air = Law {
-            coulomb: zero,
-            quadratic: at(Column::QuadraticDrag),
-            width: at(Column::DragWidth),
-        };
         let driven = at(Column::DriveTorque);
+        let air = self.ground_law(list, own);
         let joint = self.joint_torque(list, own);
         let outside = self.outside_torque(list, own);
         let builder = &mut list.lowering.builder;
@@ -100,14 +103,28 @@ impl Functions<'_> {
         (link, joint)
     }
 
-    /// The torque of the joint on the parent, c (ω − ω_π) + D + κ (θ − θ_π − ρ).
-    fn joint_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
-        let friction = self.column(list, kind, Column::Friction);
-        let law = Law {
+    /// The law of friction in the joint over m l².
+    pub(super) fn joint_law(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> Law {
+        Law {
             coulomb: self.column(list, kind, Column::Coulomb),
             quadratic: self.column(list, kind, Column::QuadraticFriction),
             width: self.column(list, kind, Column::FrictionWidth),
-        };
+        }
+    }
+
+    /// The law of drag against the ground over m l².
+    pub(super) fn ground_law(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> Law {
+        Law {
+            coulomb: list.lowering.builder.integer(0),
+            quadratic: self.column(list, kind, Column::QuadraticDrag),
+            width: self.column(list, kind, Column::DragWidth),
+        }
+    }
+
+    /// The torque of the joint on the parent, c (ω − ω_π) + D + κ (θ − θ_π − ρ).
+    fn joint_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
+        let friction = self.column(list, kind, Column::Friction);
+        let law = self.joint_law(list, kind);
         let spring = self.column(list, kind, Column::Spring);
         let rate = self.motion(list, Motion::JointRate);
         let mut angle = self.motion(list, Motion::JointAngle);
@@ -298,7 +315,7 @@ impl Functions<'_> {
 
 /// Elements of [`Argument::Motion`].
 #[derive(Clone, Copy)]
-enum Motion {
+pub(super) enum Motion {
     Sine,
     Cosine,
     Omega,

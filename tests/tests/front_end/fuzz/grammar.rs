@@ -356,7 +356,7 @@ impl Grammar<'_> {
         while self.one_in(8) {
             nodes.push(self.link());
         }
-        let transverse = self.pick(&["", ", emit(transverse)"]);
+        let transverse = self.pick(&["", ", emit(transverse)", ", emit(small)"]);
         format!("in_phase({}){transverse}", nodes.join(", "))
     }
 
