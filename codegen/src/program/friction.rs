@@ -103,7 +103,8 @@ impl Lowering<'_> {
     ) -> Option<ValueId> {
         let frame = environment.frame;
         let mut torques = frame.torques.iter();
-        let torque = torques.find(|known| known.symbol == symbol || known.slopes.contains(&symbol))?;
+        let torque =
+            torques.find(|known| known.symbol == symbol || known.slopes.contains(&symbol))?;
         match &torque.source {
             TorqueSource::Coordinate(_) => {
                 self.braking_fields(environment, torque.place);

@@ -1,18 +1,17 @@
 //! The forms of the equations: those of straight trees without torques in their joints
-//! are shorter, and those of trees with viscous friction alone.
+//! are shorter.
 
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::tree::{LinkEquations, LinkStates, RootDrive, SmallTree, Tree};
 
-use crate::equations::{BrakedEquations, GeneralEquations, StraightEquations};
+use crate::equations::{GeneralEquations, StraightEquations};
 
 /// A tree in one of the forms.
 #[derive(Clone, Debug)]
 pub(crate) enum Equations<T> {
     Straight(Ways<StraightEquations, T>),
     General(Ways<GeneralEquations, T>),
-    Braked(Ways<BrakedEquations, T>),
 }
 
 /// Ways through a tree: in strips, for many states and large trees, and link by link, for
@@ -61,24 +60,14 @@ impl<T: Scalar> Equations<T> {
         Self::General(Ways::new(parents, rows, gravity, SMALL_GENERAL))
     }
 
-    pub(crate) fn braked(parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
-        Self::Braked(Ways::new(parents, rows, gravity, SMALL_GENERAL))
-    }
-
-    /// Returns a number by which the forms differ.
-    pub(crate) fn number(&self) -> u8 {
-        match self {
-            Self::Straight(_) => 0,
-            Self::General(_) => 1,
-            Self::Braked(_) => 2,
-        }
+    pub(crate) fn is_general(&self) -> bool {
+        matches!(self, Self::General(_))
     }
 
     pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Equations<S> {
         match self {
             Self::Straight(tree) => Equations::Straight(tree.cast(convert)),
             Self::General(tree) => Equations::General(tree.cast(convert)),
-            Self::Braked(tree) => Equations::Braked(tree.cast(convert)),
         }
     }
 
@@ -93,7 +82,6 @@ impl<T: Scalar> Equations<T> {
         match self {
             Self::Straight(tree) => accelerate(tree, workspace, acting, given, alpha),
             Self::General(tree) => accelerate(tree, workspace, acting, given, alpha),
-            Self::Braked(tree) => accelerate(tree, workspace, acting, given, alpha),
         }
     }
 
@@ -104,7 +92,6 @@ impl<T: Scalar> Equations<T> {
         match self {
             Self::Straight(ways) => evaluate(&ways.strips, acting, given, alpha),
             Self::General(ways) => evaluate(&ways.strips, acting, given, alpha),
-            Self::Braked(ways) => evaluate(&ways.strips, acting, given, alpha),
         }
     }
 }

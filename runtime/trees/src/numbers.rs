@@ -3,9 +3,7 @@
 
 use branched_pendulum::emitted::{LinkBody, free_link};
 use branched_pendulum::scalar::{Double, Scalar};
-use branched_pendulum_codegen::scene::{
-    Layout, Link, LinkId, NonlinearFriction, Offset, Quantity, Scene, Sign,
-};
+use branched_pendulum_codegen::scene::{Layout, Link, LinkId, Offset, Quantity, Scene, Sign};
 
 use crate::error::TreeError;
 
@@ -22,19 +20,6 @@ pub(crate) struct LinkNumbers {
     pub(crate) drag: Double,
     pub(crate) spring: Double,
     pub(crate) rest: Double,
-    /// Coulomb friction, quadratic friction and width in the pivot, quadratic drag and width
-    /// against the ground; widths of 1 where nothing has one.
-    pub(crate) laws: [Double; 5],
-}
-
-impl LinkNumbers {
-    /// Returns true if friction or drag is not viscous.
-    pub(crate) fn is_braked(&self) -> bool {
-        let [coulomb, quadratic, _, drag, _] = self.laws;
-        [coulomb, quadratic, drag]
-            .iter()
-            .any(|law| law.high() != 0.0)
-    }
 }
 
 /// The value of a quantity.
@@ -203,21 +188,10 @@ fn numbers(link: &Link, parameters: &[Double]) -> LinkNumbers {
         drag: optional(&link.drag),
         spring: optional(&link.spring),
         rest: optional(&link.rest),
-        laws: laws(link, parameters),
     }
 }
 
-fn laws(link: &Link, parameters: &[Double]) -> [Double; 5] {
-    let NonlinearFriction { joint, ground } = &link.nonlinear;
-    let [joint, ground] = [joint, ground].map(|law| match law {
-        Some(law) => [&law.coulomb, &law.quadratic, &law.width].map(|own| value(own, parameters)),
-        None => [0.0, 0.0, 1.0].map(Double::from_f64),
-    });
-    let ([coulomb, quadratic, width], [_, drag, drag_width]) = (joint, ground);
-    [coulomb, quadratic, width, drag, drag_width]
-}
-
-fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
+fn named(link: &LinkNumbers) -> [(&'static str, f64); 12] {
     let LinkNumbers {
         parent: _,
         mass,
@@ -229,7 +203,6 @@ fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
         drag,
         spring,
         rest,
-        laws: [coulomb, quadratic, width, air, air_width],
     } = link;
     [
         ("mass", mass),
@@ -244,11 +217,6 @@ fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
         ("drag", drag),
         ("spring", spring),
         ("rest", rest),
-        ("Coulomb friction", coulomb),
-        ("quadratic friction", quadratic),
-        ("width of friction", width),
-        ("quadratic drag", air),
-        ("width of drag", air_width),
     ]
     .map(|(name, value)| (name, value.high()))
 }

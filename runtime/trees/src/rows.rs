@@ -90,21 +90,6 @@ pub(crate) fn general(links: &[LinkNumbers], carries: &[bool]) -> Vec<[Double; 1
     .collect()
 }
 
-/// Rows of the equations with friction that is not viscous.
-pub(crate) fn braked(links: &[LinkNumbers], carries: &[bool]) -> Vec<[Double; 19]> {
-    let rows = general(links, carries).into_iter().zip(links);
-    rows.map(|(row, link)| {
-        let mut whole = [Double::from_f64(0.0); 19];
-        // Before the torque of the drive, which is last.
-        let numbers = row.iter().take(13).chain(&link.laws);
-        for (place, number) in whole.iter_mut().zip(numbers) {
-            *place = *number;
-        }
-        whole
-    })
-    .collect()
-}
-
 /// Rows of the straight equations, if all links have what these know.
 pub(crate) fn straight(links: &[LinkNumbers], carries: &[bool]) -> Option<Vec<[Double; 6]>> {
     let zero = Double::from_f64(0.0);
@@ -112,7 +97,7 @@ pub(crate) fn straight(links: &[LinkNumbers], carries: &[bool]) -> Option<Vec<[D
     for link in links {
         let (com, pivot) = (link.com, link.pivot);
         let none = [com[1], pivot[1], link.friction, link.drag, link.spring];
-        if link.is_braked() || none.iter().any(|number| *number != zero) {
+        if none.iter().any(|number| *number != zero) {
             return None;
         }
         if let Some(place) = link.parent.and_then(|parent| places.get_mut(parent)) {

@@ -115,17 +115,13 @@ impl<T: Scalar> PendulumTree<T> {
             Some(rows) if drive.is_none() => {
                 Equations::straight(&parents, in_numbers(&rows), constant(-gravity))
             }
-            _ if links.iter().any(LinkNumbers::is_braked) => {
-                let rows = rows::braked(&links, &carries);
-                Equations::braked(&parents, in_numbers(&rows), constant(-gravity))
-            }
             _ => {
                 let rows = rows::general(&links, &carries);
                 Equations::general(&parents, in_numbers(&rows), constant(-gravity))
             }
         };
         let mut hasher = DefaultHasher::new();
-        (&parents, equations.number()).hash(&mut hasher);
+        (&parents, equations.is_general()).hash(&mut hasher);
         let shape = Shape::Shared(parents.into());
         let described = Described {
             names: numbers::names(scene),
@@ -238,13 +234,6 @@ impl<T: Scalar> PendulumTree<T> {
 
 fn bodies<T: Scalar>(links: &[LinkNumbers], gravity: Double, shape: &Shape) -> Bodies<T> {
     let bodies = Bodies::new(shape.clone(), in_numbers(&rows::bodies(links, gravity)));
-    let bodies = match links.iter().any(LinkNumbers::is_braked) {
-        true => {
-            let laws = links.iter().flat_map(|link| link.laws);
-            bodies.with_laws(laws.map(constant).collect())
-        }
-        false => bodies,
-    };
     let rests: Vec<Double> = links.iter().map(|link| link.rest).collect();
     match rests.iter().all(|rest| rest.high() == 0.0) {
         true => bodies,

@@ -86,7 +86,10 @@ impl Functions<'_> {
     /// Torques of friction and drag with those that are not viscous, in N m.
     fn with_braking(&self, list: &mut EntryList<'_, '_>, torques: Vec<ValueId>) -> Vec<ValueId> {
         let per_torque = self.column(list, Kind::Any, Column::PerTorque);
-        let laws = [self.joint_law(list, Kind::Any), self.ground_law(list, Kind::Any)];
+        let laws = [
+            self.joint_law(list, Kind::Any),
+            self.ground_law(list, Kind::Any),
+        ];
         let rates = [Motion::JointRate, Motion::Omega].map(|rate| self.motion(list, rate));
         let builder = &mut list.lowering.builder;
         let mut torques = torques;

@@ -7,13 +7,10 @@
 
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub)]
-mod braked;
-#[allow(dead_code, unreachable_pub)]
 mod general;
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub)]
 mod straight;
 
-pub(crate) use braked::BrakedEquations;
 pub(crate) use general::GeneralEquations;
 pub(crate) use straight::StraightEquations;

@@ -56,43 +56,6 @@ fn the_rate_of_the_energy_is_the_power_of_all_forces() {
     near(rate, power, 1e-12);
 }
 
-/// Coulomb and quadratic friction: the power again, and the torque of one rod by hand.
-#[test]
-fn laws_of_friction() {
-    let text = BENT
-        .replace(
-            "friction = 1e-3",
-            "friction(viscous = 1e-3, coulomb = 0.02, quadratic = m)",
-        )
-        .replace("drag = 1e-4", "drag(quadratic = 1e-3, width = 0.2)");
-    let description = TreeDescription::parse(&text).unwrap();
-    let tree = description.tree(&[("m", 0.07)]).unwrap();
-    let mut alpha = [0.0; 5];
-    let mut workspace = Workspace::new();
-    tree.accelerations_under_with(&mut workspace, 0.7, [&THETA, &OMEGA, &[0.0; 5]], &mut alpha);
-    let mut slopes = [0.0; 10];
-    let state: Vec<f64> = THETA.into_iter().chain(OMEGA).collect();
-    FirstIntegral::evaluate(&tree, &state, &mut slopes);
-    let rates = OMEGA.iter().chain(&alpha);
-    let rate: f64 = slopes
-        .iter()
-        .zip(rates)
-        .map(|(slope, rate)| slope * rate)
-        .sum();
-    let braking = tree.friction_power(&OMEGA);
-    assert!(braking < bent().friction_power(&OMEGA));
-    near(rate, braking + tree.drive_power(0.7, &THETA, &OMEGA), 1e-12);
-
-    let rod = PendulumTree::parse(
-        "gravity = 0, rod: rod(mass = 3, length = 1, friction(coulomb = 0.3, quadratic = 0.1, width = 4))",
-    );
-    // s = 5, D = (0.3/5 + 0.1 · 5) 3, I = 1.
-    let mut alpha = [0.0];
-    rod.unwrap()
-        .accelerations_into(0.0, &[0.0], &[3.0], &mut alpha);
-    near(alpha[0], -1.68, 1e-14);
-}
-
 /// x = 0.02 sin² 2t has ẍ = 0.16 cos 4t.
 #[test]
 fn a_drive_is_differentiated_exactly() {
