@@ -288,9 +288,13 @@ impl Emission<'_> {
             Purpose::DrivePower => vec![
                 "Power Σ Q_i ω_i (in W) of the drive on the whole tree at `time` (in s): dE/dt of E = K + U without friction.".into(),
             ],
-            Purpose::TotalFrictionPower => vec![
-                "Power −2 R (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.".into(),
-            ],
+            Purpose::TotalFrictionPower => {
+                let power = match self.has_nonlinear_friction() {
+                    true => "−2 R − Σ D w",
+                    false => "−2 R",
+                };
+                vec![format!("Power {power} (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.")]
+            }
             Purpose::Transverse(_)
             | Purpose::TransverseEnergy(_)
             | Purpose::TransverseTransfer(_)

@@ -13,6 +13,7 @@ pub mod expression;
 mod finish;
 mod finish_loops;
 mod frame;
+mod friction;
 mod hamiltonian;
 mod inverse_mass;
 mod lagrangian;
@@ -38,6 +39,7 @@ pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
+pub use friction::{BrakingTorque, FrictionPlace, LawConstants, TorqueSource};
 pub use inverse_mass::Counting;
 pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
@@ -112,6 +114,8 @@ pub struct Frame {
     /// ṗ_i = ∂L/∂q_i + Q_i, friction, drag and drive included, in coordinates
     /// and velocities, if momenta are asked for.
     pub momentum_rates: Option<Vec<Expr>>,
+    /// Torques of friction that is not viscous, as far as symbols stand for them.
+    pub torques: Vec<BrakingTorque>,
     /// Generalized forces −∂R/∂v_i of friction and drag, zero where there are
     /// none; contained in `bias` with the opposite sign.
     pub dissipative_forces: Vec<Expr>,

@@ -210,6 +210,11 @@ impl Mechanics {
         for (index, bias) in frame.bias.iter().enumerate() {
             self.line(f, &format!("b[{}]", index + 1), bias)?;
         }
+        for torque in &frame.torques {
+            if let Some(formula) = torque.formula() {
+                self.line(f, &self.name(torque.symbol), &formula)?;
+            }
+        }
         for (index, force) in frame.drive.iter().enumerate() {
             if !force.is_zero() {
                 self.line(f, &format!("Q[{}]", index + 1), force)?;

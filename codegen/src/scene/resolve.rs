@@ -155,6 +155,7 @@ fn gravity(
         Some(Property {
             name,
             value: Value::Pair(..),
+            ..
         }) => {
             let message = TreeMessage::NotAPoint {
                 name: name.to_string(),

@@ -11,12 +11,13 @@
 //! - [`experiment`]: one run from release to the last sample,
 //! - [`findings`]: what a run says, [`terms`]: the terms of W one by one,
 //!   [`lines`]: those of the spectrum,
-//! - [`table`], [`samples`], [`charts`], [`growth`]: how it is shown.
+//! - [`table`], [`samples`], [`charts`], [`growth`], [`film`]: how it is shown.
 
 pub mod apparatus;
 pub mod arguments;
 pub mod charts;
 pub mod experiment;
+pub mod film;
 pub mod findings;
 pub mod growth;
 pub mod lines;

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::table;
 use super::{
-    Apparatus, Arguments, Findings, Frequencies, Run, charts, growth, lines, samples, scenes,
+    Apparatus, Arguments, Findings, Frequencies, Run, charts, film, growth, lines, samples, scenes,
 };
 use crate::failure::Failure;
 use crate::program::Job;
@@ -35,6 +35,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     }
     charts::write(job, arguments, frequencies, &runs)?;
     growth::write(job, arguments, &runs, &findings)?;
+    if arguments.animate {
+        film::write(job, arguments, &runs)?;
+    }
     let work = runs.iter().map(|run| {
         json!({
             "angle_deg": run.angle_deg,

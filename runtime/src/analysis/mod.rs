@@ -1,14 +1,17 @@
 //! From matrices and trajectories to physics: linear modes, of a whole tree and
-//! sector by sector, spectra, motions estimated from data, the growth of deviations, and
-//! how far truncated transfers reach; and which model and method to take ([`advice`]).
+//! sector by sector, spectra, averages with their errors ([`statistics`]), motions
+//! estimated from data, the growth of deviations and of differences between copies, and how
+//! far truncated transfers reach; and which model and method to take ([`advice`]).
 
 pub mod advice;
 pub mod equilibrium;
+pub mod growth;
 pub mod modes;
 pub mod sector_modes;
 pub mod smoothing;
 #[cfg(feature = "spectra")]
 pub mod spectrum;
+pub mod statistics;
 pub mod truncation;
 pub mod variational;
 

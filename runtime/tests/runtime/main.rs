@@ -27,6 +27,7 @@ mod smoothing;
 #[cfg(feature = "spectra")]
 mod spectrum;
 mod stability;
+mod statistics;
 mod stepper;
 mod taylor;
 mod trajectory;

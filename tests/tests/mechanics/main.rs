@@ -5,6 +5,7 @@ mod drive;
 mod exactness;
 mod fixtures;
 mod formulas;
+mod friction;
 mod letters;
 mod nested_observables;
 mod observables;

@@ -49,6 +49,16 @@ pub enum Column {
     Spring,
     /// Angle at which the spring is at rest.
     Rest,
+    /// Coulomb friction in the pivot over m l².
+    Coulomb,
+    /// Quadratic friction in the pivot over m l².
+    QuadraticFriction,
+    /// Width of friction in the pivot.
+    FrictionWidth,
+    /// Quadratic drag over m l².
+    QuadraticDrag,
+    /// Width of drag.
+    DragWidth,
     /// 1/(m l²), by which torques from outside are multiplied.
     PerTorque,
     /// Torque on the root over m l², stated by each evaluation; zero in the rows.
@@ -57,7 +67,7 @@ pub enum Column {
 
 impl Column {
     /// All columns, in their order.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 22] = [
         Self::Inertia,
         Self::Moment,
         Self::LateralMoment,
@@ -73,6 +83,11 @@ impl Column {
         Self::Drag,
         Self::Spring,
         Self::Rest,
+        Self::Coulomb,
+        Self::QuadraticFriction,
+        Self::FrictionWidth,
+        Self::QuadraticDrag,
+        Self::DragWidth,
         Self::PerTorque,
         Self::DriveTorque,
     ];
@@ -95,6 +110,11 @@ impl Column {
             Self::Drag => "drag",
             Self::Spring => "spring",
             Self::Rest => "rest",
+            Self::Coulomb => "coulomb",
+            Self::QuadraticFriction => "quadratic_friction",
+            Self::FrictionWidth => "friction_width",
+            Self::QuadraticDrag => "quadratic_drag",
+            Self::DragWidth => "drag_width",
             Self::PerTorque => "per_torque",
             Self::DriveTorque => "drive_torque",
         }
@@ -118,6 +138,11 @@ impl Column {
             Self::Drag => "drag against the ground over m l²",
             Self::Spring => "stiffness of the torsion spring over m l²",
             Self::Rest => "angle at which the torsion spring is at rest",
+            Self::Coulomb => "Coulomb friction in the pivot over m l²",
+            Self::QuadraticFriction => "quadratic friction in the pivot over m l²",
+            Self::FrictionWidth => "width of friction in the pivot, rad/s",
+            Self::QuadraticDrag => "quadratic drag over m l²",
+            Self::DragWidth => "width of drag, rad/s",
             Self::PerTorque => "1/(m l²), factor of torques from outside",
             Self::DriveTorque => "torque on the root over m l², stated anew by every evaluation",
         }

@@ -116,6 +116,11 @@ pub enum OutputMessage {
     },
     /// Small differences of copies in phase where there are none.
     NoTransverse,
+    /// An output that is derived for one tree, of a tree that is described at run time.
+    NotAtRunTime {
+        /// The output.
+        what: String,
+    },
 }
 
 /// Use of a tree that copies which differ stand against.
@@ -293,6 +298,11 @@ impl OutputMessage {
                 "`transverse` needs copies that move in phase",
                 "nothing moves in phase",
                 "add `in_phase(all)`, or `in_phase(child)` with a link that has copies",
+            ),
+            M::NotAtRunTime { what } => problem(
+                format!("no `{what}` at run time"),
+                "has to be derived for this tree",
+                "leave it out, or let the attribute `#[branched_pendulum(...)]` compile this tree",
             ),
         }
     }
