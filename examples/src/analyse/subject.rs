@@ -76,13 +76,15 @@ pub trait Subject<const N: usize> {
     ) -> Result<LinkMotion<N>, SmoothingError>;
 }
 
+/// Draws a motion by normal numbers.
+pub type Draw<const N: usize> = dyn Fn(&mut dyn FnMut() -> f64) -> Vec<Motion<N>>;
+
 /// A smoothed motion of links.
 pub struct LinkMotion<const N: usize> {
     /// The likeliest motion.
     pub mean: Vec<Motion<N>>,
-    /// A draw, by normal numbers.
-    #[expect(clippy::type_complexity, reason = "a function in a box")]
-    pub draw: Box<dyn Fn(&mut dyn FnMut() -> f64) -> Vec<Motion<N>>>,
+    /// Another motion that the data allow.
+    pub draw: Box<Draw<N>>,
     /// Standard deviation of the angles, rad.
     pub noise: f64,
     /// Correlation of successive innovations, in standard deviations.

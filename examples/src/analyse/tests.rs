@@ -210,21 +210,16 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
     let estimate = measured.by_smoothness(DRAWS).unwrap();
     let energies: Vec<f64> = estimate.energies.means.iter().map(|row| row[0]).collect();
     let (first, last) = (energies[0], energies[energies.len() - 1]);
-    println!(
-        "{first} {last} noise {} white {} {:?}",
-        estimate.noise,
-        estimate.whiteness,
-        Trust::of(&estimate)
-    );
+    assert!((0.4..0.7).contains(&(last / first)), "{first} {last}");
+    let trust = Trust::of(&estimate);
+    assert!(estimate.noise < 1e-4 && trust.power < 0.01);
+    assert!((0.02..0.1).contains(&trust.closure) && trust.closure > 3.0 * trust.closure_deviation);
     let spectrogram = Spectrogram::of(&chain.names(), &source, &estimate);
     assert!(spectrogram.unwrap().is_none(), "the record is too short");
+    // The model lacks something, and is not trusted beyond that.
     let model = measured.by_model(&estimate, DRAWS).unwrap();
-    println!(
-        "noise {} white {} {:?}",
-        model.noise,
-        model.whiteness,
-        Trust::of(&model)
-    );
+    assert!(model.noise < 2e-4 && model.whiteness > 3.0);
+    assert!(Trust::of(&model).closure > 3.0 * Trust::of(&model).closure_deviation);
     let refused = Source::<3>::open(file.as_ref(), &arguments).unwrap_err();
     assert!(
         refused
