@@ -47,7 +47,7 @@ pub enum Failure {
     #[error("the linear modes of the sectors could not be found")]
     SectorModes(#[from] SectorModesError),
     /// A spectrum could not be taken.
-    #[error("the spectrum of θ_m could not be taken")]
+    #[error("the spectrum could not be taken")]
     Spectrum(#[from] SpectrumError),
     /// There is no linear model of small motions.
     #[error("the linear model could not be made")]
@@ -71,12 +71,22 @@ pub enum Failure {
     #[error("the measurements could not be read")]
     Reading(#[from] ReadError),
     /// A file holds another number of links than the pendulum.
-    #[error("{} holds angles of {found} links where the pendulum has 3; name them by `--columns` or `--dots`", path.display())]
+    #[error("{} holds angles of {found} links where the pendulum has {needed}; name them by `--columns` or `--dots`", path.display())]
     Links {
         /// The file.
         path: PathBuf,
         /// Number of links found.
         found: usize,
+        /// Number of links of the pendulum.
+        needed: usize,
+    },
+    /// A file of constants is none.
+    #[error("{} is no table of names and values", path.display())]
+    Parameters {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Box<dyn Error + Send + Sync>,
     },
     /// Measured angles could not be smoothed.
     #[error("the motion could not be estimated")]
