@@ -61,6 +61,7 @@ impl Source {
             return Err(Failure::Links {
                 path: table.path().to_path_buf(),
                 found: recording.links.len(),
+                expected: 3,
             });
         };
         let row = |index: usize| [one, two, three].map(|link| link.angle(index));
