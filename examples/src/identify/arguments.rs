@@ -20,7 +20,7 @@ pub struct Arguments {
     /// file of angles against time; without it they are simulated
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
-    /// what hangs there
+    /// tree that was measured
     #[arg(long, value_enum, value_name = "TREE", default_value = "chain")]
     pub tree: Tree,
     /// columns of the angles, parent first; all but the time without it
@@ -63,7 +63,7 @@ pub struct Arguments {
     pub results: Results,
 }
 
-/// What hangs there.
+/// Trees that can be measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Tree {
     /// Two links, one below the other.
@@ -72,7 +72,7 @@ pub enum Tree {
     Branched,
 }
 
-/// What is taken for friction.
+/// Laws of friction, each with those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Law {
     /// Proportional to the rate, in every pivot.

@@ -1,4 +1,4 @@
-//! What is left over, and the energy, against time.
+//! Errors of the identified model, and the energy, against time.
 
 use branched_pendulum::analysis::identification::AngleErrors;
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};

@@ -1,4 +1,4 @@
-//! What was found, in words, as tables and in the record of the run.
+//! Results in words, as tables and in the record of the run.
 
 use std::fmt::Write;
 

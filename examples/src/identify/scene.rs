@@ -31,7 +31,7 @@ pub struct Chain;
 )]
 pub struct Branched;
 
-/// What a tree is taken for before anything is fitted.
+/// A tree with the values from which its parameters are searched.
 pub trait Described: Parametric<f64> + Cast<f64, Of<f64> = Self> + Energy<f64> {
     /// Rough values of the parameters, in SI units, but for gravity and laws of friction that
     /// are not viscous.
@@ -70,10 +70,9 @@ impl Described for Branched {
     const RELEASE: &'static [f64] = &[0.8, 0.3, -0.2];
 }
 
-/// Coulomb friction in the pivots and quadratic drag of the links, with the sizes from which
-/// they are searched: N m and N m s².
+/// Coulomb friction in the pivots, with the sizes from which it is searched, N m.
 pub const COULOMB: [(&str, f64); 2] = [("coulomb_1", 1e-4), ("coulomb_2", 1e-4)];
-/// As [`COULOMB`].
+/// Quadratic drag of the links, with the sizes from which it is searched, N m s².
 pub const QUADRATIC: [(&str, f64); 2] = [("quadratic_1", 1e-5), ("quadratic_2", 1e-5)];
 
 /// Gravity where nothing else is given, m/s².

@@ -23,16 +23,16 @@ pub struct Study<'a, M> {
     tree: PhantomData<fn() -> M>,
 }
 
-/// What one law of friction makes of the record.
+/// Fits with one law of friction, and their errors.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The law.
     pub law: Law,
     /// The fit of one motion over the whole part that is fitted.
     pub fit: Fit,
-    /// What that motion leaves over, followed to the end of the record.
+    /// Errors of that motion, followed to the end of the record.
     pub one_motion: AngleErrors,
-    /// What a fit to windows leaves over in windows, fitted and predicted.
+    /// Errors in windows of a fit to windows: of the part that was fitted, and of the rest.
     pub windows: [AngleErrors; 2],
 }
 
@@ -169,5 +169,54 @@ impl<'a, M: Described> Study<'a, M> {
             measured: motion.iter().map(|state| energy(state)).collect(),
             fitted: fitted.iter().map(|state| energy(&state.values)).collect(),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::arguments::{Arguments, Law};
+    use super::super::scene::Chain;
+    use super::super::source::Measurement;
+    use super::Study;
+    use crate::failure::Failure;
+
+    #[test]
+    fn a_simulated_chain_is_found_within_its_bars() {
+        let arguments = Arguments {
+            duration: 6.0,
+            noise: 1e-4,
+            known: [("mass_1", 0.088), ("mass_2", 0.102), ("com_1", 0.09)]
+                .map(|(name, value)| (name.to_owned(), value))
+                .to_vec(),
+            ..Arguments::default()
+        };
+        let measurement = Measurement::new::<Chain>(&arguments).unwrap();
+        let study = Study::<Chain>::new(&arguments, &measurement).unwrap();
+        let outcome = study.outcome(Law::All).unwrap();
+        for (name, truth) in measurement.truth.iter().flatten() {
+            let Ok(estimate) = outcome.fit.determined(name) else {
+                continue;
+            };
+            let off = (estimate.value - truth).abs();
+            assert!(
+                off < 4.5 * estimate.naive.unwrap(),
+                "{name} {estimate:?} {truth}"
+            );
+        }
+        let rms = outcome.one_motion.rms();
+        assert!((0.9e-4..1.1e-4).contains(&rms), "{rms}");
+        let energies = study.energies(&outcome).unwrap();
+        assert!(energies.mismatch() < 0.01, "{}", energies.mismatch());
+    }
+
+    #[test]
+    fn names_that_no_tree_has_are_refused() {
+        let arguments = Arguments {
+            known: vec![("mass_3".to_owned(), 1.0)],
+            ..Arguments::default()
+        };
+        let measurement = Measurement::new::<Chain>(&arguments).unwrap();
+        let refused = Study::<Chain>::new(&arguments, &measurement);
+        assert!(matches!(refused, Err(Failure::Identification(_))));
     }
 }

@@ -20,7 +20,6 @@ pub(super) struct Effort {
 /// smaller loss after a step is none, and ends the iteration too.
 const UNCERTAIN: f64 = 1e-4;
 
-
 impl Effort {
     pub(super) const ROUGH: Self = Self { settled: 1e-3 };
     pub(super) const FULL: Self = Self { settled: 2e-6 };
@@ -133,7 +132,11 @@ impl FitStage {
                 continue;
             };
             let gain = best.squares - residuals.squares;
-            let small = if gain > 0.0 { effort.settled } else { UNCERTAIN };
+            let small = if gain > 0.0 {
+                effort.settled
+            } else {
+                UNCERTAIN
+            };
             let is_settled = gain.abs() <= small * best.squares;
             if gain > 0.0 {
                 (*self, best) = (trial, residuals);

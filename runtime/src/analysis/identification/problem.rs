@@ -1,4 +1,4 @@
-//! What is known, what is to be found, and how.
+//! Known and unknown parameters, and how the unknown ones are looked for.
 
 use super::error::IdentificationError;
 use super::family::Family;
