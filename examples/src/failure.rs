@@ -34,6 +34,14 @@ pub enum Failure {
         /// The integrator's error, whatever the precision it ran in.
         source: Box<dyn Error + Send + Sync>,
     },
+    /// A start of a cascade whose numbers are no longer finite.
+    #[error("start {start} has diverged at {time:.1} s: take more `--steps`")]
+    Diverged {
+        /// Its number.
+        start: usize,
+        /// Time, s.
+        time: f64,
+    },
     /// The linear modes could not be found.
     #[error("the linear modes could not be found")]
     Modes(#[from] ModesError),
@@ -41,7 +49,7 @@ pub enum Failure {
     #[error("the linear modes of the sectors could not be found")]
     SectorModes(#[from] SectorModesError),
     /// A spectrum could not be taken.
-    #[error("the spectrum of θ_m could not be taken")]
+    #[error("the spectrum could not be taken")]
     Spectrum(#[from] SpectrumError),
     /// There is no linear model of small motions.
     #[error("the linear model could not be made")]
@@ -65,14 +73,22 @@ pub enum Failure {
     #[error("the measurements could not be read")]
     Reading(#[from] ReadError),
     /// A file holds another number of links than the pendulum.
-    #[error("{} holds angles of {found} links where the pendulum has {expected}; name them by `--columns` or `--dots`", path.display())]
+    #[error("{} holds angles of {found} links where the pendulum has {needed}; name them by `--columns` or `--dots`", path.display())]
     Links {
         /// The file.
         path: PathBuf,
         /// Number of links found.
         found: usize,
         /// Number of links of the pendulum.
-        expected: usize,
+        needed: usize,
+    },
+    /// A file of constants is none.
+    #[error("{} is no table of names and values", path.display())]
+    Parameters {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Box<dyn Error + Send + Sync>,
     },
     /// Measured angles could not be smoothed.
     #[error("the motion could not be estimated")]

@@ -15,6 +15,8 @@ use branched_pendulum_examples::critical_angle::scene::{InPhase, InPhaseParamete
 use branched_pendulum_examples::critical_angle::{self, Friction};
 use branched_pendulum_examples::program::Job;
 use branched_pendulum_examples::program::command_line::parse_line;
+use branched_pendulum_examples::release_map::tongues::Ridge;
+use branched_pendulum_examples::release_map::{self, normal_modes};
 
 /// The whole pendulum of the paper.
 #[branched_pendulum(
@@ -275,4 +277,49 @@ fn critical_angle_tells_windows() {
     for file in ["growth-factor.csv", "growth-factor.svg"] {
         assert!(files.iter().any(|name| name == file), "{files:?}");
     }
+}
+
+/// Twice the frequency of the difference is the sum of those of the two modes, on the
+/// ridges of the two blades.
+#[test]
+fn the_blades_are_one_resonance() {
+    let model = in_phase(0.0);
+    let modes = normal_modes::of(&model, 20.0).unwrap();
+    let places = [[30.0, 18.0], [30.0, 77.0], [40.0, 34.5], [40.0, 88.0]];
+    for release in places {
+        let ridge = Ridge::at(&model, &modes, release, (60.0, 1e-9)).unwrap();
+        let ridge = ridge.expect("a regular motion");
+        let resonance = ridge.resonance.expect("a resonance");
+        assert_eq!(resonance.numbers, [1, 1]);
+        assert!(resonance.mismatch.abs() < 1e-3, "{ridge:?}");
+        assert!(ridge.rate > 0.05, "{ridge:?}");
+    }
+}
+
+#[test]
+fn release_map_draws_what_there_is() {
+    for (line, name) in [
+        (
+            "--step 15 --parent 30 --children 90 --span 4",
+            "release-map",
+        ),
+        ("--step 45 --scene arms --span 2", "release-map"),
+        ("--step 45 --plane ratio-energy --span 2", "ratio-energy"),
+    ] {
+        let arguments = parse_line::<release_map::Arguments>(line).unwrap();
+        let job = Job::quiet(&folder("release-map")).unwrap();
+        release_map::run(&arguments, &job).unwrap();
+        let text = job.printed();
+        assert!(text.contains(" releases, "), "{text}");
+        assert_eq!(
+            text.contains("Mode f_+: 0.8732 Hz when small"),
+            line.contains("30")
+        );
+        for ending in ["csv", "svg", "png"] {
+            let file = format!("{name}.{ending}");
+            assert!(job.files().contains(&file), "{file}");
+        }
+    }
+    let both = parse_line::<release_map::Arguments>("--scene arms --plane ratio-energy");
+    assert!(both.unwrap_err().contains("of the paper's pendulum alone"));
 }

@@ -109,9 +109,9 @@ pub mod tree;
 // What emitted code names, at the shortest path.
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
-pub use sectors::{Budget, Sectors};
+pub use sectors::{Budget, ScaleBudget, Scales, Sectors};
 pub use system::{
-    Canonical, Cast, Energy, Forced, Parametric, Pendulum, Positions, Prescribed,
+    Canonical, Cast, Energy, Forced, Parametric, Pendulum, Positions, Prescribed, SmallDifferences,
     SymmetricPendulum, TaylorPendulum, Transverse, WholeTree,
 };
 pub use transfer_forms::{TransferForm, TransferForms};

@@ -10,7 +10,13 @@ use crate::report::{Report, SyntaxMessage};
 /// struct `Tree`; places in messages are those in the text. Mistakes go to `report`.
 pub fn parse_text(text: &str, report: &mut Report) -> Option<Description> {
     match text.parse::<TokenStream>() {
-        Ok(tokens) => parse(tokens, quote!(struct Tree;), report),
+        Ok(tokens) => parse(
+            tokens,
+            quote!(
+                struct Tree;
+            ),
+            report,
+        ),
         Err(error) => {
             report.error(error.span(), SyntaxMessage::NoTokens);
             None

@@ -25,6 +25,16 @@ impl Emission<'_> {
             .any(|link| !link.nonlinear.is_none())
     }
 
+    /// What formulas in symmetric coordinates call D.
+    pub(super) fn braking_note(&self) -> &'static str {
+        match self.has_nonlinear_friction() {
+            true => {
+                " In the formulas D are the means and differences of torques of friction that is not viscous."
+            }
+            false => "",
+        }
+    }
+
     /// The rates of the momenta, with the torques that the scene has.
     pub(super) fn momentum_rates_in_words(&self) -> String {
         let links = &self.scene.links;

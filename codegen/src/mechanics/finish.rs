@@ -34,6 +34,7 @@ impl Derivation<'_> {
             articulation: self.articulation(&absolute),
             positions: None,
             link: None,
+            scales: None,
             coordinates: Vec::new(),
             symmetric: None,
             sectors: None,

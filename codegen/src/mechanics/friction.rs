@@ -1,4 +1,4 @@
-//! Friction that is not viscous (physics §17): its torques are symbols of their own, which
+//! Friction that is not viscous (physics §16): its torques are symbols of their own, which
 //! stand in the equations of motion as viscous torques do.
 
 use super::algebra::Formula;
@@ -348,10 +348,11 @@ impl BrakingTorque {
         if !law.quadratic.is_zero() {
             parts.push(Expr::Product(vec![law.quadratic.clone(), speed]));
         }
-        let factor = match parts.len() {
-            1 => parts.remove(0),
-            _ => Expr::Sum(parts),
+        let mut factors = match parts.len() {
+            1 => parts.remove(0).factors().to_vec(),
+            _ => vec![Expr::Sum(parts)],
         };
-        Some(Expr::Product(vec![factor, rate.clone()]))
+        factors.insert(1, rate.clone());
+        Some(Expr::Product(factors))
     }
 }

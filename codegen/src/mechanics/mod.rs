@@ -26,9 +26,11 @@ mod observables;
 mod positions;
 mod print;
 mod rate_symbols;
+mod scales;
 pub mod sectors;
 mod series;
 mod show;
+mod small;
 mod symmetric;
 mod transfer;
 mod transverse;
@@ -41,7 +43,7 @@ pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
 pub use friction::{BrakingTorque, FrictionPlace, LawConstants, TorqueSource};
 pub use inverse_mass::Counting;
-pub use link::{Composite, LinkBalance, LinkSymbols};
+pub use link::{Composite, LinkBalance, LinkFormula, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
     CanonicalRate, EnergySymbols, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame,
@@ -49,7 +51,9 @@ pub use observables::{
 };
 pub use positions::{LinkPositions, RelativePosition};
 pub use print::{latex, text};
+pub use scales::{LinkScales, ScaleSymbols};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
+pub use small::{SmallFormulas, SmallMechanics};
 pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 
@@ -257,6 +261,8 @@ pub struct Mechanics {
     pub positions: Option<Vec<LinkPositions>>,
     /// The balance of one link, where the code is loops.
     pub link: Option<LinkBalance>,
+    /// Energies by scale of one link, where the code is loops and they are asked for.
+    pub scales: Option<LinkScales>,
     /// The symmetric coordinates, if asked for.
     pub coordinates: Vec<Coordinate>,
     /// The mechanics in symmetric coordinates, if asked for. On nested trees its

@@ -10,6 +10,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
 use super::frame::DerivedFrame;
+use super::small::SmallMechanics;
 use crate::scene::TransverseSector;
 use std::ops::Range;
 
@@ -44,10 +45,12 @@ pub struct TransverseMechanics {
     pub accelerations: Vec<SymbolId>,
     /// The sectors.
     pub sectors: Vec<TransverseFormulas>,
+    /// Those that act back, if any are asked for.
+    pub small: Option<SmallMechanics>,
 }
 
 /// Symbols of the small motion of all links beside the in-phase one.
-struct SmallMotion {
+pub(super) struct SmallMotion {
     accelerations: Vec<SymbolId>,
     differences: Vec<SymbolId>,
     rates: Vec<SymbolId>,
@@ -81,10 +84,12 @@ impl Derivation<'_> {
         };
         let balances = self.balances(frame, &small);
         let sectors = self.scene.transverse_sectors().into_iter();
-        let sectors =
-            sectors.map(|sector| self.transverse_sector(frame, &small, &balances, sector));
+        let sectors: Vec<TransverseFormulas> = sectors
+            .map(|sector| self.transverse_sector(frame, &small, &balances, sector))
+            .collect();
         TransverseMechanics {
-            sectors: sectors.collect(),
+            small: self.small(frame, &small, &sectors),
+            sectors,
             accelerations: small.accelerations,
         }
     }
@@ -153,7 +158,7 @@ impl Derivation<'_> {
 
     /// The part of a function of angles and velocities that is linear in the small motion
     /// of these links.
-    fn linearised(
+    pub(super) fn linearised(
         &self,
         frame: &DerivedFrame,
         small: &SmallMotion,

@@ -1,4 +1,4 @@
-//! Torques of friction that is not viscous (physics §17).
+//! Torques of friction that is not viscous (physics §16).
 //!
 //! One function forms them for single links, written out and in loops. In symmetric
 //! coordinates of equal copies they are formed on means and differences.

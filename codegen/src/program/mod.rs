@@ -35,6 +35,7 @@ mod rotations;
 mod rules;
 mod scale;
 mod sectors;
+mod small;
 mod solve;
 mod symmetric;
 mod taylor;
@@ -52,7 +53,7 @@ pub use entry::{
     Shape,
 };
 pub use fuse::FusedSum;
-pub use link::{Column, LINK_MOTION, Strip, Strips};
+pub use link::{Column, LINK_MOTION, ScaleFunction, Strip, Strips};
 pub use operation::{Definition, Op, ValueId};
 use passes::PASSES;
 pub use passes::{Pass, worth};

@@ -366,8 +366,18 @@ pub struct Requests {
     pub positions: bool,
     /// Equations of small differences between copies in phase.
     pub transverse: bool,
+    /// Transverse sectors whose differences act back on the motion in phase, by number.
+    /// Comes with `transverse`.
+    pub small: Vec<usize>,
     /// Accelerations under torques that the caller hands over.
     pub forces: bool,
+}
+
+impl Requests {
+    /// Returns true if budgets by scale are asked for.
+    pub fn scales(&self) -> bool {
+        self.budget.as_ref().is_some_and(|budget| budget.scales)
+    }
 }
 
 /// Forms of the sectors' budget that are asked for; at least one. The forms
@@ -385,6 +395,9 @@ pub struct BudgetRequest {
     pub velocity: bool,
     /// Energy transfer from each sector to each other, by Parseval.
     pub matrix: bool,
+    /// Energies and transfers by scale, in loops: all sectors that branch in one
+    /// generation together, by Parseval.
+    pub scales: bool,
     /// Orders in the amplitude of the differences through which the transfers
     /// are expanded. Comes with `momenta` and `symmetric`.
     pub amplitude_orders: Vec<u32>,

@@ -218,6 +218,7 @@ impl Display for Requests {
             taylor,
             positions,
             transverse,
+            small,
             forces,
         } = self;
         write!(f, "accelerations")?;
@@ -239,6 +240,9 @@ impl Display for Requests {
                 write!(f, ", {name}")?;
             }
         }
+        if !small.is_empty() {
+            write!(f, ", small in {} sectors", small.len())?;
+        }
         if let Some(transfer) = transfer {
             write!(f, ", {transfer}")?;
         }
@@ -257,6 +261,7 @@ impl Display for BudgetRequest {
             parseval,
             velocity,
             matrix,
+            scales,
             amplitude_orders,
             angle_orders,
             small,
@@ -267,6 +272,7 @@ impl Display for BudgetRequest {
             (parseval, "parseval"),
             (velocity, "velocity"),
             (matrix, "matrix"),
+            (scales, "scales"),
         ];
         let named = flags.iter().filter(|(wanted, _)| **wanted);
         let forms: Vec<String> = named

@@ -57,9 +57,10 @@ pub struct Arguments {
     /// samples of the budgets in a period of the torque, 4 to 1000
     #[arg(long, value_name = "N", default_value = "32", value_parser = clap::value_parser!(u32).range(4..=1000))]
     pub samples: u32,
-    /// relative tolerance of the integrator, 1e-13 to 1e-3
-    #[arg(long, value_name = "TOL", default_value = "1e-7", value_parser = number(1e-13..=1e-3, ""))]
-    pub tolerance: f64,
+    /// steps of the integrator in a period of the torque, a multiple of the samples, 16 to
+    /// 100000
+    #[arg(long, value_name = "N", default_value = "512", value_parser = clap::value_parser!(u32).range(16..=100_000), verbatim_doc_comment)]
+    pub steps: u32,
     /// seed of the starts and of a random torque
     #[arg(long, value_name = "N", default_value = "1")]
     pub seed: u64,
@@ -86,6 +87,16 @@ impl Arguments {
             mass_ratio: self.mass_ratio,
             length_ratio: self.length_ratio,
         }
+    }
+
+    /// Length of a step, s.
+    pub fn step(&self) -> f64 {
+        1.0 / (self.frequency * f64::from(self.steps))
+    }
+
+    /// Time at a step's start, s.
+    pub fn time(&self, step: u64) -> f64 {
+        step as f64 * self.step()
     }
 
     /// Periods of the torque that are followed.
@@ -117,6 +128,9 @@ impl crate::program::Arguments for Arguments {
             return Err(format!(
                 "there is no tree of {generations} generations by {branching}"
             ));
+        }
+        if self.steps % self.samples != 0 {
+            return Err("`--steps` must be a multiple of `--samples`".to_owned());
         }
         if self.bandwidth > 0.9 * self.frequency {
             return Err("`--bandwidth` must be at most 0.9 of the frequency".to_owned());

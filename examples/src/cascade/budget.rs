@@ -5,7 +5,7 @@
 //! of their parent. Squares of these parts, each counted once for every rod, sum to the
 //! square of the quantity.
 
-use branched_pendulum::system::{Torques, Workspace};
+use branched_pendulum::system::Workspace;
 
 use super::motor::Motor;
 use super::scene::{RodTree, Shape};
@@ -25,11 +25,11 @@ pub struct ScaleBudget {
 
 /// The budgets of a tree, with the memory that they need.
 #[derive(Debug)]
-pub struct Budgets<P> {
+pub struct Budgets<'a, P> {
     shape: Shape,
-    tree: P,
+    tree: &'a P,
     /// The tree without friction.
-    free: P,
+    free: &'a P,
     workspace: Workspace<f64>,
     torques: Vec<f64>,
     /// Accelerations without friction and motor, with friction, with both.
@@ -41,9 +41,9 @@ pub struct Budgets<P> {
 /// Quantities of a rod, and their changes by one cause: the velocity of its centre and its own.
 type Velocity = [f64; 3];
 
-impl<P: RodTree> Budgets<P> {
+impl<'a, P: RodTree> Budgets<'a, P> {
     /// Memory for the budgets of `tree`; `free` is the same one without friction.
-    pub fn new(shape: Shape, tree: P, free: P) -> Self {
+    pub fn new(shape: Shape, tree: &'a P, free: &'a P) -> Self {
         let zeros = || vec![0.0; shape.links()];
         Self {
             shape,
@@ -57,7 +57,7 @@ impl<P: RodTree> Budgets<P> {
     }
 
     /// Budgets by scale at a time and a state, angles before velocities.
-    pub fn at(&mut self, motor: &Motor<f64>, time: f64, state: &[f64]) -> &[ScaleBudget] {
+    pub fn at(&mut self, motor: &Motor, time: f64, state: &[f64]) -> &[ScaleBudget] {
         let (theta, omega) = state.split_at(state.len() / 2);
         let Self {
             shape,
@@ -71,7 +71,9 @@ impl<P: RodTree> Budgets<P> {
         torques.fill(0.0);
         free.accelerations_under_with(workspace, time, theta, omega, torques, own);
         tree.accelerations_under_with(workspace, time, theta, omega, torques, braked);
-        motor.torques_into(time, theta, omega, torques);
+        if let Some(root) = torques.first_mut() {
+            *root = motor.torque(time);
+        }
         tree.accelerations_under_with(workspace, time, theta, omega, torques, driven);
         // Torques change the accelerations by M⁻¹ Q, linearly.
         for ((driven, braked), own) in driven.iter_mut().zip(&mut *braked).zip(&*own) {

@@ -2,7 +2,7 @@
 //! generations, and what is there of it at each scale?
 //!
 //! - [`arguments`]: the command line, [`scene`]: the trees, [`motor`]: the torque,
-//! - [`motion`]: all starts, window by window, with checkpoints,
+//! - [`motion`]: all starts, window by window, with checkpoints, [`together`]: in lanes,
 //! - [`budget`]: energies and powers by scale, [`density`]: how often a flux has which value,
 //! - [`findings`]: averages with errors, [`report`]: tables, [`charts`]: charts,
 //!   [`picture`]: the tree in motion.
@@ -17,6 +17,7 @@ pub mod motor;
 pub mod picture;
 pub mod report;
 pub mod scene;
+pub mod together;
 
 pub use arguments::Arguments;
 pub use findings::Findings;
@@ -54,14 +55,11 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         job.chart("scales", &charts::scales(arguments, &findings))?;
         job.chart("densities", &charts::densities(&findings))?;
         if let Some(first) = starts.first() {
-            let states = of_shape!(shape, film(arguments, first, FRAMES, INTERVAL))?;
-            let svg = picture::animated(&shape, &states, INTERVAL);
+            let (states, interval) = of_shape!(shape, film(arguments, first, FRAMES, INTERVAL))?;
+            let svg = picture::animated(&shape, &states, interval);
             job.write("tree.svg", svg.as_bytes())?;
         }
         job.report("steady", findings.is_steady());
-        job.report("steps", starts.iter().map(|start| start.steps).sum::<u64>());
-        let evaluations = starts.iter().map(|start| start.evaluations);
-        job.report("evaluations", evaluations.sum::<u64>());
     }
     Checkpoint::new(job, 0.0).discard();
     Ok(())

@@ -3,7 +3,6 @@
 use std::num::NonZeroUsize;
 
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::UnderTorques;
 use serde::{Deserialize, Serialize};
 
 use super::arguments::Arguments;
@@ -11,6 +10,7 @@ use super::budget::{Budgets, ScaleBudget};
 use super::density::Density;
 use super::motor::{Motor, Random};
 use super::scene::RodTree;
+use super::together::Together;
 use crate::failure::Failure;
 use crate::program::{Checkpoint, Job};
 
@@ -28,10 +28,6 @@ pub struct Followed {
     /// For each scale but the first, how often what passes into it and all younger ones
     /// has which value, in the second half of the time.
     pub densities: Vec<Density>,
-    /// Steps of the integrator.
-    pub steps: u64,
-    /// Evaluations of the equations of motion.
-    pub evaluations: u64,
 }
 
 /// Some of the starts, at the end of a window.
@@ -44,7 +40,11 @@ struct Reached {
     starts: Vec<Followed>,
 }
 
-/// Follows the starts `items`, each from its own random numbers, from the checkpoint of `job` if there is one.
+/// Starts that one thread moves at a time: some registers full.
+const TOGETHER: usize = 32;
+
+/// Follows the starts `items`, each from its own random numbers, from the checkpoint of
+/// `job` if there is one.
 ///
 /// # Errors
 /// [`Failure`].
@@ -54,25 +54,12 @@ pub fn follow<P: RodTree>(
     items: &[usize],
 ) -> Result<Vec<Followed>, Failure> {
     let shape = arguments.shape();
-    let tree = || P::of(&shape, arguments.friction, arguments.friction_ratio);
-    let free = || P::of(&shape, 0.0, arguments.friction_ratio);
-    let mut systems = Vec::new();
-    let mut starts = Vec::new();
-    for &item in items {
-        let mut random = Random::of_start(arguments.seed, item);
-        let angles: Vec<f64> = (0..shape.links())
-            .map(|_| random.within(arguments.spread))
-            .collect();
-        let motor = Motor::new(arguments, &mut random);
-        systems.push((tree()?, motor));
-        starts.push(Followed {
-            state: State::at_rest(0.0, &angles).values,
-            windows: Vec::new(),
-            densities: vec![Density::default(); shape.generations - 1],
-            steps: 0,
-            evaluations: 0,
-        });
-    }
+    let tree = P::of(&shape, arguments.friction, arguments.friction_ratio)?;
+    let free = P::of(&shape, 0.0, arguments.friction_ratio)?;
+    let (starts, motors): (Vec<_>, Vec<_>) = items
+        .iter()
+        .map(|&item| Followed::new(arguments, item))
+        .unzip();
     let mut reached = Reached {
         items: items.to_vec(),
         windows: 0,
@@ -87,51 +74,55 @@ pub fn follow<P: RodTree>(
     let windows = arguments.windows();
     let progress = job.progress(1);
     progress.begin("starts");
-    let method = Dop853::new(Options::with_tolerance(arguments.tolerance));
     let ensemble = NonZeroUsize::new(arguments.threads)
         .map_or_else(Ensemble::new, |threads| Ensemble::new().threads(threads));
-    let samples = arguments.samples as usize;
-    let time = |sample: usize| sample as f64 / (arguments.frequency * samples as f64);
     while reached.windows < windows {
-        let first = reached.windows * samples;
-        let times: Vec<f64> = (1..=samples).map(|sample| time(first + sample)).collect();
-        let releases: Vec<_> = systems
-            .iter()
-            .zip(&reached.starts)
-            .map(|((tree, motor), start)| {
-                let state = State::new(time(first), start.state.clone());
-                (UnderTorques::of(tree, motor.clone()), state)
-            })
+        let window = reached.windows;
+        let counts = 2 * window >= windows;
+        let groups: Vec<_> = reached
+            .starts
+            .chunks(TOGETHER)
+            .zip(motors.chunks(TOGETHER))
             .collect();
-        let motions = ensemble.sample_models_in_lanes(&method, &releases, &times);
-        let mut ended = Vec::new();
-        for motion in motions {
-            match &motion.end {
-                Ok(end) => ended.push((end.state.values.clone(), end.report, motion)),
-                Err(error) => return Err(Failure::integration(0.0, error.clone())),
-            }
-        }
-        let is_late = 2 * reached.windows >= windows;
-        let means = ensemble.map(&ended, |index, (_, _, motion)| {
-            let (tree, free) = (tree().ok()?, free().ok()?);
-            let mut budgets = Budgets::new(shape, tree, free);
-            let motor = &systems.get(index)?.1;
-            let mut window = Window::new(shape.generations);
-            for (time, state) in times.iter().zip(motion.states()) {
-                window.add(budgets.at(motor, *time, state), is_late);
-            }
-            Some(window)
-        });
-        for ((start, (state, report, _)), window) in reached.starts.iter_mut().zip(ended).zip(means)
-        {
-            start.state = state;
-            start.steps += report.accepted;
-            start.evaluations += report.evaluations;
-            if let Some(window) = window {
-                start.windows.extend(window.means());
-                for (all, own) in start.densities.iter_mut().zip(&window.densities) {
-                    all.add(own);
+        let moved = ensemble.map(&groups, |_, (starts, motors)| {
+            let starts: Vec<_> = starts
+                .iter()
+                .map(|start| &start.state[..])
+                .zip(*motors)
+                .collect();
+            let mut together = Together::new(&tree, &starts);
+            let mut budgets = Budgets::new(shape, &tree, &free);
+            let mut means = vec![Window::new(shape.generations); starts.len()];
+            for step in 0..arguments.steps {
+                let place = u64::from(arguments.steps) * window as u64 + u64::from(step);
+                together.step(arguments.time(place), arguments.step());
+                if (step + 1) % (arguments.steps / arguments.samples) == 0 {
+                    for (start, (means, motor)) in means.iter_mut().zip(*motors).enumerate() {
+                        let state = together.state(start);
+                        let budgets = budgets.at(motor, arguments.time(place + 1), &state);
+                        means.add(budgets, counts);
+                    }
                 }
+            }
+            let ends = (0..starts.len()).map(|start| together.state(start));
+            ends.zip(means).collect::<Vec<_>>()
+        });
+        for (number, (start, (state, window))) in reached
+            .starts
+            .iter_mut()
+            .zip(moved.into_iter().flatten())
+            .enumerate()
+        {
+            if !state.iter().all(|value| value.is_finite()) {
+                return Err(Failure::Diverged {
+                    start: items[number],
+                    time: (reached.windows + 1) as f64 / arguments.frequency,
+                });
+            }
+            start.state = state;
+            start.windows.extend(window.means());
+            for (all, own) in start.densities.iter_mut().zip(&window.densities) {
+                all.add(own);
             }
         }
         reached.windows += 1;
@@ -145,6 +136,24 @@ pub fn follow<P: RodTree>(
     Ok(reached.starts)
 }
 
+impl Followed {
+    /// The start of the number `item`, at rest, and its motor.
+    fn new(arguments: &Arguments, item: usize) -> (Self, Motor) {
+        let shape = arguments.shape();
+        let mut random = Random::of_start(arguments.seed, item);
+        let angles: Vec<f64> = (0..shape.links())
+            .map(|_| random.within(arguments.spread))
+            .collect();
+        let motor = Motor::new(arguments, &mut random);
+        let start = Self {
+            state: State::at_rest(0.0, &angles).values,
+            windows: Vec::new(),
+            densities: vec![Density::default(); shape.generations - 1],
+        };
+        (start, motor)
+    }
+}
+
 /// Mean energy of the trees in the last window, J.
 fn energy(starts: &[Followed], scales: usize) -> f64 {
     let row = QUANTITIES * scales;
@@ -156,6 +165,7 @@ fn energy(starts: &[Followed], scales: usize) -> f64 {
 }
 
 /// Sums over one window of one start.
+#[derive(Clone)]
 struct Window {
     sums: Vec<[f64; QUANTITIES]>,
     samples: f64,
@@ -199,7 +209,8 @@ impl Window {
     }
 }
 
-/// The motion of a start from where it was left, by frames of the length `interval`, for the picture.
+/// The motion of the first start from where it was left, `frames` states that follow each other by about
+/// `interval` seconds, and by how many they do.
 ///
 /// # Errors
 /// [`Failure`].
@@ -208,30 +219,22 @@ pub fn film<P: RodTree>(
     start: &Followed,
     frames: usize,
     interval: f64,
-) -> Result<Vec<Vec<f64>>, Failure> {
-    let shape = arguments.shape();
-    let tree = P::of(&shape, arguments.friction, arguments.friction_ratio)?;
-    let mut random = Random::of_start(arguments.seed, 0);
-    for _ in 0..shape.links() {
-        random.within(arguments.spread);
-    }
-    let motor = Motor::new(arguments, &mut random);
-    let from = arguments.windows() as f64 / arguments.frequency;
-    let times: Vec<f64> = (0..frames)
-        .map(|frame| from + interval * frame as f64)
-        .collect();
-    let method = Dop853::new(Options::with_tolerance(arguments.tolerance));
-    let release = [(
-        UnderTorques::of(&tree, motor),
-        State::new(from, start.state.clone()),
-    )];
-    let motions = Ensemble::new().sample_models_in_lanes(&method, &release, &times);
-    let mut states = Vec::new();
-    for motion in motions {
-        if let Err(error) = &motion.end {
-            return Err(Failure::integration(0.0, error.clone()));
+) -> Result<(Vec<Vec<f64>>, f64), Failure> {
+    let tree = P::of(
+        &arguments.shape(),
+        arguments.friction,
+        arguments.friction_ratio,
+    )?;
+    let (_, motor) = Followed::new(arguments, 0);
+    let mut together = Together::new(&tree, &[(&start.state, &motor)]);
+    let stride = (interval / arguments.step()).round().max(1.0) as u64;
+    let first = arguments.windows() as u64 * u64::from(arguments.steps);
+    let mut states = vec![start.state.clone()];
+    for frame in 1..frames as u64 {
+        for step in (frame - 1) * stride..frame * stride {
+            together.step(arguments.time(first + step), arguments.step());
         }
-        states.extend(motion.states().map(<[f64]>::to_vec));
+        states.push(together.state(0));
     }
-    Ok(states)
+    Ok((states, stride as f64 * arguments.step()))
 }

@@ -2,8 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use branched_pendulum::Scalar;
-use branched_pendulum::system::{LaneTorques, Torques};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -14,12 +12,12 @@ const LINES: usize = 16;
 
 /// A torque on the root as a sum of cosines.
 #[derive(Clone, Debug)]
-pub struct Motor<T> {
+pub struct Motor {
     /// Amplitude (N m), angular frequency (rad/s) and phase (rad) of each.
-    lines: Vec<[T; 3]>,
+    lines: Vec<[f64; 3]>,
 }
 
-impl Motor<f64> {
+impl Motor {
     /// The torque on the tree of a start: one line, or a random one with a flat spectrum
     /// and the same mean square.
     pub fn new(arguments: &Arguments, random: &mut Random) -> Self {
@@ -43,29 +41,13 @@ impl Motor<f64> {
             lines: (0..LINES).map(line).collect(),
         }
     }
-}
 
-impl<T: Scalar> Torques<T> for Motor<T> {
-    #[inline(always)]
-    fn torques_into(&self, time: T, _: &[T], _: &[T], torques: &mut [T]) {
-        torques.fill(T::from_f64(0.0));
-        if let Some(root) = torques.first_mut() {
-            for [size, pace, phase] in &self.lines {
-                let (_, cosine) = (*pace * time + *phase).sin_cos();
-                *root = *root + *size * cosine;
-            }
-        }
-    }
-}
-
-impl<T: Scalar> LaneTorques<T> for Motor<T> {
-    type Of<S: Scalar> = Motor<S>;
-
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Motor<S> {
-        let lines = self.lines.iter().map(|line| line.map(&convert));
-        Motor {
-            lines: lines.collect(),
-        }
+    /// The torque at a time, N m.
+    pub fn torque(&self, time: f64) -> f64 {
+        let lines = self.lines.iter();
+        lines
+            .map(|[size, pace, phase]| size * (pace * time + phase).cos())
+            .sum()
     }
 }
 

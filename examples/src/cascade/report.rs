@@ -15,10 +15,9 @@ use crate::program::Job;
 pub fn report(arguments: &Arguments, starts: &[Followed], findings: &Findings) -> String {
     let shape = arguments.shape();
     let windows = arguments.windows();
-    let steps: u64 = starts.iter().map(|start| start.steps).sum();
     let mut text = format!(
         "{} rods in {} generations, {} starts of {:.1} s each; torque {} N m at {} Hz{} on the root, \
-         friction {} N m s in the youngest pivots, {} times as much as in those above; {steps} steps.\n\n",
+         friction {} N m s in the youngest pivots, {} times as much as in those above; {} steps a period.\n\n",
         shape.links(),
         shape.generations,
         starts.len(),
@@ -31,6 +30,7 @@ pub fn report(arguments: &Arguments, starts: &[Followed], findings: &Findings) -
         },
         arguments.friction,
         arguments.friction_ratio,
+        arguments.steps,
     );
     text.push_str(&steadiness(arguments, findings));
     text.push_str(&energies(arguments, findings));

@@ -71,7 +71,7 @@ impl Shape {
 }
 
 /// A model of such trees, with friction.
-pub trait RodTree: Forced<f64> + Sync {
+pub trait RodTree: Forced<f64> + Sync + std::fmt::Debug {
     /// The tree whose youngest pivots have the friction `friction`, N m s, and those of
     /// every generation `ratio` times that of the one above.
     ///

@@ -54,7 +54,7 @@ impl Measurement {
                     return Err(Failure::Links {
                         path: file.clone(),
                         found: recording.links.len(),
-                        expected: M::LINKS,
+                        needed: M::LINKS,
                     });
                 }
                 let count = recording.times.len();

@@ -16,11 +16,13 @@ use super::files::{Ledger, Part, SharedLedger, locked, replace};
 use super::interrupt::Interruption;
 use super::progress::Progress;
 use super::sealed::RunIdentity;
-use super::sweep;
 use crate::failure::Failure;
 
 /// Name of the record of a run.
 pub const RECORD: &str = "run.json";
+
+/// Options that say how a run is computed, and which part of it, but not what.
+const MANNER: [&str; 4] = ["shard", "merge", "threads", "checkpoint"];
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,20 +68,19 @@ impl Record {
         };
         let mut files = ledger.files.clone();
         files.retain(|file| file != RECORD);
-        let on = if folder.join(CHECKPOINT).exists() {
-            "; the same command goes on from the checkpoint there"
-        } else {
-            ""
-        };
-        if files.is_empty() {
+        let goes_on = folder.join(CHECKPOINT).exists();
+        if files.is_empty() && !goes_on {
             if self.made {
                 let _ = fs::remove_dir(folder);
             }
-            return Ok(Some(format!("no file was finished{on}")));
+            return Ok(Some("no file was finished".to_owned()));
         }
-        let count = files.len();
-        let plural = if count == 1 { "file is" } else { "files are" };
-        let left = format!("{count} {plural} in {}{on}", folder.display());
+        let shown = folder.display();
+        let left = match files.len() {
+            _ if goes_on => format!("the same command goes on from the checkpoint in {shown}"),
+            1 => format!("1 file is in {shown}"),
+            count => format!("{count} files are in {shown}"),
+        };
         if std::mem::replace(&mut self.closed, true) {
             return Ok(Some(left));
         }
@@ -249,7 +250,7 @@ impl Job {
     pub fn identity(&self) -> RunIdentity {
         let record = locked(&self.record);
         let mut arguments = record.arguments.clone();
-        arguments.retain(|name, _| !sweep::OPTIONS.contains(&name.as_str()));
+        arguments.retain(|name, _| !MANNER.contains(&name.as_str()));
         RunIdentity {
             program: record.program.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),

@@ -18,7 +18,8 @@ pub struct RunIdentity {
     pub program: String,
     /// Its version.
     pub version: String,
-    /// Its arguments, as JSON, but for those that say which part of the run is computed.
+    /// Its arguments, as JSON, but for those that say how and which part of the run is
+    /// computed.
     pub arguments: String,
 }
 

@@ -24,10 +24,7 @@ use crate::failure::Failure;
 const MANIFEST: &str = "sweep.json";
 
 /// Name of the results of a shard.
-const PART: &str = "results.part";
-
-/// Options that say which part of a run is computed.
-pub(super) const OPTIONS: [&str; 2] = ["shard", "merge"];
+const PART: &str = "results.bin";
 
 /// Which part of a run is computed.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -334,7 +331,7 @@ mod tests {
             square(&(0..11).collect::<Vec<_>>()).unwrap()
         );
         // A part in the place of another: its items would be there twice.
-        let part = |index: u32| folder.join(format!("shard-{index}-of-3/results.part"));
+        let part = |index: u32| folder.join(format!("shard-{index}-of-3/results.bin"));
         fs::copy(part(0), part(1)).unwrap();
         assert!(matches!(
             merge(&folder, 3, 11),

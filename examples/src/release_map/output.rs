@@ -6,9 +6,9 @@ use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::{Arguments, Scene};
-use super::blades::Ridge;
 use super::map::Map;
 use super::normal_modes::NormalMode;
+use super::tongues::{Resonance, Tongue, span};
 use crate::critical_angle::scan::PAPER;
 use crate::failure::Failure;
 use crate::program::Job;
@@ -25,7 +25,7 @@ pub fn releases(
     job: &Job,
     map: &Map,
     modes: &[NormalMode],
-    ridges: &[Ridge],
+    tongues: &[Tongue],
 ) -> Result<(), Failure> {
     if map.is_empty() {
         return Ok(());
@@ -34,7 +34,12 @@ pub fn releases(
         Scene::Paper => "Growth rate of the antiphase mode after a release from rest",
         Scene::Arms => "Growth rate of a difference between two jointed arms, released from rest",
     };
-    job.print(&format!("{}{}{}", summary(map), told(modes), list(ridges)))?;
+    job.print(&format!(
+        "{}{}{}",
+        summary(map),
+        told(modes),
+        list(arguments, tongues)
+    ))?;
     let angles = [
         Column::new("children", "degrees"),
         Column::new("parent", "degrees"),
@@ -83,15 +88,14 @@ pub fn releases(
 const LINES: [Color; 3] = [
     Color::rgb(225, 70, 60),
     Color::rgb(70, 200, 245),
-    Color::rgb(245, 245, 245),
+    Color::rgb(250, 120, 200),
 ];
 
 /// Prints, writes and draws the plane of ratio and energy.
 ///
 /// # Errors
 /// [`Failure`].
-pub fn ratios(arguments: &Arguments, job: &Job, map: &Map) -> Result<(), Failure> {
-    let _ = arguments;
+pub fn ratios(job: &Job, map: &Map) -> Result<(), Failure> {
     if map.is_empty() {
         return Ok(());
     }
@@ -197,26 +201,71 @@ fn told(modes: &[NormalMode]) -> String {
 }
 
 /// The places of largest growth, with their frequencies.
-fn list(ridges: &[Ridge]) -> String {
-    if ridges.is_empty() {
+fn list(arguments: &Arguments, tongues: &[Tongue]) -> String {
+    if tongues.is_empty() {
         return String::new();
     }
-    let mut text = String::from(
-        "\nLargest growth across the tongues, frequencies over 120 s\n  \
-         parent  children   rate 1/s     f_eff Hz     f_+ Hz     f_− Hz   f_eff − (f_+ + f_−)/2\n",
+    let mut text = format!(
+        "\nTongues of instability at some angles of the parent and at the paper's angle of the\n\
+         children, 0°: where differences grow most, over {} s\n  \
+         parent                children              rate 1/s  f_eff Hz    f_+ Hz    f_− Hz  resonance\n",
+        span(arguments)
     );
-    for ridge in ridges {
-        let [parent, children] = ridge.release;
+    for Tongue { edges, ridge } in tongues {
+        let [from, to] = *edges;
         let [plus, minus] = ridge.modes;
-        let known = ridge.effective.is_determined() && ridge.rate.is_determined();
+        let [parent, children] = [0, 1].map(|i| match ridge.release[i] {
+            angle if from[i] == to[i] => format!("{angle}°"),
+            angle => format!("{angle}° ({} to {})", from[i], to[i]),
+        });
+        let resonance = match ridge.resonance {
+            None => "-".to_owned(),
+            Some(Resonance { numbers, mismatch }) => {
+                format!("f_eff − {}/2 = {mismatch:.0e} Hz", sum(numbers))
+            }
+        };
+        // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "  {parent:5.1}°  {children:7.2}°  {:9.4}  {:11.5}  {plus:9.5}  {minus:9.5}  {:12.5}{}",
-            ridge.rate.value,
-            ridge.effective.value,
-            ridge.mismatch(),
-            if known { "" } else { " ?" }
+            "  {parent:20}  {children:20}  {:8.4}  {:8.5}  {plus:8.5}  {minus:8.5}  {resonance}",
+            ridge.rate, ridge.effective,
+        );
+    }
+    let first = tongues.iter().filter_map(|tongue| tongue.ridge.resonance);
+    let first: Vec<f64> = first
+        .filter(|resonance| resonance.numbers == [1, 1])
+        .map(|resonance| resonance.mismatch.abs())
+        .collect();
+    if !first.is_empty() {
+        let most = first.iter().copied().fold(0.0, f64::max);
+        let _ = writeln!(
+            text,
+            "In the blades between the modes, at {} places, |f_eff − (f_+ + f_−)/2| is {most:.1e} Hz at \
+             most:\ntwice the frequency of the difference is the sum of those of the two modes",
+            first.len()
         );
     }
     text
+}
+
+/// A combination of frequencies as it is written: (2f_+ − f_−).
+fn sum(numbers: [i32; 2]) -> String {
+    let mut text = String::new();
+    for (number, sign) in numbers.into_iter().zip(['+', '−']) {
+        if number == 0 {
+            continue;
+        }
+        let joint = match (number < 0, text.is_empty()) {
+            (true, true) => "−",
+            (true, false) => " − ",
+            (false, true) => "",
+            (false, false) => " + ",
+        };
+        let many = match number.abs() {
+            1 => String::new(),
+            many => many.to_string(),
+        };
+        text.push_str(&format!("{joint}{many}f_{sign}"));
+    }
+    format!("({text})")
 }

@@ -27,7 +27,12 @@ pub(crate) struct Courses<T> {
 
 impl<T: Scalar> Course<T> {
     fn of(signal: &Signal, parameters: &[Double]) -> Self {
-        let all = |parts: &[Signal]| parts.iter().map(|part| Self::of(part, parameters)).collect();
+        let all = |parts: &[Signal]| {
+            parts
+                .iter()
+                .map(|part| Self::of(part, parameters))
+                .collect()
+        };
         let one = |part: &Signal| Box::new(Self::of(part, parameters));
         match signal {
             Signal::Constant(quantity) => {
@@ -85,7 +90,11 @@ impl<T: Scalar> Course<T> {
         let result = self.at(outer, &|constant| {
             Dual::constant(Dual::<T, 1>::constant(constant))
         });
-        let [Dual { tangents: [second], .. }] = result.tangents;
+        let [
+            Dual {
+                tangents: [second], ..
+            },
+        ] = result.tangents;
         second
     }
 }

@@ -16,7 +16,8 @@ impl<T: Scalar> PendulumTree<T> {
     /// of another length than there are links, here and below.
     #[must_use]
     pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
-        self.bodies.kinetic_energy(&mut Workspace::new(), theta, omega)
+        self.bodies
+            .kinetic_energy(&mut Workspace::new(), theta, omega)
     }
 
     /// Returns the potential energy (J) at angles `theta` (rad), that of springs among it;
@@ -177,12 +178,16 @@ fn gradient<T: Scalar>(
             let own = point.iter_mut().skip(part * WIDTH).take(WIDTH);
             own.enumerate().for_each(change);
         };
-        own(&mut point, |(direction, value)| *value = Dual::variable(value.value, direction));
+        own(&mut point, |(direction, value)| {
+            *value = Dual::variable(value.value, direction)
+        });
         let result = function(&point, &mut workspace);
         for (slope, tangent) in slopes.iter_mut().zip(result.tangents) {
             *slope = tangent;
         }
-        own(&mut point, |(_, value)| *value = Dual::constant(value.value));
+        own(&mut point, |(_, value)| {
+            *value = Dual::constant(value.value)
+        });
     }
     slopes
 }

@@ -3,15 +3,45 @@
 
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::Workspace;
-use branched_pendulum::tree::{LinkEquations, RootDrive, Tree};
+use branched_pendulum::tree::{LinkEquations, LinkStates, RootDrive, SmallTree, Tree};
 
 use crate::equations::{GeneralEquations, StraightEquations};
 
 /// A tree in one of the forms.
 #[derive(Clone, Debug)]
 pub(crate) enum Equations<T> {
-    Straight(Tree<StraightEquations, T>),
-    General(Tree<GeneralEquations, T>),
+    Straight(Ways<StraightEquations, T>),
+    General(Ways<GeneralEquations, T>),
+}
+
+/// Ways through a tree: in strips, for many states and large trees, and link by link, for
+/// one state of a small one.
+#[derive(Clone, Debug)]
+pub(crate) struct Ways<E, T> {
+    strips: Tree<E, T>,
+    small: Option<SmallTree<E, T>>,
+}
+
+/// Most links that are computed one by one, by form: from there on strips are faster
+/// (`costs_of_one_state` in the tests).
+const SMALL_STRAIGHT: usize = 40;
+const SMALL_GENERAL: usize = 100;
+
+impl<E: LinkEquations, T: Scalar> Ways<E, T> {
+    fn new(parents: &[u32], rows: Vec<T>, gravity: T, most: usize) -> Self {
+        let above = [T::from_f64(0.0), gravity];
+        Self {
+            strips: Tree::with_parents(parents, &rows, above),
+            small: (parents.len() <= most).then(|| SmallTree::new(parents, rows, above)),
+        }
+    }
+
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Ways<E, S> {
+        Ways {
+            strips: self.strips.cast(&convert),
+            small: self.small.as_ref().map(|small| small.cast(&convert)),
+        }
+    }
 }
 
 /// What moves a tree from outside.
@@ -22,14 +52,12 @@ pub(crate) struct Acting<'a, T> {
 }
 
 impl<T: Scalar> Equations<T> {
-    pub(crate) fn straight(parents: &[u32], rows: &[T], gravity: T) -> Self {
-        let above = [T::from_f64(0.0), gravity];
-        Self::Straight(Tree::with_parents(parents, rows, above))
+    pub(crate) fn straight(parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
+        Self::Straight(Ways::new(parents, rows, gravity, SMALL_STRAIGHT))
     }
 
-    pub(crate) fn general(parents: &[u32], rows: &[T], gravity: T) -> Self {
-        let above = [T::from_f64(0.0), gravity];
-        Self::General(Tree::with_parents(parents, rows, above))
+    pub(crate) fn general(parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
+        Self::General(Ways::new(parents, rows, gravity, SMALL_GENERAL))
     }
 
     pub(crate) fn is_general(&self) -> bool {
@@ -62,14 +90,14 @@ impl<T: Scalar> Equations<T> {
     #[inline(always)]
     pub(crate) fn evaluate(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
         match self {
-            Self::Straight(tree) => evaluate(tree, acting, given, alpha),
-            Self::General(tree) => evaluate(tree, acting, given, alpha),
+            Self::Straight(ways) => evaluate(&ways.strips, acting, given, alpha),
+            Self::General(ways) => evaluate(&ways.strips, acting, given, alpha),
         }
     }
 }
 
 fn accelerate<E: LinkEquations, T: Scalar>(
-    tree: &Tree<E, T>,
+    ways: &Ways<E, T>,
     workspace: &mut Workspace<T>,
     acting: Acting<'_, T>,
     [theta, omega]: [&[T]; 2],
@@ -77,11 +105,21 @@ fn accelerate<E: LinkEquations, T: Scalar>(
 ) {
     let single = on_single_link(&acting, theta.len());
     let torques = single.as_ref().map(<[T; 1]>::as_slice).or(acting.torques);
+    let drive = acting.drive;
+    if let Some(small) = &ways.small {
+        let states = LinkStates {
+            theta,
+            omega,
+            torques,
+        };
+        return small.accelerations_with(workspace, drive, states, alpha);
+    }
+    let tree = &ways.strips;
     match torques {
-        None => tree.accelerations_with(workspace, acting.drive, theta, omega, alpha),
+        None => tree.accelerations_with(workspace, drive, theta, omega, alpha),
         Some(torques) => {
             let given = [theta, omega, torques];
-            tree.accelerations_under_with(workspace, acting.drive, given, alpha);
+            tree.accelerations_under_with(workspace, drive, given, alpha);
         }
     }
 }

@@ -52,7 +52,7 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Row> {
             let first = [link.mass * along, link.mass * across];
             parent.inertia = parent.inertia + first[0] * along + first[1] * across;
             parent.moment = [parent.moment[0] + first[0], parent.moment[1] + first[1]];
-            parent.mass = parent.mass + link.mass;
+            parent.mass += link.mass;
         }
         rows.push(Row {
             inertia,

@@ -113,11 +113,11 @@ impl<T: Scalar> PendulumTree<T> {
         let drive = scene.drive.as_ref();
         let equations = match rows::straight(&links, &carries) {
             Some(rows) if drive.is_none() => {
-                Equations::straight(&parents, &in_numbers(&rows), constant(-gravity))
+                Equations::straight(&parents, in_numbers(&rows), constant(-gravity))
             }
             _ => {
                 let rows = rows::general(&links, &carries);
-                Equations::general(&parents, &in_numbers(&rows), constant(-gravity))
+                Equations::general(&parents, in_numbers(&rows), constant(-gravity))
             }
         };
         let mut hasher = DefaultHasher::new();

@@ -83,6 +83,15 @@ impl Lowering<'_> {
         .map(|quantity| self.quantity(quantity))
     }
 
+    /// The same as values.
+    pub(super) fn laws(&mut self, link: &Link) -> [ValueId; 5] {
+        if link.nonlinear.is_none() {
+            return [0, 0, 1, 0, 1].map(|number| self.builder.integer(number));
+        }
+        let laws = self.law_constants(link);
+        laws.map(|constant| self.builder.constant(constant))
+    }
+
     /// A link as a body, see [`Strip::body`](super::Strip).
     pub(super) fn body(&mut self, scene: &Scene, link: &Link) -> [ConstantId; 12] {
         let gravity = self.quantity(&scene.gravity);

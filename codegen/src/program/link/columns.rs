@@ -61,13 +61,37 @@ pub enum Column {
     DragWidth,
     /// 1/(m l²), by which torques from outside are multiplied.
     PerTorque,
+    /// Mass, here and below in SI units: read by energies by scale alone.
+    BodyMass,
+    /// Moment of inertia about the centre of mass.
+    BodyInertia,
+    /// Place of the centre of mass along the link.
+    ComAlong,
+    /// Place of the centre of mass across the link.
+    ComAcross,
+    /// Place of the children's pivot along the link.
+    PlaceAlong,
+    /// Place of the children's pivot across the link.
+    PlaceAcross,
+    /// First moment of all that the link carries, along it.
+    CarriedMoment,
+    /// First moment of all that the link carries, across it.
+    LateralCarriedMoment,
+    /// Gravity.
+    Gravity,
+    /// Stiffness of the torsion spring.
+    Stiffness,
+    /// Friction in the pivot, N m s.
+    PivotFriction,
+    /// Drag against the ground, N m s.
+    GroundDrag,
     /// Torque on the root over m l², stated by each evaluation; zero in the rows.
     DriveTorque,
 }
 
 impl Column {
     /// All columns, in their order.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 34] = [
         Self::Inertia,
         Self::Moment,
         Self::LateralMoment,
@@ -89,6 +113,18 @@ impl Column {
         Self::QuadraticDrag,
         Self::DragWidth,
         Self::PerTorque,
+        Self::BodyMass,
+        Self::BodyInertia,
+        Self::ComAlong,
+        Self::ComAcross,
+        Self::PlaceAlong,
+        Self::PlaceAcross,
+        Self::CarriedMoment,
+        Self::LateralCarriedMoment,
+        Self::Gravity,
+        Self::Stiffness,
+        Self::PivotFriction,
+        Self::GroundDrag,
         Self::DriveTorque,
     ];
 
@@ -116,6 +152,18 @@ impl Column {
             Self::QuadraticDrag => "quadratic_drag",
             Self::DragWidth => "drag_width",
             Self::PerTorque => "per_torque",
+            Self::BodyMass => "body_mass",
+            Self::BodyInertia => "body_inertia",
+            Self::ComAlong => "com_along",
+            Self::ComAcross => "com_across",
+            Self::PlaceAlong => "place_along",
+            Self::PlaceAcross => "place_across",
+            Self::CarriedMoment => "carried_moment",
+            Self::LateralCarriedMoment => "lateral_carried_moment",
+            Self::Gravity => "gravity",
+            Self::Stiffness => "stiffness",
+            Self::PivotFriction => "pivot_friction",
+            Self::GroundDrag => "ground_drag",
             Self::DriveTorque => "drive_torque",
         }
     }
@@ -144,7 +192,19 @@ impl Column {
             Self::QuadraticDrag => "quadratic drag over m l²",
             Self::DragWidth => "width of drag, rad/s",
             Self::PerTorque => "1/(m l²), factor of torques from outside",
-            Self::DriveTorque => "torque on the root over m l², stated anew by every evaluation",
+            Self::BodyMass => "mass (kg)",
+            Self::BodyInertia => "moment of inertia about the centre of mass (kg m²)",
+            Self::ComAlong => "place of the centre of mass along the link (m)",
+            Self::ComAcross => "place of the centre of mass across the link (m)",
+            Self::PlaceAlong => "place of the children's pivot along the link (m)",
+            Self::PlaceAcross => "place of the children's pivot across the link (m)",
+            Self::CarriedMoment => "first moment of all that the link carries (kg m)",
+            Self::LateralCarriedMoment => "first moment of that across the link (kg m)",
+            Self::Gravity => "gravity (m/s²)",
+            Self::Stiffness => "stiffness of the torsion spring (N m)",
+            Self::PivotFriction => "friction in the pivot (N m s)",
+            Self::GroundDrag => "drag against the ground (N m s)",
+            Self::DriveTorque => "torque on the root over m l², stated by each evaluation",
         }
     }
 }
@@ -161,6 +221,7 @@ impl Strips {
             Argument::Sums => 5 + torque,
             Argument::Elimination => 3,
             Argument::Carried if self.has_several_places => 4,
+            Argument::Given(function) => function.given().len(),
             _ => 2,
         }
     }
@@ -202,6 +263,7 @@ impl Strips {
             Argument::Sums if self.has_several_places => &ATTACHED,
             Argument::Sums => &SUMS,
             Argument::Elimination => &["gain_x", "gain_y", "offset"],
+            Argument::Given(function) => function.given(),
             _ => &["gravity_x", "gravity_y", "end_x", "end_y"],
         };
         names[index]

@@ -82,6 +82,9 @@ impl EntryList<'_, '_> {
             vec![accelerate],
             Shape::Scalar,
         );
+        if let Some(scales) = &mechanics.scales {
+            self.scale_functions(&functions, &balance.symbols, scales);
+        }
         self.root(mechanics, &table);
         if let Some(drive) = &mechanics.drive {
             self.drive(mechanics, drive);

@@ -12,11 +12,13 @@ use crate::program::{Argument, ValueId};
 
 /// The links whose constants an entry point reads.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     Leaf,
     Inner,
     /// A child, while the motion is its parent's.
     Child,
+    /// Any link.
+    Any,
 }
 
 /// The functions of one link.
@@ -29,11 +31,17 @@ pub(super) struct Functions<'t> {
 
 impl Functions<'_> {
     /// A column: the number that all rows have, or an element of the row.
-    fn column(&self, list: &mut EntryList<'_, '_>, kind: Kind, column: Column) -> ValueId {
+    pub(super) fn column(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        kind: Kind,
+        column: Column,
+    ) -> ValueId {
         let builder = &mut list.lowering.builder;
         let common = match (kind, column) {
             (Kind::Inner, Column::DriveTorque) if self.drive_torque => None,
             (Kind::Child, _) => self.table.common_of_children(builder, column),
+            (Kind::Any, _) => self.table.common_of_all(builder, column),
             _ => self.table.common(builder, kind == Kind::Leaf, column),
         };
         match common {
@@ -42,7 +50,7 @@ impl Functions<'_> {
         }
     }
 
-    fn motion(&self, list: &mut EntryList<'_, '_>, element: Motion) -> ValueId {
+    pub(super) fn motion(&self, list: &mut EntryList<'_, '_>, element: Motion) -> ValueId {
         list.lowering
             .builder
             .input(Argument::Motion, element as usize)
@@ -298,7 +306,7 @@ impl Functions<'_> {
 
 /// Elements of [`Argument::Motion`].
 #[derive(Clone, Copy)]
-enum Motion {
+pub(super) enum Motion {
     Sine,
     Cosine,
     Omega,

@@ -90,6 +90,11 @@ impl Table {
         shared(builder, rows.map(|(row, _)| row[column as usize]))
     }
 
+    /// Number that all links have in a column, if it is one.
+    pub(super) fn common_of_all(&self, builder: &Builder, column: Column) -> Option<Rational> {
+        shared(builder, self.rows.iter().map(|row| row[column as usize]))
+    }
+
     /// Number that all links but the root have in a column, if it is one.
     pub(super) fn common_of_children(&self, builder: &Builder, column: Column) -> Option<Rational> {
         shared(
@@ -156,8 +161,7 @@ impl Lowering<'_> {
             };
             let forces = forces.map(&mut optional);
             let rest = optional(&link.rest);
-            let laws = self.law_constants(link);
-            let laws = laws.map(|constant| self.builder.constant(constant));
+            let laws = self.laws(link);
             given.push(Given {
                 inertia: composite[0],
                 moment: [composite[1], composite[2]],
@@ -195,16 +199,20 @@ impl Lowering<'_> {
                 place,
             )
         });
-        let rows = rows.collect();
+        let mut rows: Vec<[ValueId; Column::ALL.len()]> = rows.collect();
         let root_gravity = builder.neg(units.gravity);
         let [mass, length] = units.tree;
         let area = builder.mul(length, length);
         let unit = builder.mul(mass, area);
         let one = builder.integer(1);
+        let per_torque = builder.div(one, unit);
+        if scene.requests.scales() {
+            self.scale_columns(scene, balance, &mut rows);
+        }
         Table {
             rows,
             root_gravity,
-            per_torque: builder.div(one, unit),
+            per_torque,
             units,
             is_leaf,
             has_several_places,
@@ -213,7 +221,7 @@ impl Lowering<'_> {
 
     /// M, h, the lateral moment and S of a link with these masses on its pivots: the
     /// derived expressions are sums over these.
-    fn composite(
+    pub(super) fn composite(
         &mut self,
         scene: &Scene,
         index: usize,
@@ -255,7 +263,7 @@ impl Lowering<'_> {
     }
 
     /// An expression at given values of its symbols.
-    fn at_values(&mut self, expr: &Expr, known: &[(SymbolId, ValueId)]) -> ValueId {
+    pub(super) fn at_values(&mut self, expr: &Expr, known: &[(SymbolId, ValueId)]) -> ValueId {
         match expr {
             Expr::Number(number) => self.builder.number(number.clone()),
             Expr::Symbol(symbol) => match known.iter().find(|(id, _)| id == symbol) {
@@ -380,6 +388,6 @@ fn row(
         Column::QuadraticDrag => quadratic_drag,
         Column::DragWidth => drag_width,
         Column::PerTorque => per_torque,
-        Column::DriveTorque => zero,
+        _ => zero,
     })
 }

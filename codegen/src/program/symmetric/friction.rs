@@ -4,7 +4,7 @@
 //! of fields, so that differences that are zero stay so, and small ones keep their digits.
 
 use super::field::{SymmetricField, SymmetricTree};
-use super::motion::Fields;
+use super::motion::{ConstantValues, Fields};
 use super::series::TruncatedSeries;
 use crate::exact::Rational;
 use crate::mechanics::FrictionPlace;
@@ -34,6 +34,27 @@ impl SymmetricTree<'_> {
         match place {
             FrictionPlace::Joint => self.relative(rates, orbit),
             FrictionPlace::Ground => rates[orbit].clone(),
+        }
+    }
+
+    /// Adds the torques of friction that is not viscous.
+    pub(super) fn add_braking(
+        &mut self,
+        sums: &mut Fields,
+        values: &ConstantValues,
+        rates: &Fields,
+    ) {
+        for (orbit, constants) in values.orbits.iter().enumerate() {
+            let [joint, ground] = &constants.laws;
+            if !joint.is_zero() {
+                let rate = self.braking_rate(rates, orbit, FrictionPlace::Joint);
+                let torque = self.braking_torque(joint, &rate);
+                self.add_joint_torque(sums, &torque);
+            }
+            if !ground.is_zero() {
+                let torque = self.braking_torque(ground, &rates[orbit]);
+                self.accumulate(sums, &torque);
+            }
         }
     }
 

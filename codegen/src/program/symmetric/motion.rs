@@ -5,7 +5,6 @@ use super::direction::Direction;
 use super::field::{SymmetricField, SymmetricTree};
 use super::friction::LawValues;
 use super::series::TruncatedSeries;
-use crate::mechanics::FrictionPlace;
 
 /// Values of the constants of one orbit; zeros are empty series.
 pub(in crate::program) struct OrbitValues {
@@ -191,22 +190,6 @@ impl SymmetricTree<'_> {
         }
     }
 
-    /// Adds the torques of friction that is not viscous.
-    fn add_braking(&mut self, sums: &mut Fields, values: &ConstantValues, rates: &Fields) {
-        for (orbit, constants) in values.orbits.iter().enumerate() {
-            let [joint, ground] = &constants.laws;
-            if !joint.is_zero() {
-                let rate = self.braking_rate(rates, orbit, FrictionPlace::Joint);
-                let torque = self.braking_torque(joint, &rate);
-                self.add_joint_torque(sums, &torque);
-            }
-            if !ground.is_zero() {
-                let torque = self.braking_torque(ground, &rates[orbit]);
-                self.accumulate(sums, &torque);
-            }
-        }
-    }
-
     /// Adds coefficient · relative to the links of its orbit, and the opposite to
     /// their parents.
     pub(super) fn add_joint(
@@ -219,7 +202,7 @@ impl SymmetricTree<'_> {
         self.add_joint_torque(sums, &torque);
     }
 
-    fn add_joint_torque(&mut self, sums: &mut Fields, torque: &SymmetricField) {
+    pub(super) fn add_joint_torque(&mut self, sums: &mut Fields, torque: &SymmetricField) {
         self.hinted(torque, "joint_torque");
         self.accumulate(sums, torque);
         if let Some(parent) = self.orbits[torque.orbit].parent {

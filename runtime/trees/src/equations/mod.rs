@@ -5,8 +5,10 @@
 //! `branched-pendulum --output src/equations/general.rs equations/general.rs` writes them
 //! anew, and a test tells when that is due.
 
+#[rustfmt::skip]
 #[allow(dead_code, unreachable_pub)]
 mod general;
+#[rustfmt::skip]
 #[allow(dead_code, unreachable_pub)]
 mod straight;
 

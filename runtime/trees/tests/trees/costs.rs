@@ -35,7 +35,10 @@ fn costs_of_one_state() {
                 start.elapsed().as_nanos() as f64 / calls as f64
             });
             let least = least.fold(f64::INFINITY, f64::min);
-            println!("{n} links{more}: {least:.0} ns, {:.1} a link", least / n as f64);
+            println!(
+                "{n} links{more}: {least:.0} ns, {:.1} a link",
+                least / n as f64
+            );
         }
     }
 }

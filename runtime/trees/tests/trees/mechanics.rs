@@ -45,7 +45,11 @@ fn the_rate_of_the_energy_is_the_power_of_all_forces() {
     let state: Vec<f64> = THETA.into_iter().chain(OMEGA).collect();
     FirstIntegral::evaluate(&tree, &state, &mut slopes);
     let rates = OMEGA.iter().chain(&alpha);
-    let rate: f64 = slopes.iter().zip(rates).map(|(slope, rate)| slope * rate).sum();
+    let rate: f64 = slopes
+        .iter()
+        .zip(rates)
+        .map(|(slope, rate)| slope * rate)
+        .sum();
     let power = tree.friction_power(&OMEGA)
         + tree.outside_power(&OMEGA, &torques)
         + tree.drive_power(time, &THETA, &OMEGA);
@@ -249,7 +253,11 @@ fn a_single_link_takes_its_drive() {
 #[test]
 fn slices_of_another_length_give_nan() {
     let tree = bent();
-    assert!(tree.accelerations(0.0, &[0.0; 3], &[0.0; 5]).iter().all(|a| a.is_nan()));
+    assert!(
+        tree.accelerations(0.0, &[0.0; 3], &[0.0; 5])
+            .iter()
+            .all(|a| a.is_nan())
+    );
     assert!(tree.kinetic_energy(&THETA, &[0.0]).is_nan());
     assert!(tree.momenta(&THETA, &[]).iter().all(|p| p.is_nan()));
     assert!(tree.modes(&[0.0; 2]).is_err());

@@ -6,6 +6,8 @@ use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::InPhaseMotion;
 use branched_pendulum_tests::random::Random;
 
+use crate::support::compile;
+
 /// Two links with every law, by parameters.
 #[branched_pendulum(
     gravity = 9.80665,
@@ -33,6 +35,40 @@ const PARAMETERS: ChainParameters<f64> = ChainParameters {
 
 fn go_on(_: &mut DenseStep<'_, f64>) -> ControlFlow<()> {
     ControlFlow::Continue(())
+}
+
+/// Compiled code and the interpreter agree to the bit.
+#[test]
+fn compiled_code_is_what_the_interpreter_computes() {
+    let source = include_str!("motion.rs");
+    let (_, rest) = source
+        .split_once("#[branched_pendulum(")
+        .expect("it is above");
+    let (attribute, _) = rest.split_once(")]\nstruct Chain;").expect("it ends");
+    let compiled = compile(attribute);
+    let model = Chain::new(PARAMETERS).expect("friction is positive");
+    let names = compiled.scene.parameters.iter();
+    let values: Vec<f64> = names
+        .map(|parameter| match parameter.name.as_str() {
+            "viscous_arm" => PARAMETERS.viscous_arm,
+            "coulomb_arm" => PARAMETERS.coulomb_arm,
+            "quadratic_arm" => PARAMETERS.quadratic_arm,
+            "width" => PARAMETERS.width,
+            "viscous_hand" => PARAMETERS.viscous_hand,
+            "coulomb_hand" => PARAMETERS.coulomb_hand,
+            "quadratic_hand" => PARAMETERS.quadratic_hand,
+            other => panic!("{other}"),
+        })
+        .collect();
+    let mut random = Random::new(4);
+    for _ in 0..100 {
+        let [theta, omega] =
+            [3.0, 5.0].map(|size: f64| [random.between(-size, size), random.between(-size, size)]);
+        let found = compiled.evaluate_with(&values, "accelerations", &[&theta, &omega]);
+        assert_eq!(model.accelerations(&theta, &omega).to_vec(), found);
+        let found = compiled.evaluate_with(&values, "friction_power", &[&omega]);
+        assert_eq!(model.friction_power(&omega), found[0]);
+    }
 }
 
 /// ∫P dt is what the energy loses, the integral beside the motion as one more variable.
