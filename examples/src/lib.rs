@@ -12,6 +12,7 @@ pub mod critical_angle;
 pub mod energy_cascade;
 pub mod failure;
 pub mod film;
+pub mod identify;
 pub mod integration_speed;
 pub mod program;
 pub mod quadrature;
