@@ -4,6 +4,7 @@
 mod architecture;
 mod determinism;
 mod ladder;
+mod languages;
 mod lengths;
 mod loops;
 mod pages;
