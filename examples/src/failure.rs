@@ -6,11 +6,16 @@ use std::path::PathBuf;
 
 use branched_pendulum::ParameterError;
 use branched_pendulum::analysis::advice::AdviceError;
+use branched_pendulum::analysis::growth::GrowthError;
+use branched_pendulum::analysis::statistics::StatisticsError;
 use branched_pendulum::analysis::truncation::TruncationError;
 use branched_pendulum::analysis::{ModesError, SectorModesError, SmoothingError, SpectrumError};
 use branched_pendulum::approximate::LinearError;
 use branched_pendulum_charts::ChartError;
 use branched_pendulum_data::{CsvError, ReadError};
+
+use crate::program::sealed::SealError;
+use crate::program::sweep::SweepError;
 
 /// Why a program could not finish. Causes are told by `source`, once each.
 #[derive(Debug, thiserror::Error)]
@@ -26,6 +31,14 @@ pub enum Failure {
         angle_deg: f64,
         /// The integrator's error, whatever the precision it ran in.
         source: Box<dyn Error + Send + Sync>,
+    },
+    /// A start of a cascade whose numbers are no longer finite.
+    #[error("start {start} has diverged at {time:.1} s: take more `--steps`")]
+    Diverged {
+        /// Its number.
+        start: usize,
+        /// Time, s.
+        time: f64,
     },
     /// The linear modes could not be found.
     #[error("the linear modes could not be found")]
@@ -45,6 +58,12 @@ pub enum Failure {
     /// Forms of W could not be compared.
     #[error("the forms of W could not be compared")]
     Truncation(#[from] TruncationError),
+    /// The growth of differences could not be found.
+    #[error("the growth of differences could not be found")]
+    Growth(#[from] GrowthError),
+    /// A tree without copies that move alike.
+    #[error("the tree has no pair that moves in phase")]
+    NoPair,
     /// There is no advice.
     #[error("there is no advice")]
     Advice(#[from] AdviceError),
@@ -78,6 +97,28 @@ pub enum Failure {
         /// The system's error.
         source: io::Error,
     },
+    /// A file could not be read.
+    #[error("cannot read {}", path.display())]
+    Unread {
+        /// The file.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A checkpoint or a part of a sweep cannot be used.
+    #[error("cannot go on from {}; without it the run begins anew", path.display())]
+    Sealed {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: SealError,
+    },
+    /// Shards do not make a whole.
+    #[error("the shards do not make a whole")]
+    Sweep(#[from] SweepError),
+    /// There is no average.
+    #[error("there is no average")]
+    Statistics(#[from] StatisticsError),
     /// A table could not be written.
     #[error("a table could not be written")]
     Csv(#[from] CsvError),
@@ -107,6 +148,7 @@ mod tests {
     use super::Failure;
     use crate::program::messages;
     use branched_pendulum::analysis::advice::AdviceError;
+    use branched_pendulum::analysis::growth::GrowthError;
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
@@ -203,6 +245,7 @@ mod tests {
             Box::new(Failure::Linear(LinearError::NotFinite)),
             Box::new(Failure::Frames(Box::new(request()))),
             Box::new(Failure::Truncation(truncation())),
+            Box::new(Failure::Growth(GrowthError::Integration(request()))),
             Box::new(Failure::Advice(AdviceError::Request("a start"))),
             Box::new(Failure::Advice(AdviceError::Reference(Box::new(
                 integration(),

@@ -64,6 +64,9 @@ impl Shape {
 /// Numbers of a body.
 const ROW: usize = 12;
 
+/// Numbers of the laws of a link.
+const LAW: usize = 5;
+
 /// The links of a tree in loops as bodies. Emitted models hold them where there is
 /// a drive or a lateral offset, and energies are asked for.
 ///
@@ -76,6 +79,8 @@ pub struct Bodies<T> {
     rows: Vec<T>,
     /// Angles at which springs are at rest, likewise; empty where all are zero.
     rests: Vec<T>,
+    /// Laws of friction, likewise; empty where all friction is viscous.
+    laws: Vec<T>,
 }
 
 impl<T: Scalar> Bodies<T> {
@@ -88,8 +93,12 @@ impl<T: Scalar> Bodies<T> {
     /// stiffness of the torsion spring; friction in the pivot, drag.
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<T>) -> Self {
-        let rests = Vec::new();
-        Self { shape, rows, rests }
+        Self {
+            shape,
+            rows,
+            rests: Vec::new(),
+            laws: Vec::new(),
+        }
     }
 
     /// Returns these bodies with the angles at which the springs of each link or of each generation
@@ -99,6 +108,14 @@ impl<T: Scalar> Bodies<T> {
         Self { rests, ..self }
     }
 
+    /// Returns these bodies with friction beside viscous friction and drag: C, q and ε of the
+    /// torque (C/s + q s) w in the pivot of each link or of each generation at the rate w
+    /// relative to the parent, s = √(w² + ε²); q and ε of the torque q s w against the ground.
+    #[must_use]
+    pub fn with_laws(self, laws: Vec<T>) -> Self {
+        Self { laws, ..self }
+    }
+
     /// Returns these bodies on other scalars.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<S> {
@@ -106,6 +123,7 @@ impl<T: Scalar> Bodies<T> {
             shape: self.shape.clone(),
             rows: self.rows.iter().map(|&value| convert(value)).collect(),
             rests: self.rests.iter().map(|&value| convert(value)).collect(),
+            laws: self.laws.iter().map(|&value| convert(value)).collect(),
         }
     }
 
@@ -141,7 +159,8 @@ impl<T: Scalar> Bodies<T> {
         torque * at(omega, 0) - (x * momentum_x + y * momentum_y)
     }
 
-    /// Power −Σ c (ω − ω_parent)² + k ω², W, of friction and drag. NaN for a slice
+    /// Power −Σ c (ω − ω_parent)² + k ω², W, of friction and drag, with that of
+    /// [other friction](Self::with_laws). NaN for a slice
     /// of another length than there are links.
     #[must_use]
     pub fn friction_power(&self, omega: &[T]) -> T {
@@ -173,6 +192,13 @@ impl<T: Scalar> Bodies<T> {
     #[inline(always)]
     fn row(&self, number: usize) -> Option<&[T; ROW]> {
         let (rows, _) = self.rows.as_chunks();
+        rows.get(number)
+    }
+
+    /// Returns the laws of friction of a row, if there are any.
+    #[inline(always)]
+    fn law(&self, number: usize) -> Option<&[T; LAW]> {
+        let (rows, _) = self.laws.as_chunks();
         rows.get(number)
     }
 
@@ -210,6 +236,9 @@ impl<T: Scalar> Bodies<T> {
                         None => rate,
                     };
                     sum.add(friction * relative * relative + drag * rate * rate);
+                    if let Some(law) = self.law(row) {
+                        sum.add(braking_power(law, relative, rate));
+                    }
                 }
             });
         }
@@ -343,6 +372,17 @@ compiled_once! {
 compiled_once! {
     PotentialEnergy<T> = Bodies::sum_of_potential_energies:
         fn(&Bodies<T>, &mut Workspace<T>, &[T]) -> T
+}
+
+/// Power that friction of a link takes by these laws, at the rate relative to the parent
+/// and at its own.
+#[inline(always)]
+fn braking_power<T: Scalar>(law: &[T; LAW], relative: T, rate: T) -> T {
+    let &[coulomb, quadratic, width, drag, drag_width] = law;
+    let (square, own_square) = (relative * relative, rate * rate);
+    let speed = (square + width * width).sqrt();
+    let own_speed = (own_square + drag_width * drag_width).sqrt();
+    (coulomb / speed + quadratic * speed) * square + drag * own_speed * own_square
 }
 
 /// The number of a link, zero where there is none.

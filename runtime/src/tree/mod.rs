@@ -43,6 +43,7 @@ mod plan;
 mod prefetch;
 mod properties;
 mod root;
+mod scales;
 mod shared;
 mod skeleton;
 mod small;
@@ -61,6 +62,7 @@ pub use bodies::{Bodies, Shape};
 pub use equations::{LinkEquations, LinkMotion, Row};
 pub use properties::PropertyTable;
 pub use root::RootDrive;
+pub use scales::ScaleEquations;
 pub use small::{LinkStates, SmallTree};
 
 use crate::scalar::kind::{compiled, compiled_once};
