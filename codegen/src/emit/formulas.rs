@@ -2,7 +2,9 @@
 
 use super::Emission;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
-use crate::mechanics::{Frame, LinkFormula, TransferFormulas, TransferParts, WrittenOut};
+use crate::mechanics::{
+    BrakingTorque, Frame, LinkFormula, TransferFormulas, TransferParts, WrittenOut,
+};
 use crate::program::{Cause, Purpose};
 
 /// A formula: left side and right side.
@@ -96,7 +98,11 @@ impl Emission<'_> {
                 None => Vec::new(),
             },
             Purpose::TotalFrictionPower => match &mechanics.friction_power {
-                Some(power) => simple("P", power),
+                Some(power) => {
+                    let mut formulas = simple("P", power);
+                    formulas.extend(self.braking_formulas(absolute));
+                    formulas
+                }
                 None => Vec::new(),
             },
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
@@ -107,7 +113,9 @@ impl Emission<'_> {
             | Purpose::TransverseEnergy(_)
             | Purpose::TransverseTransfer(_)
             | Purpose::TransverseFriction(_) => self.transverse_formulas(purpose),
-            Purpose::AbsoluteVelocities
+            Purpose::SmallEnergy => self.small_formulas(),
+            Purpose::SmallAccelerations
+            | Purpose::AbsoluteVelocities
             | Purpose::AccelerationsUnder
             | Purpose::Prescribed(_)
             | Purpose::OutsidePower
@@ -200,7 +208,21 @@ impl Emission<'_> {
                     right: bias.clone(),
                 }),
         );
+        formulas.extend(self.braking_formulas(frame));
         formulas
+    }
+
+    /// Torques of friction that is not viscous, link by link.
+    pub(super) fn braking_formulas(&self, frame: &Frame) -> Vec<DocFormula> {
+        let formula = |torque: &BrakingTorque| {
+            let symbol = self.mechanics.symbols.get(torque.symbol);
+            Some(DocFormula {
+                left: symbol.text.clone(),
+                left_latex: symbol.latex.clone(),
+                right: torque.formula()?,
+            })
+        };
+        frame.torques.iter().filter_map(formula).collect()
     }
 
     fn transfer(

@@ -19,6 +19,7 @@ mod quantities;
 mod shapes;
 mod shown;
 mod sink;
+mod small;
 mod strip_docs;
 mod strip_forced;
 mod strip_powers;

@@ -137,6 +137,7 @@ impl Derivation<'_> {
             energies: None,
             momentum: None,
             momentum_rates: None,
+            torques: Vec::new(),
             dissipative_forces: Vec::new(),
             drive: Vec::new(),
             bias: Vec::new(),
@@ -163,7 +164,8 @@ impl Derivation<'_> {
             .collect()
     }
 
-    pub(super) fn frame(&self, frame: &DerivedFrame) -> Frame {
+    pub(super) fn frame(&mut self, frame: &DerivedFrame) -> Frame {
+        let torques = self.plain_torques(&frame.torques);
         let requests = &self.scene.requests;
         Frame {
             coordinates: frame.coordinates.clone(),
@@ -182,6 +184,7 @@ impl Derivation<'_> {
             momentum_rates: requests
                 .momenta
                 .then(|| self.exprs(&frame.momentum_rates(self))),
+            torques,
             dissipative_forces: self.exprs(&frame.dissipative_forces()),
             drive: self.exprs(&frame.drive_forces(self)),
             bias: self.exprs(&frame.bias(self)),

@@ -28,6 +28,10 @@ pub enum Argument {
     Difference(usize),
     /// Their rates, rad/s.
     DifferenceRate(usize),
+    /// Differences in all sectors that act back, one sector after the other, rad.
+    SmallDifferences,
+    /// Their rates, rad/s.
+    SmallRates,
     /// Generalized torques from outside, one for each absolute angle, N m.
     Torques,
     /// Accelerations of the prescribed links of the set with that number, rad/s².
@@ -223,6 +227,10 @@ pub enum Purpose {
     TransverseTransfer(usize),
     /// The power of friction on it.
     TransverseFriction(usize),
+    /// Accelerations of angles and of small differences that act back.
+    SmallAccelerations,
+    /// Their energy.
+    SmallEnergy,
     /// Positions of these points of all links.
     Positions(PointKind),
     /// Their velocities.

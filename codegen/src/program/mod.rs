@@ -17,6 +17,7 @@ mod entries;
 mod entry;
 mod entry_state;
 mod factors;
+mod friction;
 mod fuse;
 mod interpret;
 mod link;
@@ -34,6 +35,7 @@ mod rotations;
 mod rules;
 mod scale;
 mod sectors;
+mod small;
 mod solve;
 mod symmetric;
 mod taylor;
@@ -74,7 +76,11 @@ pub fn lower(
     scene: &Scene,
     mechanics: &Mechanics,
 ) -> Result<Program, TooManyValues> {
-    let mut lowering = lower::Lowering::new(mechanics);
+    let orbits = match mechanics.coordinates.as_slice() {
+        [] => Vec::new(),
+        coordinates => symmetric::orbits(scene, coordinates),
+    };
+    let mut lowering = lower::Lowering::new(mechanics, &orbits);
     lowering.builder.off = off;
     let (entries, choice, strips) = match scene.in_loops() {
         true => entries::link_entries(scene, &mut lowering),

@@ -183,6 +183,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         taylor,
         positions: _,
         transverse,
+        small: _,
         forces: _,
         solve,
     } = &asked.resolved.requests;
@@ -197,6 +198,7 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         (exact_or_truncated, "`emit(budget)`"),
         (*taylor, "`emit(taylor)`"),
         (*transverse, "`emit(transverse)`"),
+        (asked.resolved.acting.is_some(), "`emit(small)`"),
         (asked.observables, "`observe(…)`"),
         (asked.prescribed, "`prescribed(…)`"),
         (factorization, "`solve = factorization`"),

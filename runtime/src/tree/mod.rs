@@ -46,6 +46,7 @@ mod root;
 mod scales;
 mod shared;
 mod skeleton;
+mod small;
 mod states;
 mod strips;
 mod sum;
@@ -62,6 +63,7 @@ pub use equations::{LinkEquations, LinkMotion, Row};
 pub use properties::PropertyTable;
 pub use root::RootDrive;
 pub use scales::ScaleEquations;
+pub use small::{LinkStates, SmallTree};
 
 use crate::scalar::kind::{compiled, compiled_once};
 use crate::scalar::{Scalar, at};

@@ -49,6 +49,16 @@ pub enum Column {
     Spring,
     /// Angle at which the spring is at rest.
     Rest,
+    /// Coulomb friction in the pivot over m l².
+    Coulomb,
+    /// Quadratic friction in the pivot over m l².
+    QuadraticFriction,
+    /// Width of friction in the pivot.
+    FrictionWidth,
+    /// Quadratic drag over m l².
+    QuadraticDrag,
+    /// Width of drag.
+    DragWidth,
     /// 1/(m l²), by which torques from outside are multiplied.
     PerTorque,
     /// Mass, here and below in SI units: read by energies by scale alone.
@@ -81,7 +91,7 @@ pub enum Column {
 
 impl Column {
     /// All columns, in their order.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 34] = [
         Self::Inertia,
         Self::Moment,
         Self::LateralMoment,
@@ -97,6 +107,11 @@ impl Column {
         Self::Drag,
         Self::Spring,
         Self::Rest,
+        Self::Coulomb,
+        Self::QuadraticFriction,
+        Self::FrictionWidth,
+        Self::QuadraticDrag,
+        Self::DragWidth,
         Self::PerTorque,
         Self::BodyMass,
         Self::BodyInertia,
@@ -131,6 +146,11 @@ impl Column {
             Self::Drag => "drag",
             Self::Spring => "spring",
             Self::Rest => "rest",
+            Self::Coulomb => "coulomb",
+            Self::QuadraticFriction => "quadratic_friction",
+            Self::FrictionWidth => "friction_width",
+            Self::QuadraticDrag => "quadratic_drag",
+            Self::DragWidth => "drag_width",
             Self::PerTorque => "per_torque",
             Self::BodyMass => "body_mass",
             Self::BodyInertia => "body_inertia",
@@ -166,6 +186,11 @@ impl Column {
             Self::Drag => "drag against the ground over m l²",
             Self::Spring => "stiffness of the torsion spring over m l²",
             Self::Rest => "angle at which the torsion spring is at rest",
+            Self::Coulomb => "Coulomb friction in the pivot over m l²",
+            Self::QuadraticFriction => "quadratic friction in the pivot over m l²",
+            Self::FrictionWidth => "width of friction in the pivot, rad/s",
+            Self::QuadraticDrag => "quadratic drag over m l²",
+            Self::DragWidth => "width of drag, rad/s",
             Self::PerTorque => "1/(m l²), factor of torques from outside",
             Self::BodyMass => "mass (kg)",
             Self::BodyInertia => "moment of inertia about the centre of mass (kg m²)",
@@ -179,7 +204,7 @@ impl Column {
             Self::Stiffness => "stiffness of the torsion spring (N m)",
             Self::PivotFriction => "friction in the pivot (N m s)",
             Self::GroundDrag => "drag against the ground (N m s)",
-            Self::DriveTorque => "torque on the root over m l², stated anew by every evaluation",
+            Self::DriveTorque => "torque on the root over m l², stated by each evaluation",
         }
     }
 }

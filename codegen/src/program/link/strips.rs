@@ -29,6 +29,9 @@ pub struct Strip {
     /// Angle at which its springs are at rest, where energies are asked for and any
     /// spring of the tree has one.
     pub rest: Option<ConstantId>,
+    /// Laws of friction and drag that are not viscous, where energies are asked for and any
+    /// link of the tree has one: C, q and ε in the pivot, q and ε against the ground.
+    pub laws: Option<[ConstantId; 5]>,
     /// Its [properties](crate::scene::LINK_PROPERTIES), if positions are asked for.
     pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
 }
@@ -37,6 +40,7 @@ impl Strip {
     /// All constants that it holds.
     pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
         let others = self.body.iter().flatten().chain(&self.rest);
+        let others = others.chain(self.laws.iter().flatten());
         let others = others.chain(self.properties.iter().flatten());
         self.constants.iter().chain(others).copied()
     }
@@ -157,12 +161,14 @@ impl Lowering<'_> {
             };
             let forces = forces.map(&mut optional);
             let rest = optional(&link.rest);
+            let laws = self.laws(link);
             given.push(Given {
                 inertia: composite[0],
                 moment: [composite[1], composite[2]],
                 pivot: self.values_of(&link.pivot),
                 forces,
                 rest,
+                laws,
             });
             masses.push(match children[index].is_empty() {
                 true => zero,
@@ -291,6 +297,7 @@ impl Lowering<'_> {
         let any = |force: fn(&crate::scene::Link) -> bool| scene.links.iter().any(force);
         let mut strips = Vec::with_capacity(scene.links.len());
         let mut bodies: Vec<Option<[ConstantId; 12]>> = vec![None; scene.orbits.len()];
+        let has_laws = scene.requests.energies && any(|link| !link.nonlinear.is_none());
         let has_rests = scene.requests.energies && any(|link| link.rest.is_some());
         for link in &scene.links {
             let orbit = link.orbit.0;
@@ -313,6 +320,7 @@ impl Lowering<'_> {
                 constants,
                 body: bodies[orbit],
                 rest: has_rests.then(|| self.rest(link)),
+                laws: has_laws.then(|| self.law_constants(link)),
                 properties: scene.requests.positions.then(|| self.link_properties(link)),
             });
         }
@@ -321,7 +329,7 @@ impl Lowering<'_> {
             columns,
             strips,
             has_several_places: table.has_several_places,
-            has_joint_torques: any(|link| link.friction.is_some() || link.spring.is_some()),
+            has_joint_torques: any(crate::scene::Link::has_joint_torque),
             has_outside_torques: scene.requests.forces,
             has_drive_torque: drive.is_some_and(|drive| drive.torque.is_some()),
         }
@@ -349,6 +357,15 @@ fn row(
     let torque = builder.mul(tree_mass, area);
     let per_torque = builder.div(one, torque);
     let [friction, drag, spring] = unit.forces.map(|force| builder.div(force, torque));
+    let [
+        coulomb,
+        quadratic_friction,
+        friction_width,
+        quadratic_drag,
+        drag_width,
+    ] = unit.laws;
+    let [coulomb, quadratic_friction, quadratic_drag] =
+        [coulomb, quadratic_friction, quadratic_drag].map(|force| builder.div(force, torque));
     Column::ALL.map(|column| match column {
         Column::Inertia => unit.inertia,
         Column::Moment => unit.moment[0],
@@ -365,6 +382,11 @@ fn row(
         Column::Drag => drag,
         Column::Spring => spring,
         Column::Rest => unit.rest,
+        Column::Coulomb => coulomb,
+        Column::QuadraticFriction => quadratic_friction,
+        Column::FrictionWidth => friction_width,
+        Column::QuadraticDrag => quadratic_drag,
+        Column::DragWidth => drag_width,
         Column::PerTorque => per_torque,
         _ => zero,
     })

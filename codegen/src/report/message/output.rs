@@ -119,7 +119,15 @@ pub enum OutputMessage {
         function: String,
     },
     /// Small differences of copies in phase where there are none.
-    NoTransverse,
+    NoTransverse {
+        /// `transverse` or `small`.
+        request: &'static str,
+    },
+    /// An output that is derived for one tree, of a tree that is described at run time.
+    NotAtRunTime {
+        /// The output.
+        what: String,
+    },
 }
 
 /// Use of a tree that copies which differ stand against.
@@ -305,10 +313,15 @@ impl OutputMessage {
                 format!("`{name}` would emit it again"),
                 format!("choose another name, as in `my_{name}`"),
             ),
-            M::NoTransverse => problem(
-                "`transverse` needs copies that move in phase",
+            M::NoTransverse { request } => problem(
+                format!("`{request}` needs copies that move in phase"),
                 "nothing moves in phase",
                 "add `in_phase(all)`, or `in_phase(child)` with a link that has copies",
+            ),
+            M::NotAtRunTime { what } => problem(
+                format!("no `{what}` at run time"),
+                "has to be derived for this tree",
+                "leave it out, or let the attribute `#[branched_pendulum(...)]` compile this tree",
             ),
         }
     }
