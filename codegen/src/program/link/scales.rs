@@ -8,6 +8,7 @@ use super::scale_function::ScaleFunction;
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{LinkBalance, LinkScales, LinkSymbols};
 use crate::program::entries::EntryList;
+use crate::program::friction::Law;
 use crate::program::lower::Lowering;
 use crate::program::pair::Pair;
 use crate::program::{Argument, Purpose, Shape, ValueId};
@@ -26,9 +27,7 @@ impl EntryList<'_, '_> {
                 ScaleFunction::Factor => functions.factor(self),
                 ScaleFunction::Eliminate => functions.eliminate(self, link, scales),
                 ScaleFunction::Flow => functions.flow(self, link, scales),
-                ScaleFunction::Torques => {
-                    functions.derived(self, link, scales, function, &scales.torques)
-                }
+                ScaleFunction::Torques => functions.torques(self, link, scales),
                 ScaleFunction::Velocity => {
                     functions.derived(self, link, scales, function, &scales.velocity)
                 }
@@ -80,6 +79,42 @@ impl Functions<'_> {
         exprs
             .map(|expr| list.lowering.at_values(expr, &known))
             .collect()
+    }
+
+    /// The derived torques, with friction that is not viscous.
+    fn torques(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        link: &LinkSymbols,
+        scales: &LinkScales,
+    ) -> Vec<ValueId> {
+        let function = ScaleFunction::Torques;
+        let mut torques = self.derived(list, link, scales, function, &scales.torques);
+        let zero = list.lowering.builder.integer(0);
+        let mut at = |column| self.column(list, Kind::Any, column);
+        let joint = Law {
+            coulomb: at(Column::Coulomb),
+            quadratic: at(Column::QuadraticFriction),
+            width: at(Column::FrictionWidth),
+        };
+        let ground = Law {
+            coulomb: zero,
+            quadratic: at(Column::QuadraticDrag),
+            width: at(Column::DragWidth),
+        };
+        let unit = at(Column::PerTorque);
+        let laws = [
+            (2, joint, Motion::JointRate, "_joint"),
+            (3, ground, Motion::Omega, "_ground"),
+        ];
+        for (place, law, rate, suffix) in laws {
+            let rate = self.motion(list, rate);
+            let builder = &mut list.lowering.builder;
+            let reduced = builder.braking_torque(&law, rate, suffix);
+            let torque = builder.div(reduced, unit);
+            torques[place] = builder.add(torques[place], torque);
+        }
+        torques
     }
 
     fn known(
