@@ -360,21 +360,30 @@ impl WholeColumns<'_> {
         for number in part..own.count() {
             let generation = self.generation + number;
             let (from, to) = (self.shape.part(scale, generation), own.part(part, number));
-            let first = self.start % self.shape.period(scale, generation);
+            let repeat = self.shape.period(scale, generation);
             let period = own.period(part, number);
+            // Parts that are the same again within the block's neighbours come over and
+            // over, others run by run.
+            let (first, stride) = match repeat < self.width {
+                true => (0, 0),
+                false => (self.start % repeat, stride),
+            };
+            let piece = repeat.min(self.width);
             for field in PARTS {
                 let (from, to) = (field * self.shape.parts + from, field * own.parts + to);
-                for run in 0..period / self.width {
+                for run in 0..period / piece {
                     let from = from + first + run * stride;
-                    let to = to + run * self.width;
-                    let from = whole.get(from..from + self.width);
-                    let to = parts.get_mut(to..to + self.width);
+                    let to = to + run * piece;
+                    let from = whole.get(from..from + piece);
+                    let to = parts.get_mut(to..to + piece);
                     if let (Some(from), Some(to)) = (from, to) {
                         to.copy_from_slice(from);
                     }
                 }
                 // What comes behind a period is its beginning.
-                parts.copy_within(to..to + WIDEST, to + period);
+                if let Some(parts) = parts.get_mut(to..to + period + WIDEST) {
+                    parts.copy_within(..WIDEST, period);
+                }
             }
         }
     }

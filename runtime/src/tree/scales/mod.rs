@@ -1,4 +1,4 @@
-//! Energies by scale and the transfers between scales (`docs/physics.md`, section 16).
+//! Energies by scale and the transfers between scales (`docs/physics.md`, section 18).
 //!
 //! Parts of all quantities in all scales come from fast means; the flow of a scale's
 //! energy is one solve with the mass matrix, whose factors all scales share. All of it
