@@ -28,6 +28,7 @@ mod rate_symbols;
 pub mod sectors;
 mod series;
 mod show;
+mod show_transverse;
 mod small;
 mod symmetric;
 mod transfer;

@@ -32,6 +32,7 @@ mod resolve;
 mod rule;
 mod sectors;
 mod singular;
+mod small_sectors;
 mod symbols;
 mod template;
 mod text;
