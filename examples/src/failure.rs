@@ -6,11 +6,16 @@ use std::path::PathBuf;
 
 use branched_pendulum::ParameterError;
 use branched_pendulum::analysis::advice::AdviceError;
+use branched_pendulum::analysis::growth::GrowthError;
+use branched_pendulum::analysis::statistics::StatisticsError;
 use branched_pendulum::analysis::truncation::TruncationError;
 use branched_pendulum::analysis::{ModesError, SectorModesError, SmoothingError, SpectrumError};
 use branched_pendulum::approximate::LinearError;
 use branched_pendulum_charts::ChartError;
 use branched_pendulum_data::{CsvError, ReadError};
+
+use crate::program::sealed::SealError;
+use crate::program::sweep::SweepError;
 
 /// Why a program could not finish. Causes are told by `source`, once each.
 #[derive(Debug, thiserror::Error)]
@@ -27,6 +32,14 @@ pub enum Failure {
         /// The integrator's error, whatever the precision it ran in.
         source: Box<dyn Error + Send + Sync>,
     },
+    /// A start of a cascade whose numbers are no longer finite.
+    #[error("start {start} has diverged at {time:.1} s: take more `--steps`")]
+    Diverged {
+        /// Its number.
+        start: usize,
+        /// Time, s.
+        time: f64,
+    },
     /// The linear modes could not be found.
     #[error("the linear modes could not be found")]
     Modes(#[from] ModesError),
@@ -34,7 +47,7 @@ pub enum Failure {
     #[error("the linear modes of the sectors could not be found")]
     SectorModes(#[from] SectorModesError),
     /// A spectrum could not be taken.
-    #[error("the spectrum of θ_m could not be taken")]
+    #[error("the spectrum could not be taken")]
     Spectrum(#[from] SpectrumError),
     /// There is no linear model of small motions.
     #[error("the linear model could not be made")]
@@ -45,6 +58,12 @@ pub enum Failure {
     /// Forms of W could not be compared.
     #[error("the forms of W could not be compared")]
     Truncation(#[from] TruncationError),
+    /// The growth of differences could not be found.
+    #[error("the growth of differences could not be found")]
+    Growth(#[from] GrowthError),
+    /// A tree without copies that move alike.
+    #[error("the tree has no pair that moves in phase")]
+    NoPair,
     /// There is no advice.
     #[error("there is no advice")]
     Advice(#[from] AdviceError),
@@ -52,12 +71,22 @@ pub enum Failure {
     #[error("the measurements could not be read")]
     Reading(#[from] ReadError),
     /// A file holds another number of links than the pendulum.
-    #[error("{} holds angles of {found} links where the pendulum has 3; name them by `--columns` or `--dots`", path.display())]
+    #[error("{} holds angles of {found} links where the pendulum has {needed}; name them by `--columns` or `--dots`", path.display())]
     Links {
         /// The file.
         path: PathBuf,
         /// Number of links found.
         found: usize,
+        /// Number of links of the pendulum.
+        needed: usize,
+    },
+    /// A file of constants is none.
+    #[error("{} is no table of names and values", path.display())]
+    Parameters {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Box<dyn Error + Send + Sync>,
     },
     /// Measured angles could not be smoothed.
     #[error("the motion could not be estimated")]
@@ -78,6 +107,28 @@ pub enum Failure {
         /// The system's error.
         source: io::Error,
     },
+    /// A file could not be read.
+    #[error("cannot read {}", path.display())]
+    Unread {
+        /// The file.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// A checkpoint or a part of a sweep cannot be used.
+    #[error("cannot go on from {}; without it the run begins anew", path.display())]
+    Sealed {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: SealError,
+    },
+    /// Shards do not make a whole.
+    #[error("the shards do not make a whole")]
+    Sweep(#[from] SweepError),
+    /// There is no average.
+    #[error("there is no average")]
+    Statistics(#[from] StatisticsError),
     /// A table could not be written.
     #[error("a table could not be written")]
     Csv(#[from] CsvError),
@@ -107,6 +158,7 @@ mod tests {
     use super::Failure;
     use crate::program::messages;
     use branched_pendulum::analysis::advice::AdviceError;
+    use branched_pendulum::analysis::growth::GrowthError;
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
@@ -203,6 +255,7 @@ mod tests {
             Box::new(Failure::Linear(LinearError::NotFinite)),
             Box::new(Failure::Frames(Box::new(request()))),
             Box::new(Failure::Truncation(truncation())),
+            Box::new(Failure::Growth(GrowthError::Integration(request()))),
             Box::new(Failure::Advice(AdviceError::Request("a start"))),
             Box::new(Failure::Advice(AdviceError::Reference(Box::new(
                 integration(),

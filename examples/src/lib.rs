@@ -7,11 +7,15 @@
 pub mod advise;
 pub mod analyse;
 pub mod branched_double;
+pub mod cascade;
+pub mod critical_angle;
 pub mod energy_cascade;
 pub mod failure;
+pub mod film;
 pub mod integration_speed;
 pub mod program;
 pub mod quadrature;
+pub mod release_map;
 pub mod solvers;
 pub mod stability_map;
 pub mod swaying_branch;

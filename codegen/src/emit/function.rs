@@ -282,7 +282,8 @@ impl Emission<'_> {
             | Argument::Sums
             | Argument::Elimination
             | Argument::Carried
-            | Argument::Pivot => quote!(let [#(#elements),*] = #array;),
+            | Argument::Pivot
+            | Argument::Given(_) => quote!(let [#(#elements),*] = #array;),
             _ => quote!(let [#(#elements),*] = *#array;),
         }
     }

@@ -23,6 +23,7 @@ mod small;
 mod strip_docs;
 mod strip_forced;
 mod strip_powers;
+mod strip_scales;
 mod strip_tables;
 mod strips;
 mod stub;

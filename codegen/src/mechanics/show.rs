@@ -2,8 +2,8 @@
 
 use super::expression::{Expr, SymbolId};
 use super::{
-    Counting, DriveTerms, Frame, LinkBalance, LinkPositions, MatrixEntry, MeanTree, Mechanics,
-    OrbitMechanics, RelativePosition, Temporal, TransferParts, text,
+    Counting, DriveTerms, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree,
+    Mechanics, OrbitMechanics, RelativePosition, Temporal, TransferParts, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
@@ -182,6 +182,11 @@ impl Mechanics {
         for (index, bias) in frame.bias.iter().enumerate() {
             self.line(f, &format!("b[{}]", index + 1), bias)?;
         }
+        for torque in &frame.torques {
+            if let Some(formula) = torque.formula() {
+                self.line(f, &self.name(torque.symbol), &formula)?;
+            }
+        }
         for (index, force) in frame.drive.iter().enumerate() {
             if !force.is_zero() {
                 self.line(f, &format!("Q[{}]", index + 1), force)?;
@@ -198,7 +203,9 @@ impl Mechanics {
 
     fn link(&self, f: &mut fmt::Formatter<'_>, link: &LinkBalance) -> fmt::Result {
         writeln!(f, "one link, with the subtrees on one pivot of it")?;
-        link.formulas(&self.symbols)
+        let mut formulas = link.formulas(&self.symbols);
+        formulas.extend(self.scales.iter().flat_map(LinkScales::formulas));
+        formulas
             .iter()
             .try_for_each(|formula| self.line(f, &formula.left, &formula.right))
     }

@@ -33,6 +33,9 @@ pub struct TransverseFormulas {
     pub transfer: Expr,
     /// The power of friction and drag on it; zero without both.
     pub friction: Expr,
+    /// True if that power depends on the in-phase motion, as it does where friction is not
+    /// viscous.
+    pub braked: bool,
 }
 
 /// All sectors, with the accelerations of the in-phase motion that drive them.
@@ -145,6 +148,10 @@ impl Derivation<'_> {
             energy: shared(&energy),
             transfer: shared(&transfer),
             friction: shared(&friction),
+            braked: frame
+                .torques
+                .iter()
+                .any(|torque| friction.symbols().contains(&torque.slope)),
             sector,
         }
     }
@@ -160,7 +167,7 @@ impl Derivation<'_> {
     ) -> Formula {
         let terms = block.map(|j| {
             let stiffness = self.partial(function, frame.coordinates[j]);
-            let damping = function.derivative(frame.velocities[j]);
+            let damping = self.velocity_slope(frame, function, frame.velocities[j]);
             &(&stiffness * &small.difference(j)) + &(&damping * &small.rate(j))
         });
         terms.sum::<Formula>().expand()

@@ -1,6 +1,6 @@
 //! Entry points: purpose, arguments and shape of the functions that code has.
 
-use super::ValueId;
+use super::{ScaleFunction, ValueId};
 use crate::mechanics::Counting;
 
 /// An argument of an entry point: an array, but for the time.
@@ -57,6 +57,8 @@ pub enum Argument {
     Carried,
     /// Apparent gravity at a link's pivot.
     Pivot,
+    /// Numbers that a function of energies by scale takes beside constants and motion.
+    Given(ScaleFunction),
 }
 
 /// The shape in which an entry point returns its outputs.
@@ -239,6 +241,8 @@ pub enum Purpose {
     LinkProperties,
     /// A function of the recursion, for one link of a tree in loops.
     Link(LinkFunction),
+    /// A function of energies by scale, for one link of a tree in loops.
+    Scale(ScaleFunction),
     /// Apparent gravity at the root's pivot of a tree in loops, in reduced units.
     RootGravity,
     /// Contribution of the drive to that, and its torque on the root, in reduced units.

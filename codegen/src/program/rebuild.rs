@@ -80,7 +80,8 @@ impl<'a> Rebuilt<'a> {
             | Argument::Sums
             | Argument::Elimination
             | Argument::Carried
-            | Argument::Pivot => return self.given.get(&(argument, index)).copied(),
+            | Argument::Pivot
+            | Argument::Given(_) => return self.given.get(&(argument, index)).copied(),
         };
         symbols.get(index).copied()
     }

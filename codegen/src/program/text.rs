@@ -28,6 +28,7 @@ impl Argument {
             Self::Elimination => "elimination",
             Self::Carried => "carried",
             Self::Pivot => "pivot",
+            Self::Given(_) => "given",
         }
     }
 }

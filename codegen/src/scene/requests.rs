@@ -33,6 +33,7 @@ const BUDGET_FORMS: &[&str] = &[
     "velocity",
     "rest",
     "matrix",
+    "scales",
     "angle",
     "amplitude",
     "small",
@@ -54,7 +55,7 @@ pub(super) struct Resolved {
     transfer: Option<Span>,
     /// Place of the first order of the transfer that is written.
     transfer_order: Option<Span>,
-    budget: Option<Span>,
+    pub(super) budget: Option<Span>,
     /// Place of `transverse`.
     pub(super) transverse: Option<Span>,
     /// Place of `small`, and the names of the sectors whose differences act back.
@@ -205,6 +206,7 @@ fn budget(
             "velocity" => Some(&mut request.velocity),
             "rest" => Some(&mut request.rest),
             "matrix" => Some(&mut request.matrix),
+            "scales" => Some(&mut request.scales),
             _ => None,
         };
         match (flag, text.as_str()) {
@@ -240,6 +242,12 @@ fn budget(
             }
         }
         seen.push((text, order));
+    }
+    if request.scales {
+        let others = |form: &&RequestForm| form.name != "scales" && form.name != "parseval";
+        if let Some(form) = forms.iter().find(others) {
+            report.error(form.name.span(), OutputMessage::BesideScales);
+        }
     }
     if request.amplitude_orders.is_empty()
         && request.angle_orders.is_empty()
@@ -356,7 +364,10 @@ pub(super) fn check_symmetry(
         let needy = [
             (resolved.symmetric, "symmetric"),
             (resolved.transfer, "transfer"),
-            (resolved.budget, "budget"),
+            (
+                resolved.budget.filter(|_| !resolved.requests.scales()),
+                "budget",
+            ),
         ];
         for (span, request) in needy {
             if let Some(span) = span {

@@ -69,6 +69,19 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     let links = expansion.links.len();
     let layout =
         by_rule.unwrap_or_else(|| layout::of_links(code, links, &templates, &asked, report));
+    let by_scale = resolved
+        .requests
+        .scales()
+        .then_some(resolved.budget)
+        .flatten();
+    let branches = matches!(layout, Layout::Generations { branching: 2.., .. });
+    if let Some(span) = by_scale
+        && readable
+        && !(branches && reduction.is_none())
+    {
+        report.error(span, OutputMessage::ScalesWithoutRule);
+        return None;
+    }
     if let Some(root) = templates.first()
         && layout == Layout::Unrolled
         && !check_pairs(&expansion.links, root.span, report)
@@ -157,6 +170,7 @@ fn gravity(
         Some(Property {
             name,
             value: Value::Pair(..),
+            ..
         }) => {
             let message = TreeMessage::NotAPoint {
                 name: name.to_string(),

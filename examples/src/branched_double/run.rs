@@ -3,7 +3,9 @@
 use serde_json::json;
 
 use super::table;
-use super::{Apparatus, Arguments, Findings, Frequencies, Run, charts, growth, samples, scenes};
+use super::{
+    Apparatus, Arguments, Findings, Frequencies, Run, charts, film, growth, lines, samples, scenes,
+};
 use crate::failure::Failure;
 use crate::program::Job;
 
@@ -27,8 +29,15 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let report = table::report(arguments, &apparatus, frequencies, &runs, &findings);
     let bands = growth::report(&runs, &findings);
     job.print(&format!("{report}\n{bands}\n"))?;
+    if let Some(gentlest) = runs.first() {
+        let lines = lines::of(gentlest, arguments.rate)?;
+        job.print(&format!("{}\n", lines::report(gentlest.angle_deg, &lines)))?;
+    }
     charts::write(job, arguments, frequencies, &runs)?;
     growth::write(job, arguments, &runs, &findings)?;
+    if arguments.animate {
+        film::write(job, arguments, &runs)?;
+    }
     let work = runs.iter().map(|run| {
         json!({
             "angle_deg": run.angle_deg,

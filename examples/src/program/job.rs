@@ -7,16 +7,22 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-use branched_pendulum_charts::Chart;
+use branched_pendulum_charts::{Chart, Film};
 use branched_pendulum_data::{Column, CsvError, CsvWriter};
 use serde_json::{Map, Value, json};
 
-use super::files::{Ledger, Part, SharedLedger, locked};
+use super::checkpoint::CHECKPOINT;
+use super::files::{Ledger, Part, SharedLedger, locked, replace};
+use super::interrupt::Interruption;
 use super::progress::Progress;
+use super::sealed::RunIdentity;
 use crate::failure::Failure;
 
 /// Name of the record of a run.
 pub const RECORD: &str = "run.json";
+
+/// Options that say how a run is computed, and which part of it, but not what.
+const MANNER: [&str; 4] = ["shard", "merge", "threads", "checkpoint"];
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,15 +68,19 @@ impl Record {
         };
         let mut files = ledger.files.clone();
         files.retain(|file| file != RECORD);
-        if files.is_empty() {
+        let goes_on = folder.join(CHECKPOINT).exists();
+        if files.is_empty() && !goes_on {
             if self.made {
                 let _ = fs::remove_dir(folder);
             }
             return Ok(Some("no file was finished".to_owned()));
         }
-        let count = files.len();
-        let plural = if count == 1 { "file is" } else { "files are" };
-        let left = format!("{count} {plural} in {}", folder.display());
+        let shown = folder.display();
+        let left = match files.len() {
+            _ if goes_on => format!("the same command goes on from the checkpoint in {shown}"),
+            1 => format!("1 file is in {shown}"),
+            count => format!("{count} files are in {shown}"),
+        };
         if std::mem::replace(&mut self.closed, true) {
             return Ok(Some(left));
         }
@@ -88,13 +98,9 @@ impl Record {
             "ended": ended,
             "files": files,
         });
-        let (part, path) = (folder.join(".run.json.part"), folder.join(RECORD));
-        let written = fs::write(&part, format!("{record:#}\n"));
-        let written = written.and_then(|()| fs::rename(&part, &path));
-        written.map_err(|source| {
-            let _ = fs::remove_file(&part);
-            Failure::File { path, source }
-        })?;
+        let path = folder.join(RECORD);
+        replace(&path, format!("{record:#}\n").as_bytes())
+            .map_err(|source| Failure::File { path, source })?;
         ledger.files.push(RECORD.to_owned());
         Ok(Some(left))
     }
@@ -117,6 +123,7 @@ pub struct Job {
     pub(super) record: Arc<Mutex<Record>>,
     pub(super) ledger: SharedLedger,
     pub(super) progress: Arc<Mutex<Progress>>,
+    pub(super) interruption: Arc<Interruption>,
     folder: Option<PathBuf>,
     /// Nobody reads the standard output any more.
     closed: Cell<bool>,
@@ -157,6 +164,7 @@ impl Job {
             record: Arc::new(Mutex::new(record)),
             ledger,
             progress: Arc::default(),
+            interruption: Arc::default(),
             folder,
             closed: Cell::new(false),
             kept: None,
@@ -202,6 +210,12 @@ impl Job {
         }
     }
 
+    /// What a run of a test would have printed.
+    pub fn printed(&self) -> String {
+        let kept = self.kept.as_ref();
+        kept.map_or(String::new(), |kept| kept.borrow().clone())
+    }
+
     /// Shows the progress of `parts` parts from now on.
     pub fn progress(&self, parts: usize) -> Progress {
         let progress = Progress::new(parts);
@@ -209,10 +223,39 @@ impl Job {
         progress
     }
 
+    /// Takes Ctrl-C from now on: it ends the run no more, but
+    /// [`is_interrupted`](Self::is_interrupted) says that it came, for a program that
+    /// then stops its work and writes what there is. A second one ends the run.
+    pub fn take_interruption(&self) {
+        self.interruption.take();
+    }
+
+    /// Returns true where Ctrl-C came that the program takes.
+    pub fn is_interrupted(&self) -> bool {
+        self.interruption.signal().is_some()
+    }
+
     /// Puts a value into the record.
     pub fn report(&self, name: &str, value: impl Into<Value>) {
         let mut record = locked(&self.record);
         record.report.insert(name.to_owned(), value.into());
+    }
+
+    /// The folder of results, if there is one.
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
+    /// What the run computes, whichever part of it this process does.
+    pub fn identity(&self) -> RunIdentity {
+        let record = locked(&self.record);
+        let mut arguments = record.arguments.clone();
+        arguments.retain(|name, _| !MANNER.contains(&name.as_str()));
+        RunIdentity {
+            program: record.program.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            arguments: Value::Object(arguments).to_string(),
+        }
     }
 
     /// Writes a file of results, if there is a folder for them.
@@ -260,6 +303,18 @@ impl Job {
         }
         self.write(&format!("{name}.svg"), chart.to_svg()?.as_bytes())?;
         self.write(&format!("{name}.png"), &chart.to_png()?)
+    }
+
+    /// Writes a film as SVG and as animated PNG; `name` has no extension.
+    ///
+    /// # Errors
+    /// [`Failure::Chart`] or [`Failure::File`].
+    pub fn film(&self, name: &str, film: &Film) -> Result<(), Failure> {
+        if self.folder.is_none() {
+            return Ok(());
+        }
+        self.write(&format!("{name}.svg"), film.to_svg()?.as_bytes())?;
+        self.write(&format!("{name}.png"), &film.to_png()?)
     }
 
     /// Names of the files that are complete, in the order of writing.

@@ -10,18 +10,23 @@
 //! command line, 130 after Ctrl-C and 143 where it was told to end. All but the
 //! first say so in one line, with the folder of what was finished.
 
+pub mod checkpoint;
 pub mod command_line;
 pub mod files;
 mod interrupt;
 pub mod job;
 pub mod progress;
+pub mod sealed;
+pub mod sweep;
 
 use std::error::Error;
 use std::process::ExitCode;
 
+pub use checkpoint::Checkpoint;
 pub use command_line::{Arguments, Results};
 pub use job::{Ended, Job};
 pub use progress::Progress;
+pub use sweep::Sharding;
 
 use crate::failure::Failure;
 
@@ -39,7 +44,10 @@ pub fn main<A: Arguments>(run: impl FnOnce(&A, &Job) -> Result<(), Failure>) -> 
         }
     };
     let name = A::command().get_name().to_owned();
-    let folder = arguments.results().output.clone();
+    let mut folder = arguments.results().output.clone();
+    if let (Some(folder), Some(shard)) = (&mut folder, arguments.shard()) {
+        folder.push(shard.folder());
+    }
     let job = match Job::start(&name, folder, given) {
         Ok(job) => job,
         Err(failure) => {
@@ -49,12 +57,18 @@ pub fn main<A: Arguments>(run: impl FnOnce(&A, &Job) -> Result<(), Failure>) -> 
     };
     interrupt::watch(&job);
     let result = run(&arguments, &job);
+    let signal = job.interruption.signal();
     let ended = match &result {
+        Ok(()) if signal.is_some() => Ended::Interrupted,
         Ok(()) | Err(Failure::Closed) => Ended::Finished,
         Err(failure) => Ended::Failed(messages(failure).join(": ")),
     };
     let left = job.end(&ended);
     let left = left.map(|left| left.map_or(String::new(), |left| format!("; {left}")));
+    if let (Ok(()), Ok(left), Some(signal)) = (&result, &left, signal) {
+        say(&name, &format!("interrupted{left}"));
+        return ExitCode::from(u8::try_from(128 + signal).unwrap_or(1));
+    }
     match (result, left) {
         (Ok(()), Ok(_)) if !job.is_closed() => ExitCode::SUCCESS,
         (Ok(()) | Err(Failure::Closed), Ok(left)) => {

@@ -61,6 +61,11 @@ impl Progress {
         }
     }
 
+    /// Shows what has been reached beside the bar.
+    pub fn tell(&self, what: &str) {
+        self.bar.set_message(what.to_owned());
+    }
+
     /// Shows that of the part `index` the share `share` is done, 0 to 1.
     pub fn within(&self, index: usize, share: f64) {
         let mut done = locked(&self.done);

@@ -4,6 +4,7 @@
 //! Hairer's estimate of the first step. Errors are scaled: one is the largest
 //! that the tolerances allow.
 
+use super::checkpoint::Memory;
 use super::options::Options;
 use crate::scalar::Real;
 
@@ -52,6 +53,12 @@ impl<T: Real> StepControl<T> {
     pub(crate) fn forget(&mut self) {
         self.previous_error = T::from_f64(SMALLEST_REMEMBERED_ERROR);
         self.after_rejection = false;
+    }
+
+    /// Saves or restores what it knows of earlier steps.
+    pub(crate) fn remember(&mut self, memory: &mut Memory<T>) {
+        memory.number(&mut self.previous_error);
+        memory.flag(&mut self.after_rejection);
     }
 
     /// Judges a step by its scaled error: it was `made` long and `planned` to be,

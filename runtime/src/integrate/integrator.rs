@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use core::convert::Infallible;
 use core::ops::ControlFlow;
 
+use super::checkpoint::Checkpoint;
 use super::dense::DenseStep;
 use super::error::{InputError, IntegrationError, RunError};
 use super::events::{Event, Occurrence};
@@ -70,6 +71,24 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         O: Sized,
     {
         Stepper::new(self, ode, start)
+    }
+
+    /// Takes a motion up where [`Stepper::checkpoint`] laid it down. Method and equations
+    /// must be those of then, which nothing can check but the lengths.
+    ///
+    /// # Errors
+    ///
+    /// [`IntegrationError::Input`].
+    fn resume(
+        &self,
+        ode: O,
+        checkpoint: &Checkpoint<T>,
+    ) -> Result<Stepper<Self, O, T>, IntegrationError<T>>
+    where
+        Self: Sized,
+        O: Sized,
+    {
+        Stepper::resumed(self, ode, checkpoint)
     }
 
     /// Integrates from `start` to the time `end`, which may lie before it.

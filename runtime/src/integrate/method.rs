@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::str::FromStr;
 
+use super::checkpoint::Memory;
 use super::error::InputError;
 use super::evaluator::{Evaluator, NonFinite};
 use super::explicit::{Dop853, Dopri5, Verner98};
@@ -330,6 +331,10 @@ impl<T: Real, O: TaylorOde<T> + ?Sized> Steps<T, O> for AnySteps<T, O> {
 
     fn restart(&mut self, values: &[T]) {
         of_any!(self, steps => Steps::<T, O>::restart(steps, values));
+    }
+
+    fn remember(&mut self, memory: &mut Memory<T>) {
+        of_any!(self, steps => Steps::<T, O>::remember(steps, memory));
     }
 }
 

@@ -22,6 +22,7 @@
 //! Every run ends with a [`Report`]; a run that fails ends with an
 //! [`IntegrationError`] that carries the last good state.
 
+mod checkpoint;
 mod control;
 mod dense;
 mod error;
@@ -44,6 +45,7 @@ mod steps;
 mod taylor;
 mod trajectory;
 
+pub use checkpoint::Checkpoint;
 pub use dense::{DenseError, DenseStep};
 pub use error::{InputError, Inseparable, IntegrationError, RunError};
 pub use events::{Crossing, Event, Occurrence};

@@ -1,10 +1,12 @@
 //! A run under way, whoever asks for its steps.
 
+use alloc::vec::Vec;
 use core::borrow::Borrow;
 use core::marker::PhantomData;
 
+use super::checkpoint::Memory;
 use super::dense::{DenseError, DenseStep, Made};
-use super::error::{IntegrationError, RunError};
+use super::error::{InputError, IntegrationError, RunError};
 use super::evaluator::{Evaluator, NonFinite};
 use super::integrator::Integrator;
 use super::piece::Piece;
@@ -142,6 +144,34 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         self.steps.restart(values);
         self.times = [time; 2];
         self.made = false;
+    }
+
+    /// Saves what the method remembers: the end of the last step is the start of the next
+    /// one then.
+    pub(super) fn save(&mut self) -> Vec<T> {
+        if self.made {
+            self.steps.advance();
+            self.made = false;
+            self.times[0] = self.times[1];
+        }
+        let mut memory = Memory::new();
+        self.steps.remember(&mut memory);
+        memory.into_numbers()
+    }
+
+    /// Restores that, with the account of the steps before.
+    pub(super) fn restore(
+        &mut self,
+        numbers: &[T],
+        report: &Report<T>,
+    ) -> Result<(), InputError<T>> {
+        let mut memory = Memory::of(numbers);
+        self.steps.remember(&mut memory);
+        self.report = *report;
+        match memory.counts() {
+            (found, expected) if found == expected => Ok(()),
+            (found, expected) => Err(InputError::Checkpoint { expected, found }),
+        }
     }
 
     /// The end of the run.

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
+use super::checkpoint::Checkpoint;
 use super::dense::{DenseStep, Made};
 use super::error::{InputError, IntegrationError};
 use super::integrator::Integrator;
@@ -119,6 +120,74 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
             is_inside: false,
             inside: start.values.clone(),
             changed: false,
+        })
+    }
+
+    pub(super) fn resumed(
+        method: &M,
+        ode: O,
+        checkpoint: &Checkpoint<T>,
+    ) -> Result<Self, IntegrationError<T>> {
+        let Checkpoint {
+            time,
+            residue,
+            reached,
+            direction,
+            report,
+            memory,
+        } = checkpoint;
+        let mut stepper = Self::new(method, ode, reached)?;
+        stepper.run.restore(memory, report)?;
+        (stepper.time, stepper.residue) = (*time, *residue);
+        stepper.direction = *direction;
+        Ok(stepper)
+    }
+
+    /// Lays the motion down as it is now: this one and one that
+    /// [`Integrator::resume`] takes up from there go on with the same bits.
+    ///
+    /// Between two steps nothing changes by it. At a frame inside a step, and after changes of state or
+    /// equations, the method starts anew from the present state, in this
+    /// motion as in the other.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError::Dimension`] where the equations are no longer those of the state.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use branched_pendulum::prelude::*;
+    /// use branched_pendulum::system::OdeFn;
+    ///
+    /// let swing = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+    ///     rates[0] = y[1];
+    ///     rates[1] = -y[0].sin();
+    /// });
+    /// let method = Dop853::new(Options::with_tolerance(1e-10));
+    /// let mut stepper = method.start(&swing, &State::new(0.0, vec![2.0, 0.0]))?;
+    /// for _ in 0..10 {
+    ///     stepper.step()?;
+    /// }
+    /// let mut other = method.resume(&swing, &stepper.checkpoint()?)?;
+    /// for _ in 0..100 {
+    ///     assert_eq!(other.step()?.end(), stepper.step()?.end());
+    /// }
+    /// assert_eq!(other.report(), stepper.report());
+    /// # Ok::<(), IntegrationError<f64>>(())
+    /// ```
+    pub fn checkpoint(&mut self) -> Result<Checkpoint<T>, InputError<T>> {
+        if self.changed || self.is_inside {
+            self.start_anew(self.direction)?;
+        }
+        let memory = self.run.save();
+        Ok(Checkpoint {
+            time: self.time,
+            residue: self.residue,
+            reached: State::new(self.run.time(), self.run.state().to_vec()),
+            direction: self.direction,
+            report: *self.run.report(),
+            memory,
         })
     }
 

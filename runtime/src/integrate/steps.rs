@@ -3,6 +3,7 @@
 // A sealed trait names the types.
 #![allow(unreachable_pub)]
 
+use super::checkpoint::Memory;
 use super::error::IntegrationError;
 use super::evaluator::{Evaluator, NonFinite};
 use super::options::Options;
@@ -39,6 +40,10 @@ pub trait Steps<T: Real, O: ?Sized> {
     /// Starts anew from `values`, in a motion that need not be that of the steps
     /// before.
     fn restart(&mut self, values: &[T]);
+
+    /// Saves what the next step depends on, beside the state at its start, or restores
+    /// it.
+    fn remember(&mut self, memory: &mut Memory<T>);
 }
 
 /// Where steps lead.

@@ -1,10 +1,11 @@
 //! Runs that are stopped and go on.
 
-use branched_pendulum::integrate::Solver;
+use branched_pendulum::integrate::{InputError, Solver};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
+use branched_pendulum::system::{OdeFn, RatesOnly, TaylorOde};
 
 use crate::problems::{BranchedDouble, kepler, perihelion, watch};
+use crate::taylor::Mathematical;
 
 /// A step as it was seen: its ends, bit for bit.
 type Step = (f64, f64, Vec<f64>);
@@ -208,4 +209,87 @@ fn step_limits_in_length_are_kept() {
     .unwrap();
     assert!(solution.report.longest_step <= 0.05 * 1.01);
     assert!(solution.report.accepted >= 79);
+}
+
+/// Two motions, one of which goes through a checkpoint after each step: the same steps.
+fn through_checkpoints<M>(method: &M, ode: &dyn TaylorOde<f64>, start: &State<f64>)
+where
+    M: for<'a> Integrator<f64, &'a dyn TaylorOde<f64>>,
+{
+    let mut whole = method.start(ode, start).unwrap();
+    let mut parts = method.start(ode, start).unwrap();
+    for step in 0..60 {
+        // An end off the grid, and back again, on the way.
+        let end = match step {
+            0..20 => 7.0,
+            20..40 => 0.013,
+            _ => 100.0,
+        };
+        let (mut one, mut other) = (Vec::new(), Vec::new());
+        if let Some(step) = whole.step_to(end).unwrap() {
+            record(&mut one, &step);
+        }
+        if let Some(step) = parts.step_to(end).unwrap() {
+            record(&mut other, &step);
+        }
+        assert_eq!(one, other, "step {step}");
+        parts = method.resume(ode, &parts.checkpoint().unwrap()).unwrap();
+    }
+    assert_eq!(parts.report(), whole.report());
+    // At frames both lay the motion down.
+    for frame in 0..60 {
+        whole.advance(0.017).unwrap();
+        parts.advance(0.017).unwrap();
+        assert_eq!(parts.time(), whole.time());
+        assert_eq!(parts.state(), whole.state(), "frame {frame}");
+        whole.checkpoint().unwrap();
+        parts = method.resume(ode, &parts.checkpoint().unwrap()).unwrap();
+    }
+}
+
+#[test]
+fn checkpoints_keep_every_bit() {
+    let options = || Options {
+        beta: 0.04,
+        compensated: true,
+        ..Options::with_tolerance(1e-10)
+    };
+    let ode = kepler();
+    let start = perihelion(0.5);
+    fn on<M>(method: M, ode: &impl Ode<f64>, start: &State<f64>)
+    where
+        M: for<'a> Integrator<f64, &'a dyn TaylorOde<f64>>,
+    {
+        through_checkpoints(&method, &RatesOnly(ode), start);
+    }
+    on(Dopri5::new(options()), &ode, &start);
+    on(Dop853::new(options()), &ode, &start);
+    on(Verner98::new(options()), &ode, &start);
+    on(Rk4::new(0.01), &ode, &start);
+    on(Gauss::new(GaussOrder::Six, 0.05), &ode, &start);
+    let newton = Gauss {
+        solver: Solver::Newton,
+        ..Gauss::new(GaussOrder::Four, 0.05)
+    };
+    on(newton, &ode, &start);
+    on(Method::Dop853.with(1e-8), &ode, &start);
+    let series = Taylor::new(Options {
+        compensated: true,
+        ..Options::with_tolerance(1e-14)
+    });
+    through_checkpoints(&series, &Mathematical, &State::new(0.0, vec![2.0, 0.0]));
+}
+
+/// A checkpoint of another method is refused.
+#[test]
+fn a_checkpoint_is_of_one_method() {
+    let ode = kepler();
+    let mut stepper = Rk4::new(0.01).start(&ode, &perihelion(0.5)).unwrap();
+    stepper.step().unwrap();
+    let checkpoint = stepper.checkpoint().unwrap();
+    let refused = Dop853::new(Options::with_tolerance(1e-9)).resume(&ode, &checkpoint);
+    assert!(matches!(
+        refused.err(),
+        Some(IntegrationError::Input(InputError::Checkpoint { .. }))
+    ));
 }

@@ -35,6 +35,22 @@ fn runs_and_what_they_are_asked_for() {
     }
 }
 
+/// A checkpoint goes on from the file with the same bits.
+#[test]
+fn checkpoints() {
+    let ode = harmonic();
+    let method = Dop853::new(Options::with_tolerance(1e-9));
+    let start = State::at_rest(0.0, &[1.0 / 3.0]);
+    let mut stepper = method.start(&ode, &start).unwrap();
+    for _ in 0..20 {
+        stepper.step().unwrap();
+        let checkpoint = stepper.checkpoint().unwrap();
+        assert_eq!(read_back(&checkpoint), checkpoint);
+        let mut resumed = method.resume(&ode, &read_back(&checkpoint)).unwrap();
+        assert_eq!(resumed.step().unwrap().end(), stepper.step().unwrap().end());
+    }
+}
+
 #[test]
 fn trajectories() {
     let start = State::at_rest(0.0, &[1.0]);

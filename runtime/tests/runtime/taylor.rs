@@ -6,7 +6,7 @@ use branched_pendulum::system::TaylorOde;
 use branched_pendulum::taylor::{self, Connectivity, KnownOrder, LinkConstants, Quad, Start};
 
 /// θ'' = −sin θ, by the recurrences that emitted code consists of.
-struct Mathematical;
+pub(crate) struct Mathematical;
 
 impl Connectivity<1> for Mathematical {
     const PARENTS: [usize; 1] = [0];

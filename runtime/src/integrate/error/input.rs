@@ -91,6 +91,13 @@ pub enum InputError<T> {
         /// Number of components given.
         found: usize,
     },
+    /// A checkpoint of another method, or of other equations.
+    Checkpoint {
+        /// Numbers that this method remembers.
+        expected: usize,
+        /// Numbers of the checkpoint.
+        found: usize,
+    },
     /// A system of an ensemble in lanes has not as many constants as the first
     /// one: [`Cast`](crate::system::Cast) says what it takes.
     Constants {
@@ -239,6 +246,10 @@ impl<T: Real> fmt::Display for InputError<T> {
                     "the state has {found} components, the equations have {expected}"
                 )
             }
+            Self::Checkpoint { expected, found } => write!(
+                f,
+                "the checkpoint has {found} numbers of a method, this one remembers {expected}"
+            ),
             Self::Constants { expected, found } => write!(
                 f,
                 "the system converts {found} constants, the first of the ensemble {expected}: \

@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 use super::ExplicitRungeKutta;
 use super::pair::EmbeddedPair;
 use super::stages::{RightHandSide, StepSpan, StepStages};
+use crate::integrate::checkpoint::Memory;
 use crate::integrate::control::{FirstStep, StepControl, Verdict};
 use crate::integrate::error::InputError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
@@ -164,6 +165,14 @@ impl<M: EmbeddedPair, T: Real, O: Ode<T> + ?Sized> Steps<T, O> for PairSteps<M, 
         self.stages.restart(values);
         self.control.forget();
         self.next = None;
+    }
+
+    fn remember(&mut self, memory: &mut Memory<T>) {
+        memory.optional(&mut self.next);
+        self.control.remember(memory);
+        let n = self.stages.start.len();
+        memory.numbers(&mut self.stages.rates[..n]);
+        memory.numbers(&mut self.stages.start_residue);
     }
 }
 

@@ -9,6 +9,7 @@ use core::marker::PhantomData;
 
 use super::grid::FixedStep;
 use super::projected::Corrected;
+use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::piece::{Form, Piece};
 use crate::integrate::steps::Failure;
@@ -94,6 +95,10 @@ impl<F: ExplicitFormula<T, O>, T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for 
 
     fn set_start(&mut self, values: &[T]) {
         self.start.copy_from_slice(values);
+    }
+
+    fn remember(&mut self, memory: &mut Memory<T>) {
+        memory.numbers(&mut self.start_rates);
     }
 }
 

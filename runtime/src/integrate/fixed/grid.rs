@@ -3,6 +3,7 @@
 // A sealed trait names the types.
 #![allow(unreachable_pub)]
 
+use crate::integrate::checkpoint::Memory;
 use crate::integrate::error::InputError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::piece::Piece;
@@ -30,6 +31,10 @@ pub trait FixedStep<T: Real, O: ?Sized> {
 
     /// Takes these values for the start of the next step.
     fn set_start(&mut self, values: &[T]);
+
+    /// Saves what the next step depends on, beside the state at its start, or restores
+    /// it.
+    fn remember(&mut self, memory: &mut Memory<T>);
 }
 
 /// Length and limits of the steps.
@@ -186,5 +191,16 @@ impl<S: FixedStep<T, O>, T: Real, O: ?Sized> Steps<T, O> for GridSteps<S, T> {
     fn restart(&mut self, values: &[T]) {
         self.method.set_start(values);
         self.origin = None;
+    }
+
+    fn remember(&mut self, memory: &mut Memory<T>) {
+        memory.optional(&mut self.origin);
+        memory.number(&mut self.number);
+        let mut halved = self.halved as usize;
+        memory.count(&mut halved, self.grid.halvings as usize);
+        self.halved = halved as u32;
+        memory.number(&mut self.length);
+        memory.number(&mut self.left);
+        self.method.remember(memory);
     }
 }

@@ -3,6 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use crate::integrate::checkpoint::Memory;
 use crate::scalar::Real;
 
 /// A square matrix, factorised in place with row exchanges.
@@ -56,6 +57,14 @@ impl<T: Real> Factored<T> {
             }
         }
         true
+    }
+
+    /// Saves or restores the factors.
+    pub(super) fn remember(&mut self, memory: &mut Memory<T>) {
+        memory.numbers(&mut self.entries);
+        for pivot in &mut self.pivots {
+            memory.count(pivot, self.n - 1);
+        }
     }
 
     /// Replaces the right-hand side by the solution: 2n² operations.

@@ -8,6 +8,7 @@ use super::gauss::GaussStep;
 use super::grid::{FixedStep, Grid, GridSteps};
 use super::rk4::Rk4Formula;
 use super::{Gauss, Rk4};
+use crate::integrate::checkpoint::Memory;
 use crate::integrate::error::InputError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
@@ -273,5 +274,10 @@ impl<T: Real, O: ?Sized, S: Corrected<T, O>, I: FirstIntegral<T>> FixedStep<T, O
 
     fn set_start(&mut self, values: &[T]) {
         self.steps.set_start(values);
+    }
+
+    fn remember(&mut self, memory: &mut Memory<T>) {
+        memory.number(&mut self.level);
+        self.steps.remember(memory);
     }
 }

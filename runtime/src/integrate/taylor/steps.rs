@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 
 use super::polynomial::{Ahead, LastTerms};
 use super::root::least_inverse_roots;
+use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::options::Options;
 use crate::integrate::piece::{Form, Piece};
@@ -166,5 +167,10 @@ impl<T: Real, O: TaylorOde<T> + ?Sized> Steps<T, O> for TaylorSteps<T> {
     fn restart(&mut self, values: &[T]) {
         self.start.copy_from_slice(values);
         self.start_residue.fill(T::ZERO);
+    }
+
+    fn remember(&mut self, memory: &mut Memory<T>) {
+        memory.flag(&mut self.first);
+        memory.numbers(&mut self.start_residue);
     }
 }

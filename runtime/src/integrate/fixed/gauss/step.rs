@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 
 use super::tables::GaussTable;
 use super::{Gauss, GaussOrder, Solver};
+use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::fixed::grid::FixedStep;
 use crate::integrate::fixed::linear::Factored;
@@ -182,6 +183,16 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for GaussStep<T> {
         for (size, value) in self.sizes.iter_mut().zip(values) {
             *size = size.max(value.abs());
         }
+    }
+
+    fn remember(&mut self, memory: &mut Memory<T>) {
+        memory.numbers(&mut self.residue);
+        memory.numbers(&mut self.sizes);
+        memory.numbers(&mut self.rates);
+        memory.numbers(&mut self.other);
+        memory.number(&mut self.step);
+        self.newton.remember(memory);
+        memory.number(&mut self.newton_step);
     }
 }
 

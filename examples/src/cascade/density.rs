@@ -1,0 +1,118 @@
+//! How often a power has which value.
+
+use serde::{Deserialize, Serialize};
+
+/// Powers below this share the middle bin, W.
+const LEAST: f64 = 1e-9;
+
+/// Bins in a factor of e.
+const BINS: f64 = 12.0;
+
+/// Bins on either side of the middle: up to 100 W and more.
+const SIDE: usize = 320;
+
+/// Counts of a power in bins that grow with it, and its moments. Counts of several starts
+/// add up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Density {
+    counts: Vec<u32>,
+    /// Sums of the power, its square and its cube.
+    sums: [f64; 3],
+}
+
+impl Default for Density {
+    fn default() -> Self {
+        Self {
+            counts: vec![0; 2 * SIDE + 1],
+            sums: [0.0; 3],
+        }
+    }
+}
+
+impl Density {
+    /// Counts a power.
+    pub fn count(&mut self, power: f64) {
+        let place = (BINS * (power / LEAST).asinh()).round() + SIDE as f64;
+        let last = self.counts.len() - 1;
+        if let Some(count) = self.counts.get_mut((place.max(0.0) as usize).min(last)) {
+            *count += 1;
+        }
+        for (order, sum) in self.sums.iter_mut().enumerate() {
+            *sum += power.powi(order as i32 + 1);
+        }
+    }
+
+    /// Adds the counts of another start.
+    pub fn add(&mut self, other: &Self) {
+        for (count, more) in self.counts.iter_mut().zip(&other.counts) {
+            *count += more;
+        }
+        for (sum, more) in self.sums.iter_mut().zip(other.sums) {
+            *sum += more;
+        }
+    }
+
+    /// Number of samples.
+    pub fn samples(&self) -> f64 {
+        self.counts.iter().map(|count| f64::from(*count)).sum()
+    }
+
+    /// Mean, standard deviation and skewness ⟨(W − W̄)³⟩/σ³.
+    pub fn moments(&self) -> [f64; 3] {
+        let number = self.samples();
+        let [first, second, third] = self.sums.map(|sum| sum / number);
+        let variance = second - first * first;
+        let cube = third - 3.0 * first * second + 2.0 * first.powi(3);
+        [first, variance.sqrt(), cube / variance.powf(1.5)]
+    }
+
+    /// The density of (W − W̄)/σ, at the middles of the bins that are not empty. Bins
+    /// narrower than `width` are joined.
+    pub fn standardised(&self, width: f64) -> Vec<(f64, f64)> {
+        let [mean, deviation, _] = self.moments();
+        let edge = |place: f64| LEAST * ((place - SIDE as f64) / BINS).sinh();
+        let mut points = Vec::new();
+        let (mut low, mut sum) = (edge(-0.5), 0.0);
+        for (place, count) in self.counts.iter().enumerate() {
+            sum += f64::from(*count);
+            let high = edge(place as f64 + 0.5);
+            if high - low < width * deviation {
+                continue;
+            }
+            if sum > 0.0 {
+                let middle = (0.5 * (low + high) - mean) / deviation;
+                points.push((middle, sum * deviation / (self.samples() * (high - low))));
+            }
+            (low, sum) = (high, 0.0);
+        }
+        points
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Density;
+
+    #[test]
+    fn moments_and_density_are_those_of_the_samples() {
+        let mut halves = [Density::default(), Density::default()];
+        // Exponentially distributed: mean, deviation 1, skewness 2.
+        for i in 0..100_000 {
+            let share = (f64::from(i) + 0.5) / 1e5;
+            halves[i as usize % 2].count(-(share.ln()));
+        }
+        let [mut all, other] = halves;
+        all.add(&other);
+        let [mean, deviation, skewness] = all.moments();
+        assert!((mean - 1.0).abs() < 1e-4 && (deviation - 1.0).abs() < 1e-3);
+        assert!((skewness - 2.0).abs() < 0.02);
+        for (place, density) in all.standardised(0.1) {
+            if (-0.8..3.0).contains(&place) {
+                assert!(
+                    (density / (-(place + 1.0)).exp() - 1.0).abs() < 0.05,
+                    "{place}"
+                );
+            }
+        }
+    }
+}

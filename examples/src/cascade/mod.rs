@@ -1,0 +1,66 @@
+//! A tree of rods on a driven root, friction in the youngest: does the energy go down the
+//! generations, and what is there of it at each scale?
+//!
+//! - [`arguments`]: the command line, [`scene`]: the trees, [`motor`]: the torque,
+//! - [`motion`]: all starts, window by window, with checkpoints, [`together`]: in lanes,
+//! - [`budget`]: energies and powers by scale, [`density`]: how often a flux has which value,
+//! - [`findings`]: averages with errors, [`report`]: tables, [`charts`]: charts,
+//!   [`picture`]: the tree in motion.
+
+pub mod arguments;
+pub mod budget;
+pub mod charts;
+pub mod density;
+pub mod findings;
+pub mod motion;
+pub mod motor;
+pub mod picture;
+pub mod report;
+pub mod scene;
+pub mod together;
+
+pub use arguments::Arguments;
+pub use findings::Findings;
+
+use crate::failure::Failure;
+use crate::program::{Checkpoint, Job, sweep};
+use motion::{film, follow};
+use scene::of_shape;
+
+/// Pictures of the film, and the time between two, s.
+const FRAMES: usize = 160;
+const INTERVAL: f64 = 0.05;
+
+/// Follows all starts, or those of a shard, or reads those of all shards; then says what
+/// they say together.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let shape = arguments.shape();
+    let starts = sweep::results(
+        job,
+        arguments.sharding,
+        arguments.starts as usize,
+        |items| of_shape!(shape, follow(arguments, job, items)),
+    )?;
+    if let Some(starts) = starts {
+        let findings = Findings::new(&shape, &starts);
+        report::write_windows(job, arguments, &starts)?;
+        report::write_scales(job, arguments, &findings)?;
+        let text = report::report(arguments, &starts, &findings);
+        job.print(&text)?;
+        job.write("report.md", text.as_bytes())?;
+        job.chart("course", &charts::course(arguments, &findings))?;
+        job.chart("scales", &charts::scales(arguments, &findings))?;
+        job.chart("densities", &charts::densities(&findings))?;
+        if let Some(first) = starts.first() {
+            let (states, interval) = of_shape!(shape, film(arguments, first, FRAMES, INTERVAL))?;
+            let svg = picture::animated(&shape, &states, interval);
+            job.write("tree.svg", svg.as_bytes())?;
+        }
+        job.report("steady", findings.is_steady());
+    }
+    Checkpoint::new(job, 0.0).discard();
+    Ok(())
+}

@@ -1,0 +1,240 @@
+//! The motion of all starts, window by window.
+
+use std::num::NonZeroUsize;
+
+use branched_pendulum::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::arguments::Arguments;
+use super::budget::{Budgets, ScaleBudget};
+use super::density::Density;
+use super::motor::{Motor, Random};
+use super::scene::RodTree;
+use super::together::Together;
+use crate::failure::Failure;
+use crate::program::{Checkpoint, Job};
+
+/// Quantities of each scale whose means over a window are kept.
+pub const QUANTITIES: usize = 4;
+
+/// One start, followed so far.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Followed {
+    /// Angles and velocities at the end.
+    pub state: Vec<f64>,
+    /// Means over the windows, one after the other: for each scale energy (J), power
+    /// received from the others, of the friction and of the motor (W).
+    pub windows: Vec<f64>,
+    /// For each scale but the first, how often what passes into it and all younger ones
+    /// has which value, in the second half of the time.
+    pub densities: Vec<Density>,
+}
+
+/// Some of the starts, at the end of a window.
+#[derive(Debug, Serialize, Deserialize)]
+struct Reached {
+    /// Their numbers.
+    items: Vec<usize>,
+    /// Windows done.
+    windows: usize,
+    starts: Vec<Followed>,
+}
+
+/// Starts that one thread moves at a time: some registers full.
+const TOGETHER: usize = 32;
+
+/// Follows the starts `items`, each from its own random numbers, from the checkpoint of
+/// `job` if there is one.
+///
+/// # Errors
+/// [`Failure`].
+pub fn follow<P: RodTree>(
+    arguments: &Arguments,
+    job: &Job,
+    items: &[usize],
+) -> Result<Vec<Followed>, Failure> {
+    let shape = arguments.shape();
+    let tree = P::of(&shape, arguments.friction, arguments.friction_ratio)?;
+    let free = P::of(&shape, 0.0, arguments.friction_ratio)?;
+    let (starts, motors): (Vec<_>, Vec<_>) = items
+        .iter()
+        .map(|&item| Followed::new(arguments, item))
+        .unzip();
+    let mut reached = Reached {
+        items: items.to_vec(),
+        windows: 0,
+        starts,
+    };
+    let mut checkpoint = Checkpoint::new(job, arguments.checkpoint);
+    if let Some(saved) = checkpoint.read::<Reached>()?
+        && saved.items == items
+    {
+        reached = saved;
+    }
+    let windows = arguments.windows();
+    let progress = job.progress(1);
+    progress.begin("starts");
+    let ensemble = NonZeroUsize::new(arguments.threads)
+        .map_or_else(Ensemble::new, |threads| Ensemble::new().threads(threads));
+    while reached.windows < windows {
+        let window = reached.windows;
+        let counts = 2 * window >= windows;
+        let groups: Vec<_> = reached
+            .starts
+            .chunks(TOGETHER)
+            .zip(motors.chunks(TOGETHER))
+            .collect();
+        let moved = ensemble.map(&groups, |_, (starts, motors)| {
+            let starts: Vec<_> = starts
+                .iter()
+                .map(|start| &start.state[..])
+                .zip(*motors)
+                .collect();
+            let mut together = Together::new(&tree, &starts);
+            let mut budgets = Budgets::new(shape, &tree, &free);
+            let mut means = vec![Window::new(shape.generations); starts.len()];
+            for step in 0..arguments.steps {
+                let place = u64::from(arguments.steps) * window as u64 + u64::from(step);
+                together.step(arguments.time(place), arguments.step());
+                if (step + 1) % (arguments.steps / arguments.samples) == 0 {
+                    for (start, (means, motor)) in means.iter_mut().zip(*motors).enumerate() {
+                        let state = together.state(start);
+                        let budgets = budgets.at(motor, arguments.time(place + 1), &state);
+                        means.add(budgets, counts);
+                    }
+                }
+            }
+            let ends = (0..starts.len()).map(|start| together.state(start));
+            ends.zip(means).collect::<Vec<_>>()
+        });
+        for (number, (start, (state, window))) in reached
+            .starts
+            .iter_mut()
+            .zip(moved.into_iter().flatten())
+            .enumerate()
+        {
+            if !state.iter().all(|value| value.is_finite()) {
+                return Err(Failure::Diverged {
+                    start: items[number],
+                    time: (reached.windows + 1) as f64 / arguments.frequency,
+                });
+            }
+            start.state = state;
+            start.windows.extend(window.means());
+            for (all, own) in start.densities.iter_mut().zip(&window.densities) {
+                all.add(own);
+            }
+        }
+        reached.windows += 1;
+        progress.within(0, reached.windows as f64 / windows as f64);
+        progress.tell(&format!(
+            "{:.4} J",
+            energy(&reached.starts, shape.generations)
+        ));
+        checkpoint.save(&reached)?;
+    }
+    Ok(reached.starts)
+}
+
+impl Followed {
+    /// The start of the number `item`, at rest, and its motor.
+    fn new(arguments: &Arguments, item: usize) -> (Self, Motor) {
+        let shape = arguments.shape();
+        let mut random = Random::of_start(arguments.seed, item);
+        let angles: Vec<f64> = (0..shape.links())
+            .map(|_| random.within(arguments.spread))
+            .collect();
+        let motor = Motor::new(arguments, &mut random);
+        let start = Self {
+            state: State::at_rest(0.0, &angles).values,
+            windows: Vec::new(),
+            densities: vec![Density::default(); shape.generations - 1],
+        };
+        (start, motor)
+    }
+}
+
+/// Mean energy of the trees in the last window, J.
+fn energy(starts: &[Followed], scales: usize) -> f64 {
+    let row = QUANTITIES * scales;
+    let last = starts
+        .iter()
+        .filter_map(|start| start.windows.rchunks(row).next());
+    let energies = last.map(|last| last.iter().step_by(QUANTITIES).sum::<f64>());
+    energies.sum::<f64>() / starts.len().max(1) as f64
+}
+
+/// Sums over one window of one start.
+#[derive(Clone)]
+struct Window {
+    sums: Vec<[f64; QUANTITIES]>,
+    samples: f64,
+    densities: Vec<Density>,
+}
+
+impl Window {
+    fn new(scales: usize) -> Self {
+        Self {
+            sums: vec![[0.0; QUANTITIES]; scales],
+            samples: 0.0,
+            densities: vec![Density::default(); scales - 1],
+        }
+    }
+
+    fn add(&mut self, budgets: &[ScaleBudget], counts: bool) {
+        self.samples += 1.0;
+        for (sums, budget) in self.sums.iter_mut().zip(budgets) {
+            let ScaleBudget {
+                energy,
+                received,
+                friction,
+                drive,
+            } = *budget;
+            for (sum, value) in sums.iter_mut().zip([energy, received, friction, drive]) {
+                *sum += value;
+            }
+        }
+        if counts {
+            let mut flux = 0.0;
+            let densities = self.densities.iter_mut().rev();
+            for (density, budget) in densities.zip(budgets.iter().rev()) {
+                flux += budget.received;
+                density.count(flux);
+            }
+        }
+    }
+
+    fn means(&self) -> impl Iterator<Item = f64> {
+        self.sums.iter().flatten().map(|sum| sum / self.samples)
+    }
+}
+
+/// The motion of the first start from where it was left, `frames` states that follow each other by about
+/// `interval` seconds, and by how many they do.
+///
+/// # Errors
+/// [`Failure`].
+pub fn film<P: RodTree>(
+    arguments: &Arguments,
+    start: &Followed,
+    frames: usize,
+    interval: f64,
+) -> Result<(Vec<Vec<f64>>, f64), Failure> {
+    let tree = P::of(
+        &arguments.shape(),
+        arguments.friction,
+        arguments.friction_ratio,
+    )?;
+    let (_, motor) = Followed::new(arguments, 0);
+    let mut together = Together::new(&tree, &[(&start.state, &motor)]);
+    let stride = (interval / arguments.step()).round().max(1.0) as u64;
+    let first = arguments.windows() as u64 * u64::from(arguments.steps);
+    let mut states = vec![start.state.clone()];
+    for frame in 1..frames as u64 {
+        for step in (frame - 1) * stride..frame * stride {
+            together.step(arguments.time(first + step), arguments.step());
+        }
+        states.push(together.state(0));
+    }
+    Ok((states, stride as f64 * arguments.step()))
+}

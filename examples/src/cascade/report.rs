@@ -1,0 +1,248 @@
+//! Words and tables.
+
+use std::fmt::Write as _;
+
+use branched_pendulum::analysis::statistics::{Average, StatisticsError};
+use branched_pendulum_data::Column;
+
+use super::arguments::Arguments;
+use super::findings::{Findings, Scale};
+use super::motion::{Followed, QUANTITIES};
+use crate::failure::Failure;
+use crate::program::Job;
+
+/// Everything that is printed, as Markdown.
+pub fn report(arguments: &Arguments, starts: &[Followed], findings: &Findings) -> String {
+    let shape = arguments.shape();
+    let windows = arguments.windows();
+    let mut text = format!(
+        "{} rods in {} generations, {} starts of {:.1} s each; torque {} N m at {} Hz{} on the root, \
+         friction {} N m s in the youngest pivots, {} times as much as in those above; {} steps a period.\n\n",
+        shape.links(),
+        shape.generations,
+        starts.len(),
+        windows as f64 / arguments.frequency,
+        arguments.torque,
+        arguments.frequency,
+        match arguments.bandwidth {
+            0.0 => String::new(),
+            width => format!(" ± {width} Hz"),
+        },
+        arguments.friction,
+        arguments.friction_ratio,
+        arguments.steps,
+    );
+    text.push_str(&steadiness(arguments, findings));
+    text.push_str(&energies(arguments, findings));
+    text.push_str(&balance(findings));
+    text
+}
+
+fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
+    // Writing to a string cannot fail.
+    let _ = text.write_fmt(arguments);
+}
+
+/// Whether averages mean anything.
+fn steadiness(arguments: &Arguments, findings: &Findings) -> String {
+    let second = 1.0 / arguments.frequency;
+    let mut text = match findings.transient {
+        Ok(windows) => format!("The transient ends after {:.1} s", windows as f64 * second),
+        Err(error) => {
+            format!("There is no end of the transient ({error}); the second half is shown")
+        }
+    };
+    match &findings.drift {
+        Ok(drift) => {
+            let verdict = if findings.is_steady() {
+                "steady"
+            } else {
+                "NOT steady"
+            };
+            push(
+                &mut text,
+                format_args!(
+                    "; from its first to its second half the energy changes by {:.2e} ± {:.1e} J: {verdict}.\n\n",
+                    drift.change, drift.error
+                ),
+            );
+        }
+        Err(error) => push(&mut text, format_args!("; NOT steady: {error}.\n\n")),
+    }
+    text
+}
+
+/// Energies by scale.
+fn energies(arguments: &Arguments, findings: &Findings) -> String {
+    let shape = arguments.shape();
+    let mut text =
+        "| scale | degrees of freedom | energy (J) | bar | per degree of freedom (J) | τ (s) |\n\
+         |---|---:|---:|---:|---:|---:|\n"
+            .to_owned();
+    for (scale, state) in findings.scales.iter().enumerate() {
+        let freedoms = shape.degrees_of_freedom(scale);
+        push(&mut text, format_args!("| {} | {freedoms} |", name(scale)));
+        match state {
+            Scale::Awake(energy) => push(
+                &mut text,
+                format_args!(
+                    " {:.4e} | {:.1} % | {:.4e} | {:.2} |\n",
+                    energy.mean,
+                    100.0 * energy.error / energy.mean,
+                    energy.mean / freedoms as f64,
+                    energy.correlation_time / arguments.frequency
+                ),
+            ),
+            Scale::Asleep(energy) => {
+                push(&mut text, format_args!(" asleep ({energy:.0e}) | | | |\n"));
+            }
+            Scale::Unsettled(error) => {
+                push(&mut text, format_args!(" not settled: {error} | | | |\n"));
+            }
+        }
+    }
+    match findings.law {
+        Some(law) => push(
+            &mut text,
+            format_args!(
+                "\nEnergy per degree of freedom of the differences against the length of the oldest \
+                 rods that differ: exponent {:.3} ± {:.3}, χ² per point left over {:.1}: {}.\n\n",
+                law.exponent.value,
+                law.exponent.error,
+                law.misfit,
+                if law.misfit < 4.0 {
+                    "a power law within the bars"
+                } else {
+                    "no power law"
+                }
+            ),
+        ),
+        None => text.push_str("\nToo few scales are awake for a power law.\n\n"),
+    }
+    text
+}
+
+/// Name of a scale.
+pub fn name(scale: usize) -> String {
+    match scale {
+        0 => "0 (means)".to_owned(),
+        scale => scale.to_string(),
+    }
+}
+
+/// Input, fluxes, dissipation.
+fn balance(findings: &Findings) -> String {
+    let watts = |average: &Result<Average, StatisticsError>| match average {
+        Ok(average) => milli(average),
+        Err(error) => error.to_string(),
+    };
+    let mut text = format!(
+        "Motor: {} mW; friction: {} mW.\n\n\
+         | into scale | from W (mW) | dissipated there and below (mW) | difference (mW) | skewness of W |\n\
+         |---|---:|---:|---:|---:|\n",
+        watts(&findings.input),
+        watts(&findings.dissipation)
+    );
+    for (index, flux) in findings.fluxes.iter().enumerate() {
+        push(&mut text, format_args!("| {} |", index + 1));
+        match flux {
+            Ok(flux) => push(
+                &mut text,
+                format_args!(
+                    " {} | {} | {} | {} |\n",
+                    milli(&flux.transferred),
+                    milli(&flux.dissipated),
+                    milli(&flux.gap),
+                    flux.skewness.map_or(String::new(), |skewness| format!(
+                        "{:.2} ± {:.2}",
+                        skewness.value, skewness.error
+                    ))
+                ),
+            ),
+            Err(error) => push(&mut text, format_args!(" {error} | | | |\n")),
+        }
+    }
+    text
+}
+
+/// A power in mW with its error.
+fn milli(average: &Average) -> String {
+    let text = format!("{:.4} ± {:.4}", 1e3 * average.mean, 1e3 * average.error);
+    text.replace('-', "−")
+}
+
+/// Writes the means over all windows of all starts.
+///
+/// # Errors
+/// [`Failure`].
+pub fn write_windows(job: &Job, arguments: &Arguments, starts: &[Followed]) -> Result<(), Failure> {
+    let scales = arguments.shape().generations;
+    let mut columns = vec![Column::new("start", ""), Column::new("time", "s")];
+    for scale in 0..scales {
+        for (quantity, unit) in [
+            ("energy", "J"),
+            ("received", "W"),
+            ("friction", "W"),
+            ("motor", "W"),
+        ] {
+            columns.push(Column::new(format!("{quantity} {scale}"), unit));
+        }
+    }
+    job.csv("windows.csv", &columns, |file| {
+        for (number, start) in starts.iter().enumerate() {
+            let rows = start.windows.chunks_exact(QUANTITIES * scales);
+            for (window, row) in rows.enumerate() {
+                // In the middle of the window.
+                let time = (window as f64 + 0.5) / arguments.frequency;
+                let mut numbers = vec![number as f64, time];
+                numbers.extend(row);
+                file.row(&numbers)?;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Writes what was found for each scale.
+///
+/// # Errors
+/// [`Failure`].
+pub fn write_scales(job: &Job, arguments: &Arguments, findings: &Findings) -> Result<(), Failure> {
+    let shape = arguments.shape();
+    let columns = [
+        ("scale", ""),
+        ("length", "m"),
+        ("degrees of freedom", ""),
+        ("energy", "J"),
+        ("error of energy", "J"),
+        ("flux by W", "W"),
+        ("error of flux by W", "W"),
+        ("flux by dissipation", "W"),
+        ("error of flux by dissipation", "W"),
+    ];
+    let columns = columns.map(|(name, unit)| Column::new(name, unit));
+    job.csv("scales.csv", &columns, |file| {
+        for (scale, state) in findings.scales.iter().enumerate() {
+            let bar = |average: &Average| [average.mean, average.error];
+            let none = [f64::NAN; 2];
+            let energy = match state {
+                Scale::Awake(average) => bar(average),
+                Scale::Asleep(_) | Scale::Unsettled(_) => none,
+            };
+            let flux = scale
+                .checked_sub(1)
+                .and_then(|flux| findings.fluxes.get(flux));
+            let [given, lost] = match (flux, &findings.input, &findings.dissipation) {
+                (Some(Ok(flux)), ..) => [bar(&flux.transferred), bar(&flux.dissipated)],
+                // What enters the whole tree.
+                (None, Ok(input), Ok(lost)) => [bar(input), bar(lost)],
+                _ => [none; 2],
+            };
+            let mut row = vec![scale as f64, shape.length(scale)];
+            row.push(shape.degrees_of_freedom(scale) as f64);
+            row.extend([energy, given, lost].concat());
+            file.row(&row)?;
+        }
+        Ok(())
+    })
+}

@@ -1,0 +1,156 @@
+//! The trees: every rod carries two or three, each lighter and shorter.
+
+use branched_pendulum::ParameterError;
+use branched_pendulum::prelude::*;
+
+/// Mass of the root, kg.
+const MASS: f64 = 0.12;
+
+/// Length of the root, m.
+const LENGTH: f64 = 0.3;
+
+/// Standard gravity, m/s².
+const GRAVITY: f64 = 9.80665;
+
+/// A tree by rule.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// Number of generations.
+    pub generations: usize,
+    /// Rods that hang from each one.
+    pub branching: usize,
+    /// Mass of a rod over that of its parent.
+    pub mass_ratio: f64,
+    /// Length of a rod over that of its parent.
+    pub length_ratio: f64,
+}
+
+impl Shape {
+    /// Number of rods in a generation.
+    pub fn width(&self, generation: usize) -> usize {
+        self.branching.pow(generation as u32)
+    }
+
+    /// Number of rods.
+    pub fn links(&self) -> usize {
+        (0..self.generations).map(|g| self.width(g)).sum()
+    }
+
+    /// Number of the first rod of a generation.
+    pub fn first(&self, generation: usize) -> usize {
+        (0..generation).map(|g| self.width(g)).sum()
+    }
+
+    /// Mass of a rod, kg.
+    pub fn mass(&self, generation: usize) -> f64 {
+        MASS * self.mass_ratio.powi(generation as i32)
+    }
+
+    /// Length of a rod, m.
+    pub fn length(&self, generation: usize) -> f64 {
+        LENGTH * self.length_ratio.powi(generation as i32)
+    }
+
+    /// Potential energy of a rod that lies flat, and of all that hangs from it where it ends, over that of
+    /// the hanging one: g (m/2 + mass below) ℓ, J.
+    pub fn weight(&self, generation: usize) -> f64 {
+        let below = (generation + 1..self.generations)
+            .map(|g| self.mass(g) * self.width(g - generation) as f64)
+            .sum::<f64>();
+        GRAVITY * (0.5 * self.mass(generation) + below) * self.length(generation)
+    }
+
+    /// Degrees of freedom of a scale: 0 the means, s the differences between rods of
+    /// generation s under one parent, with all that hangs from them.
+    pub fn degrees_of_freedom(&self, scale: usize) -> usize {
+        match scale {
+            0 => self.generations,
+            s => self.width(s - 1) * (self.branching - 1) * (self.generations - s),
+        }
+    }
+}
+
+/// A model of such trees, with friction.
+pub trait RodTree: Forced<f64> + Sync + std::fmt::Debug {
+    /// The tree whose youngest pivots have the friction `friction`, N m s, and those of
+    /// every generation `ratio` times that of the one above.
+    ///
+    /// # Errors
+    /// [`ParameterError`] of values that overflow.
+    fn of(shape: &Shape, friction: f64, ratio: f64) -> Result<Self, ParameterError>;
+}
+
+/// Number of children and of generations of all trees that there are.
+pub const TREES: [(usize, usize); 9] = [
+    (2, 3),
+    (2, 4),
+    (2, 5),
+    (2, 6),
+    (2, 7),
+    (2, 8),
+    (3, 3),
+    (3, 4),
+    (3, 5),
+];
+
+macro_rules! tree {
+    ($module:ident, $branching:tt, $generations:tt) => {
+        /// Rods by rule.
+        pub mod $module {
+            use branched_pendulum::prelude::*;
+
+            /// Rods by rule.
+            #[branched_pendulum(
+                        gravity = 9.80665,
+                        parameters(mass_ratio, length_ratio, friction, friction_ratio),
+                        arm: generations(count = $generations, branching = $branching, shape = rod,
+                            mass = 0.12, length = 0.3, mass_ratio = mass_ratio,
+                            length_ratio = length_ratio, friction = friction,
+                            friction_ratio = friction_ratio, code = loops),
+                        emit(energies, forces),
+                    )]
+            pub struct Tree;
+        }
+
+        impl RodTree for $module::Tree {
+            fn of(shape: &Shape, friction: f64, ratio: f64) -> Result<Self, ParameterError> {
+                Self::new($module::TreeParameters {
+                    mass_ratio: shape.mass_ratio,
+                    length_ratio: shape.length_ratio,
+                    friction: friction * ratio.powi(1 - $generations),
+                    friction_ratio: ratio,
+                })
+            }
+        }
+    };
+}
+
+tree!(binary_3, 2, 3);
+tree!(binary_4, 2, 4);
+tree!(binary_5, 2, 5);
+tree!(binary_6, 2, 6);
+tree!(binary_7, 2, 7);
+tree!(binary_8, 2, 8);
+tree!(ternary_3, 3, 3);
+tree!(ternary_4, 3, 4);
+tree!(ternary_5, 3, 5);
+
+/// Calls a function of a tree with the one of this shape: `of_shape!(shape, f(…))` is
+/// `f::<Tree>(…)`.
+macro_rules! of_shape {
+    ($shape:expr, $function:ident($($argument:expr),*)) => {
+        match ($shape.branching, $shape.generations) {
+            (2, 3) => $function::<$crate::cascade::scene::binary_3::Tree>($($argument),*),
+            (2, 4) => $function::<$crate::cascade::scene::binary_4::Tree>($($argument),*),
+            (2, 6) => $function::<$crate::cascade::scene::binary_6::Tree>($($argument),*),
+            (2, 7) => $function::<$crate::cascade::scene::binary_7::Tree>($($argument),*),
+            (2, 8) => $function::<$crate::cascade::scene::binary_8::Tree>($($argument),*),
+            (3, 3) => $function::<$crate::cascade::scene::ternary_3::Tree>($($argument),*),
+            (3, 4) => $function::<$crate::cascade::scene::ternary_4::Tree>($($argument),*),
+            (3, 5) => $function::<$crate::cascade::scene::ternary_5::Tree>($($argument),*),
+            // The command line has no other.
+            _ => $function::<$crate::cascade::scene::binary_5::Tree>($($argument),*),
+        }
+    };
+}
+pub(super) use of_shape;

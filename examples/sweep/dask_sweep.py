@@ -1,0 +1,36 @@
+"""Shares a program out among Dask's workers, then merges.
+
+    pip install "dask[distributed]"
+    python3 dask_sweep.py 64 -- target/release/cascade --starts 640 --threads 1 --output sweep
+    python3 dask_sweep.py 64 --scheduler tcp://host:8786 -- …    (a cluster that is there)
+
+All workers must see the output folder. Killed and started again, it computes what is missing.
+"""
+
+import argparse
+import subprocess
+import sys
+
+from dask.distributed import Client
+
+
+def shard(program, index, shards):
+    subprocess.run(program + ["--shard", f"{index}/{shards}"], check=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("shards", type=int)
+    parser.add_argument("--scheduler", help="address; without one, this machine's cores")
+    parser.add_argument("program", nargs=argparse.REMAINDER, help="-- program arguments")
+    given = parser.parse_args()
+    program = given.program[1:] if given.program[:1] == ["--"] else given.program
+    with Client(given.scheduler) if given.scheduler else Client(threads_per_worker=1) as client:
+        parts = [client.submit(shard, program, index, given.shards, pure=False, retries=2)
+                 for index in range(given.shards)]
+        client.gather(parts)
+    return subprocess.run(program + ["--merge", str(given.shards)]).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())

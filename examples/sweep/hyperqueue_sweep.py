@@ -1,0 +1,40 @@
+"""Shares a program out among HyperQueue's workers on this machine, then merges.
+
+    pip install hyperqueue
+    python3 hyperqueue_sweep.py 64 --workers 2 -- target/release/cascade --starts 640 --threads 1 --output sweep
+
+Killed and started again, it computes what is missing. On a cluster, `hq server start` and
+`hq alloc add slurm` take the place of LocalCluster: Client(server_dir) finds them.
+"""
+
+import argparse
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from hyperqueue import Job
+from hyperqueue.cluster import LocalCluster, WorkerConfig
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("shards", type=int)
+    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("program", nargs=argparse.REMAINDER, help="-- program arguments")
+    given = parser.parse_args()
+    program = given.program[1:] if given.program[:1] == ["--"] else given.program
+    with tempfile.TemporaryDirectory() as folder, LocalCluster() as cluster:
+        for _ in range(given.workers):
+            cluster.start_worker(WorkerConfig(cores=1))
+        client = cluster.client()
+        job = Job(default_workdir=Path(folder))
+        for index in range(given.shards):
+            shard = program + ["--shard", f"{index}/{given.shards}"]
+            job.program(shard, cwd=Path.cwd())
+        client.wait_for_jobs([client.submit(job)])
+    return subprocess.run(program + ["--merge", str(given.shards)]).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,374 @@
+//! The program `cascade`: its budgets, its checkpoints, its shards.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+
+use branched_pendulum::Sectors;
+use branched_pendulum::prelude::*;
+use branched_pendulum_examples::cascade::Arguments;
+use branched_pendulum_examples::cascade::budget::Budgets;
+use branched_pendulum_examples::cascade::motor::{Motor, Random};
+use branched_pendulum_examples::cascade::scene::{RodTree, Shape, binary_3};
+use clap::Parser;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+/// Seven rods, written out link by link.
+#[branched_pendulum(
+    gravity = 9.80665,
+    parameters(torque, pace, mass_ratio, length_ratio, friction, friction_ratio),
+    arm: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = mass_ratio, length_ratio = length_ratio, friction = friction,
+        friction_ratio = friction_ratio, code = unrolled),
+    drive(torque = torque * cos(pace * t)),
+    emit(energies, budget(parseval)),
+)]
+struct Written;
+
+/// Budgets by scale, against those of all sectors that the compiler derived.
+#[test]
+fn budgets_by_scale_are_those_of_the_sectors() {
+    let words = "cascade --generations 3 --mass-ratio 0.6 --length-ratio 0.8 --torque 0.3";
+    let arguments = Arguments::parse_from(words.split(' '));
+    let shape: Shape = arguments.shape();
+    let (friction, ratio) = (1e-3, 3.0);
+    let tree = binary_3::Tree::of(&shape, friction, ratio).unwrap();
+    let free = binary_3::Tree::of(&shape, 0.0, ratio).unwrap();
+    let written = Written::new(WrittenParameters {
+        torque: arguments.torque,
+        pace: std::f64::consts::TAU * arguments.frequency,
+        mass_ratio: shape.mass_ratio,
+        length_ratio: shape.length_ratio,
+        friction: friction / (ratio * ratio),
+        friction_ratio: ratio,
+    })
+    .unwrap();
+    // The number of each link of the one in the other.
+    let names = <Written as Pendulum<f64>>::LINK_NAMES;
+    let places: Vec<usize> = (0..7)
+        .map(|link| {
+            let name = <binary_3::Tree as Pendulum<f64>>::link_name(link)
+                .unwrap()
+                .to_string();
+            names.iter().position(|other| **other == name).unwrap()
+        })
+        .collect();
+    let mut random = Random::of_start(3, 0);
+    let motor = Motor::new(&arguments, &mut random);
+    let mut budgets = Budgets::new(shape, &tree, &free);
+    for _ in 0..20 {
+        let time = random.within(10.0);
+        let state: Vec<f64> = (0..14).map(|_| random.within(3.0)).collect();
+        let (mut theta, mut omega) = ([0.0; 7], [0.0; 7]);
+        for (link, &place) in places.iter().enumerate() {
+            (theta[place], omega[place]) = (state[link], state[7 + link]);
+        }
+        let derived = written.budget_parseval(time, &theta, &omega);
+        let mut expected = [[0.0; 3]; 3];
+        for (index, sector) in <Written as Sectors>::SECTORS.iter().enumerate() {
+            let scale = match sector.name.split('_').nth(1) {
+                Some("phase") => 0,
+                generation => generation.unwrap().parse::<usize>().unwrap() - 1,
+            };
+            expected[scale][0] += derived.energies[index];
+            expected[scale][1] += derived.transfers[index];
+            expected[scale][2] += derived.powers[index];
+        }
+        for (found, expected) in budgets.at(&motor, time, &state).iter().zip(expected) {
+            let found = [found.energy, found.received, found.friction + found.drive];
+            for (found, expected) in found.into_iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+            }
+        }
+    }
+}
+
+/// A short run.
+const SHORT: &[&str] = &[
+    "--generations",
+    "3",
+    "--starts",
+    "8",
+    "--duration",
+    "100",
+    "--samples",
+    "8",
+    "--friction",
+    "1e-4",
+    "--steps",
+    "128",
+    "--threads",
+    "1",
+    "--checkpoint",
+    "0",
+];
+
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("cascade-{name}"));
+    let _ = fs::remove_dir_all(&path);
+    path
+}
+
+fn command(folder: &Path, more: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cascade"));
+    command.args(SHORT).args(more).arg("--output").arg(folder);
+    command
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command
+}
+
+fn finished(output: &Output) {
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{stderr}");
+}
+
+/// All files of a folder but those of shards.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    let files = entries.filter(|entry| entry.file_type().unwrap().is_file());
+    files
+        .map(|entry| {
+            let name = entry.file_name().into_string().unwrap();
+            (name, fs::read(entry.path()).unwrap())
+        })
+        .collect()
+}
+
+/// Killed twenty times on its way and taken up each time, a run leaves the files that it
+/// leaves undisturbed, byte for byte.
+#[test]
+fn a_run_that_is_killed_goes_on_with_the_same_bytes() {
+    let (whole, killed) = (folder("whole"), folder("killed"));
+    let began = Instant::now();
+    finished(&command(&whole, &[]).output().unwrap());
+    let time = began.elapsed();
+    let mut random = SplitMix64::seed_from_u64(5);
+    let mut kills = 0;
+    let mut attempts = 0;
+    while kills < 20 {
+        attempts += 1;
+        assert!(attempts < 200, "it never gets on");
+        let mut child = command(&killed, &[]).spawn().unwrap();
+        // Twenty-one such times are about the time of the whole run.
+        let share = random.next_u64() as f64 / u64::MAX as f64;
+        std::thread::sleep(time.mul_f64(0.02 + 0.06 * share));
+        if child.try_wait().unwrap().is_none() {
+            child.kill().unwrap();
+            kills += 1;
+        } else if files(&killed).contains_key("report.md") {
+            // Done too soon: it begins anew.
+            fs::remove_dir_all(&killed).unwrap();
+        }
+        child.wait().unwrap();
+    }
+    finished(&command(&killed, &[]).output().unwrap());
+    let (whole, killed) = (files(&whole), files(&killed));
+    let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(&whole), names(&killed));
+    for (name, bytes) in whole {
+        assert!(killed[&name] == bytes, "{name}");
+    }
+}
+
+/// A checkpoint that is damaged, or of another run, is refused in words.
+#[test]
+fn a_checkpoint_of_another_run_is_refused() {
+    let folder = folder("foreign");
+    let mut child = command(&folder, &["--duration", "100000"]).spawn().unwrap();
+    let checkpoint = folder.join("checkpoint");
+    while !checkpoint.exists() {
+        assert!(child.try_wait().unwrap().is_none());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let refused = |more: &[&str], told: &str| {
+        let output = command(&folder, more).output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{stderr}");
+        assert!(
+            stderr.contains("cannot go on from") && stderr.contains(told),
+            "{stderr}"
+        );
+    };
+    refused(&["--duration", "100000", "--seed", "2"], "it is of cascade");
+    let mut bytes = fs::read(&checkpoint).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&checkpoint, bytes).unwrap();
+    refused(&["--duration", "100000"], "damaged");
+}
+
+/// 64 shards, and what they are cut from.
+const STARTS: &[&str] = &["--starts", "128", "--duration", "30"];
+
+fn same_tables(whole: &Path, merged: &Path) {
+    for name in [
+        "windows.csv",
+        "scales.csv",
+        "report.md",
+        "tree.svg",
+        "course.svg",
+    ] {
+        let read = |folder: &Path| fs::read(folder.join(name)).unwrap();
+        assert!(read(whole) == read(merged), "{name}");
+    }
+}
+
+/// Two workers take shards from a queue; one of them is killed with its shard, which is
+/// computed again. The merged tables are those of one process.
+#[test]
+fn shards_make_the_tables_of_one_process() {
+    let (whole, swept) = (folder("one-process"), folder("shards"));
+    finished(&command(&whole, STARTS).output().unwrap());
+    let next = AtomicU32::new(0);
+    let shard = |index: u32| {
+        let shard = format!("{index}/64");
+        let mut own = STARTS.to_vec();
+        own.extend(["--shard", &shard]);
+        command(&swept, &own)
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    if index >= 64 {
+                        break;
+                    }
+                    if index == 32 {
+                        let mut child = shard(index).spawn().unwrap();
+                        std::thread::sleep(Duration::from_millis(30));
+                        child.kill().unwrap();
+                        child.wait().unwrap();
+                        // Its work is lost; the other one goes on.
+                        break;
+                    }
+                    finished(&shard(index).output().unwrap());
+                }
+            });
+        }
+    });
+    let merge = || {
+        let mut own = STARTS.to_vec();
+        own.extend(["--merge", "64"]);
+        command(&swept, &own).output().unwrap()
+    };
+    if !swept.join("shard-32-of-64/results.bin").exists() {
+        let refused = merge();
+        let stderr = String::from_utf8(refused.stderr).unwrap();
+        assert!(
+            stderr.contains("1 of 64 shards are not finished: 32"),
+            "{stderr}"
+        );
+    }
+    finished(&shard(32).output().unwrap());
+    // What is there is not computed again.
+    let again = shard(7).output().unwrap();
+    assert!(
+        String::from_utf8(again.stdout)
+            .unwrap()
+            .contains("is there")
+    );
+    finished(&merge());
+    same_tables(&whole, &swept);
+}
+
+/// The same by an engine, HyperQueue's workers in one Python process, where Python has it
+/// (`pip install hyperqueue`); a machine that promises it says so by `HYPERQUEUE`.
+#[test]
+fn hyperqueue_makes_the_tables_of_one_process() {
+    let python = |arguments: &[&str]| {
+        let mut command = Command::new("python3");
+        command.args(arguments).stdin(Stdio::null());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    };
+    let has = python(&["-c", "import hyperqueue"]).output();
+    if !has.is_ok_and(|output| output.status.success()) {
+        assert!(std::env::var_os("HYPERQUEUE").is_none(), "no hyperqueue");
+        println!("skipped: python3 has no hyperqueue");
+        return;
+    }
+    let (whole, swept) = (folder("one-process-hq"), folder("hyperqueue"));
+    finished(&command(&whole, STARTS).output().unwrap());
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/sweep/hyperqueue_sweep.py");
+    let swept_path = swept.to_str().unwrap();
+    let mut words = vec![
+        script,
+        "64",
+        "--workers",
+        "2",
+        "--",
+        env!("CARGO_BIN_EXE_cascade"),
+    ];
+    words.extend(SHORT.iter().chain(STARTS));
+    words.extend(["--output", swept_path]);
+    // Killed halfway, engine, workers and all, and started again.
+    let mut engine = python(&words).spawn().unwrap();
+    let count = || {
+        (0..64)
+            .filter(|index| {
+                swept
+                    .join(format!("shard-{index}-of-64/results.bin"))
+                    .exists()
+            })
+            .count()
+    };
+    while count() < 20 {
+        if let Some(status) = engine.try_wait().unwrap() {
+            panic!("it ended too soon: {status}");
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    engine.kill().unwrap();
+    engine.wait().unwrap();
+    let done = count();
+    finished(&python(&words).output().unwrap());
+    println!("killed after {done} of 64 shards");
+    same_tables(&whole, &swept);
+}
+
+#[test]
+fn what_is_asleep_is_called_so() {
+    let folder = folder("asleep");
+    let output = command(
+        &folder,
+        &["--torque", "0", "--spread", "0", "--starts", "4"],
+    )
+    .output()
+    .unwrap();
+    finished(&output);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        text.contains("NOT steady") || text.contains("asleep"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_command_line_that_cannot_be_followed_is_explained() {
+    for (arguments, message) in [
+        (&["--generations", "9"][..], "9 is not in 3..=8"),
+        (
+            &["--generations", "8", "--branching", "3"],
+            "there is no tree of 8 generations by 3",
+        ),
+        (&["--torque", "NaN"], "must be from 0 to 100 N m"),
+        (&["--bandwidth", "1"], "at most 0.9 of the frequency"),
+        (&["--shard", "3/3"], "must be I/N"),
+        (&["--shard", "0/3", "--merge", "3"], "cannot be used with"),
+    ] {
+        let program = env!("CARGO_BIN_EXE_cascade");
+        let output = Command::new(program).args(arguments).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(error.contains(message), "{error}");
+    }
+}
