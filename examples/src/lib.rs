@@ -8,7 +8,6 @@ pub mod advise;
 pub mod analyse;
 pub mod branched_double;
 pub mod cascade;
-pub mod energy_cascade;
 pub mod failure;
 pub mod integration_speed;
 pub mod program;

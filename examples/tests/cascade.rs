@@ -12,6 +12,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum_examples::cascade::Arguments;
 use branched_pendulum_examples::cascade::budget::Budgets;
 use branched_pendulum_examples::cascade::motor::{Motor, Random};
+use branched_pendulum_examples::cascade::onset::scene::{Tree, TreeParameters, modes};
 use branched_pendulum_examples::cascade::scene::{RodTree, Shape, binary_3};
 use clap::Parser;
 use rand_xoshiro::SplitMix64;
@@ -84,6 +85,47 @@ fn budgets_by_scale_are_those_of_the_sectors() {
                 assert!((found - expected).abs() < 1e-12, "{found} {expected}");
             }
         }
+    }
+}
+
+/// A pair of outermost rods moves against each other on a pivot at rest.
+#[test]
+fn the_outermost_sectors_have_the_frequency_of_a_rod() {
+    let still = TreeParameters {
+        torque: 0.0,
+        pace: 0.0,
+    };
+    let modes = modes(&Tree::new(still).unwrap()).unwrap();
+    assert!(modes.mass_off_block < 1e-15 && modes.stiffness_off_block < 1e-15);
+    let length = 0.3 * 0.7_f64.powi(3);
+    let rod = (1.5 * 9.80665 / length).sqrt() / std::f64::consts::TAU;
+    let outermost = modes
+        .blocks
+        .iter()
+        .filter(|block| block.name.starts_with("arm_4"));
+    let mut seen = 0;
+    for block in outermost {
+        let [frequency] = block.modes.frequencies_hz[..] else {
+            panic!("{} modes", block.modes.frequencies_hz.len());
+        };
+        assert!((frequency / rod - 1.0).abs() < 1e-13, "{frequency}, {rod}");
+        seen += 1;
+    }
+    assert_eq!(seen, 4);
+}
+
+#[test]
+fn the_onset_leaves_table_and_charts() {
+    let folder = folder("onset");
+    let output = command(&folder, &["--onset", "0.2"]).output().unwrap();
+    finished(&output);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("| `in_phase` | 4 | 0."), "{text}");
+    let csv = fs::read_to_string(folder.join("onset.csv")).unwrap();
+    // The header and one sample each fiftieth of a second from 0 to 0.2 s.
+    assert_eq!(csv.lines().count(), 12);
+    for chart in ["onset.svg", "onset.png"] {
+        assert!(folder.join(chart).metadata().unwrap().len() > 1000);
     }
 }
 

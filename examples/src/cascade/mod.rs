@@ -5,7 +5,8 @@
 //! - [`motion`]: all starts, window by window, with checkpoints, [`together`]: in lanes,
 //! - [`budget`]: energies and powers by scale, [`density`]: how often a flux has which value,
 //! - [`findings`]: averages with errors, [`report`]: tables, [`charts`]: charts,
-//!   [`picture`]: the tree in motion.
+//!   [`picture`]: the tree in motion,
+//! - [`onset`]: a small tree, sector by sector, from a release almost in phase.
 
 pub mod arguments;
 pub mod budget;
@@ -14,6 +15,7 @@ pub mod density;
 pub mod findings;
 pub mod motion;
 pub mod motor;
+pub mod onset;
 pub mod picture;
 pub mod report;
 pub mod scene;
@@ -37,6 +39,15 @@ const INTERVAL: f64 = 0.05;
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    if let Some(duration) = arguments.onset {
+        let release = onset::Release {
+            duration,
+            torque: arguments.torque,
+            frequency: arguments.frequency,
+            ..onset::Release::default()
+        };
+        return onset::run(&release, job);
+    }
     let shape = arguments.shape();
     let starts = sweep::results(
         job,

@@ -5,22 +5,21 @@ use std::fmt::Write as _;
 use branched_pendulum::analysis::SectorModes;
 use branched_pendulum_data::Column;
 
-use super::arguments::Arguments;
-use super::run::{Cascade, DEFINITIONS, PARSEVAL};
+use super::Release;
+use super::run::{DEFINITIONS, Onset, PARSEVAL};
 use super::scene::{Level, SECTORS, by_level, sectors};
 use crate::failure::Failure;
 use crate::program::Job;
 
 /// Everything that is printed, as Markdown.
-pub fn report(arguments: &Arguments, modes: &SectorModes, run: &Cascade) -> String {
-    let Arguments {
+pub fn report(release: &Release, modes: &SectorModes, run: &Onset) -> String {
+    let Release {
         duration,
         torque,
         frequency,
         difference,
         tolerance,
-        results: _,
-    } = arguments;
+    } = release;
     let mut text = format!(
         "Fifteen rods, released from rest with differences of {difference} rad; torque\n\
          {torque} N m · cos(2π {frequency} Hz t) on the root; {duration} s, Dop853 at {tolerance:e}: \
@@ -39,7 +38,7 @@ fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
 }
 
 /// Sectors with their sizes, frequencies and closures.
-fn sector_table(modes: &SectorModes, run: &Cascade) -> String {
+fn sector_table(modes: &SectorModes, run: &Onset) -> String {
     let mut text = format!(
         "Sectors: size, eigenfrequencies, and how well each budget closes, as the\n\
          largest |∫(W+P) dt − ΔE| over the largest energy of all sectors. Entries between\n\
@@ -73,7 +72,7 @@ fn sector_table(modes: &SectorModes, run: &Cascade) -> String {
 }
 
 /// The time-averaged transfer matrix, with the power of friction and drive.
-fn matrix_table(run: &Cascade) -> String {
+fn matrix_table(run: &Onset) -> String {
     let Some(last) = run.samples.last() else {
         return String::new();
     };
@@ -123,13 +122,13 @@ fn milli(watts: f64) -> String {
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
-pub fn write_samples(job: &Job, run: &Cascade) -> Result<(), Failure> {
+pub fn write_samples(job: &Job, run: &Onset) -> Result<(), Failure> {
     let mut columns = vec![Column::new("time", "s")];
     for quantity in ["energy", "given by friction and drive", "given by sectors"] {
         let names = sectors().iter().map(|sector| sector.name);
         columns.extend(names.map(|name| Column::new(format!("{quantity} {name}"), "J")));
     }
-    job.csv("energy-cascade.csv", &columns, |file| {
+    job.csv("onset.csv", &columns, |file| {
         for sample in &run.samples {
             let mut row = vec![sample.time];
             row.extend(sample.energies[PARSEVAL]);
@@ -158,7 +157,7 @@ pub fn level_matrix(transfers: &[[f64; SECTORS]; SECTORS]) -> [[f64; 4]; 4] {
 #[cfg(test)]
 mod tests {
     use super::{level_matrix, milli};
-    use crate::energy_cascade::scene::SECTORS;
+    use crate::cascade::onset::scene::SECTORS;
 
     #[test]
     fn levels_sum_their_sectors() {

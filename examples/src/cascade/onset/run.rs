@@ -9,7 +9,7 @@ use branched_pendulum::prelude::{
     DenseStep, Dop853, Integrator, Options, State, SymmetricCoordinates,
 };
 
-use super::arguments::Arguments;
+use super::Release;
 use super::scene::{LINKS, SECTORS, Tree, TreeParameters};
 use crate::failure::Failure;
 use crate::quadrature::GAUSS;
@@ -50,14 +50,14 @@ pub struct Work {
 
 /// A run: samples at even times.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cascade {
+pub struct Onset {
     /// The samples, the first at the release.
     pub samples: Vec<Budgets>,
     /// The integrator's work.
     pub work: Work,
 }
 
-impl Cascade {
+impl Onset {
     /// Releases the tree from rest, all differences equal and small, and
     /// follows it. In symmetric coordinates, where small differences keep their
     /// digits.
@@ -67,22 +67,22 @@ impl Cascade {
     ///
     /// # Errors
     /// [`Failure::Parameter`] or [`Failure::Integration`].
-    pub fn new(arguments: &Arguments, mut progress: impl FnMut(f64)) -> Result<Self, Failure> {
+    pub fn new(release: &Release, mut progress: impl FnMut(f64)) -> Result<Self, Failure> {
         let tree = Tree::new(TreeParameters {
-            torque: arguments.torque,
-            pace: TAU * arguments.frequency,
+            torque: release.torque,
+            pace: TAU * release.frequency,
         })?;
-        let start = State::at_rest(0.0, &release(arguments.difference));
-        let mut recorder = Recorder::new(&tree, arguments.duration);
+        let start = State::at_rest(0.0, &at_release(release.difference));
+        let mut recorder = Recorder::new(&tree, release.duration);
         recorder.sample(0.0, &start.values);
-        let options = Options::with_tolerance(arguments.tolerance);
+        let options = Options::with_tolerance(release.tolerance);
         let solution = Dop853::new(options)
             .try_integrate(
                 &SymmetricCoordinates(&tree),
                 &start,
-                arguments.duration,
+                release.duration,
                 |step| {
-                    progress(step.end_time() / arguments.duration);
+                    progress(step.end_time() / release.duration);
                     recorder.step(step)?;
                     Ok::<_, DenseError<f64>>(ControlFlow::Continue(()))
                 },
@@ -118,7 +118,7 @@ impl Cascade {
 
 /// Hanging, but for the differences. They alternate in sign and shrink from one
 /// coordinate to the next, so that no two branches move alike by accident.
-fn release(difference: f64) -> [f64; LINKS] {
+fn at_release(difference: f64) -> [f64; LINKS] {
     use branched_pendulum::SymmetricPendulum;
     let names = <Tree as SymmetricPendulum<f64>>::COORDINATE_NAMES;
     let mut coordinates = [0.0; LINKS];
@@ -252,18 +252,18 @@ fn halves(values: &[f64]) -> ([f64; LINKS], [f64; LINKS]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cascade, PARSEVAL};
-    use crate::energy_cascade::Arguments;
-    use crate::energy_cascade::scene::SECTORS;
+    use super::{Onset, PARSEVAL};
+    use crate::cascade::onset::Release;
+    use crate::cascade::onset::scene::SECTORS;
 
-    fn short() -> Cascade {
-        let arguments = Arguments {
+    fn short() -> Onset {
+        let release = Release {
             duration: 1.5,
             difference: 0.1,
             tolerance: 1e-11,
-            ..Arguments::default()
+            ..Release::default()
         };
-        Cascade::new(&arguments, |_| ()).unwrap()
+        Onset::new(&release, |_| ()).unwrap()
     }
 
     #[test]
@@ -290,12 +290,12 @@ mod tests {
     /// Motion in phase stays so, to the last bit.
     #[test]
     fn without_differences_nothing_leaves_the_means() {
-        let arguments = Arguments {
+        let release = Release {
             duration: 1.0,
             difference: 0.0,
-            ..Arguments::default()
+            ..Release::default()
         };
-        let run = Cascade::new(&arguments, |_| ()).unwrap();
+        let run = Onset::new(&release, |_| ()).unwrap();
         let last = run.samples.last().unwrap();
         for energies in last.energies {
             assert!(energies[0] > 0.0);

@@ -3,14 +3,14 @@
 use branched_pendulum_charts::{Axis, Chart, Panel};
 
 use super::report::level_matrix;
-use super::run::{Cascade, PARSEVAL};
+use super::run::{Onset, PARSEVAL};
 use super::scene::{Level, by_level};
 
 /// Energies below this are not shown on the logarithmic axis, J.
 const LEAST_ENERGY: f64 = 1e-12;
 
 /// Draws energies and flows against time.
-pub fn chart(run: &Cascade) -> Chart {
+pub fn chart(run: &Onset) -> Chart {
     let times: Vec<f64> = run.samples.iter().map(|sample| sample.time).collect();
     let energies: Vec<[f64; 4]> = run
         .samples
