@@ -188,8 +188,8 @@ impl Rational {
         }
     }
 
-    /// The value of a finite `f64`.
-    fn from_f64(value: f64) -> Option<Self> {
+    /// The value of a finite `f64`; `None` for others.
+    pub fn from_f64(value: f64) -> Option<Self> {
         const MANTISSA_BITS: u32 = 52;
         let bits = value.abs().to_bits();
         let (field, fraction) = (bits >> MANTISSA_BITS, bits & ((1 << MANTISSA_BITS) - 1));
@@ -213,6 +213,7 @@ impl From<i64> for Rational {
 }
 
 /// The door to the algebra, which shares this representation.
+#[cfg(feature = "symbolica")]
 impl Rational {
     /// The number as the algebra's own type.
     pub(crate) fn as_inner(&self) -> &Fraction {

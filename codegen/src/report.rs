@@ -83,7 +83,7 @@ impl Report {
     /// The errors as text in the manner of the compiler, in the order of the
     /// source: message, line and column, the line with the wrong tokens marked,
     /// and what to write instead. `source` is the text that the tokens were
-    /// read from.
+    /// read from. Long lines are cut, and of very many errors the first are shown.
     pub fn render(&self, source: &str) -> String {
         let mut ordered: Vec<&Diagnostic> = self.diagnostics.iter().collect();
         ordered.sort_by_key(|diagnostic| {
@@ -91,14 +91,38 @@ impl Report {
             (start.line, start.column)
         });
         let mut text = String::new();
-        for diagnostic in ordered {
+        for diagnostic in ordered.iter().take(MOST_SHOWN) {
             if !text.is_empty() {
                 text.push('\n');
             }
             render_one(diagnostic, source, &mut text);
         }
+        let others = ordered.len().saturating_sub(MOST_SHOWN);
+        if others > 0 {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "\n{others} more errors");
+        }
         text
     }
+}
+
+/// Most errors that are shown as text.
+const MOST_SHOWN: usize = 100;
+
+/// Longest part of a line that is shown, and how much of it stands before the error.
+const LONGEST_LINE: usize = 120;
+const BEFORE: usize = 60;
+
+/// The part of a long line about a column, and the column in it.
+fn excerpt(line: &str, column: usize) -> (String, usize) {
+    if line.chars().nth(LONGEST_LINE).is_none() {
+        return (line.to_owned(), column);
+    }
+    let start = column.saturating_sub(BEFORE);
+    let part = line.chars().skip(start).take(LONGEST_LINE);
+    let lead = if start > 0 { "…" } else { "" };
+    let part: String = lead.chars().chain(part).collect();
+    (part, column - start + lead.chars().count())
 }
 
 /// Appends one error to `text`.
@@ -114,10 +138,12 @@ fn render_one(diagnostic: &Diagnostic, source: &str, text: &mut String) {
     let _ = writeln!(text, "error: {headline}");
     if let Some(line) = source.lines().nth(start.line.saturating_sub(1)) {
         let margin = " ".repeat(start.line.to_string().len());
+        let (line, column) = excerpt(line, start.column);
+        let whole = line.chars().count().saturating_sub(column);
         let width = if end.line == start.line {
-            end.column.saturating_sub(start.column)
+            end.column.saturating_sub(start.column).min(whole)
         } else {
-            line.chars().count().saturating_sub(start.column)
+            whole
         };
         let _ = writeln!(text, "{margin}--> {}:{}", start.line, start.column + 1);
         let _ = writeln!(text, "{margin} |");
@@ -125,7 +151,7 @@ fn render_one(diagnostic: &Diagnostic, source: &str, text: &mut String) {
         let _ = writeln!(
             text,
             "{margin} | {}{} {label}",
-            " ".repeat(start.column),
+            " ".repeat(column),
             "^".repeat(width.max(1)),
         );
     }

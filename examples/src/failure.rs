@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use branched_pendulum::ParameterError;
 use branched_pendulum::analysis::advice::AdviceError;
+use branched_pendulum::analysis::growth::GrowthError;
 use branched_pendulum::analysis::statistics::StatisticsError;
 use branched_pendulum::analysis::truncation::TruncationError;
 use branched_pendulum::analysis::{ModesError, SectorModesError, SmoothingError, SpectrumError};
@@ -57,6 +58,12 @@ pub enum Failure {
     /// Forms of W could not be compared.
     #[error("the forms of W could not be compared")]
     Truncation(#[from] TruncationError),
+    /// The growth of differences could not be found.
+    #[error("the growth of differences could not be found")]
+    Growth(#[from] GrowthError),
+    /// A tree without copies that move alike.
+    #[error("the tree has no pair that moves in phase")]
+    NoPair,
     /// There is no advice.
     #[error("there is no advice")]
     Advice(#[from] AdviceError),
@@ -141,6 +148,7 @@ mod tests {
     use super::Failure;
     use crate::program::messages;
     use branched_pendulum::analysis::advice::AdviceError;
+    use branched_pendulum::analysis::growth::GrowthError;
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
@@ -237,6 +245,7 @@ mod tests {
             Box::new(Failure::Linear(LinearError::NotFinite)),
             Box::new(Failure::Frames(Box::new(request()))),
             Box::new(Failure::Truncation(truncation())),
+            Box::new(Failure::Growth(GrowthError::Integration(request()))),
             Box::new(Failure::Advice(AdviceError::Request("a start"))),
             Box::new(Failure::Advice(AdviceError::Reference(Box::new(
                 integration(),

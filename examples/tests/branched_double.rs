@@ -171,6 +171,7 @@ fn the_program_prints_the_table_and_writes_what_it_says() {
         "--duration",
         "2",
         "--rate=50",
+        "--animate",
         "--output",
         folder.to_str().unwrap(),
     ]);
@@ -210,7 +211,7 @@ fn the_program_prints_the_table_and_writes_what_it_says() {
             }
         }
     }
-    assert_eq!(kinds, [2, 4, 4]);
+    assert_eq!(kinds, [2, 5, 5]);
 }
 
 fn check_csv(text: &str) {
@@ -241,6 +242,7 @@ fn the_help_names_every_option_with_its_default() {
         "--rate",
         "--precision",
         "--tolerance",
+        "--animate",
         "--output",
         "--repeat",
         "--help",

@@ -19,7 +19,7 @@ struct Program {
     arguments: &'static [&'static str],
 }
 
-const PROGRAMS: [Program; 10] = [
+const PROGRAMS: [Program; 12] = [
     Program {
         path: env!("CARGO_BIN_EXE_branched-double"),
         arguments: &["--angles", "40:43:0.2", "--duration", "4", "--rate", "50"],
@@ -59,6 +59,21 @@ const PROGRAMS: [Program; 10] = [
     Program {
         path: env!("CARGO_BIN_EXE_evaluation-speed"),
         arguments: &[],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_critical-angle"),
+        arguments: &[
+            "--angles",
+            "43:45:0.5",
+            "--horizons",
+            "4",
+            "--quality",
+            "150",
+        ],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_release-map"),
+        arguments: &["--step", "30", "--span", "4"],
     },
 ];
 

@@ -1,11 +1,14 @@
-//! The template is what the front page shows.
+//! The template is what the first page of the book shows.
 
 #[test]
-fn the_front_page_shows_the_template() {
-    let page = include_str!("../../README.md");
-    let program = include_str!("../template/src/main.rs");
-    assert!(page.contains(&format!("```rust,ignore\n{program}```\n")));
+fn the_first_page_shows_the_template() {
+    let page = include_str!("../../docs/tutorials/first-crate.md");
+    assert!(
+        page.contains("```rust,ignore\n{{#include ../../examples/template/src/main.rs}}\n```\n")
+    );
     let manifest = include_str!("../template/Cargo.toml");
     assert!(manifest.contains("[profile.dev]\nopt-level = 1\n"));
-    assert!(page.contains("[profile.dev]\nopt-level = 1 "));
+    for page in [page, include_str!("../../README.md")] {
+        assert!(page.contains("[profile.dev]\nopt-level = 1 "));
+    }
 }

@@ -2,7 +2,7 @@
 //! from version to version: expand a scene with the version that runs it.
 
 pub use crate::requirements::{
-    LinkBody, require_finite, require_non_negative, require_positive, require_regular,
+    LinkBody, free_link, require_finite, require_non_negative, require_positive, require_regular,
 };
 pub use crate::scalar::Turns;
 pub use crate::simd::{Part, Simd, outlined};

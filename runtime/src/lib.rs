@@ -76,6 +76,8 @@
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `macros` (default): the attribute `branched_pendulum`.
+//! - `spectra` (default): amplitudes against frequency and the lines of a motion, with five
+//!   crates more for the fast Fourier transform.
 //! - `serde`: states, options, methods, reports and trajectories can be written and
 //!   read. Finite numbers keep their bits wherever the format keeps them; of `serde_json`
 //!   the feature `float_roundtrip` does so.
@@ -107,10 +109,10 @@ pub mod tree;
 // What emitted code names, at the shortest path.
 pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
-pub use sectors::{Budget, Sectors};
+pub use sectors::{Budget, ScaleBudget, Scales, Sectors};
 pub use system::{
-    Canonical, Cast, Energy, Forced, Pendulum, Positions, Prescribed, SymmetricPendulum,
-    TaylorPendulum, Transverse, WholeTree,
+    Canonical, Cast, Energy, Forced, Parametric, Pendulum, Positions, Prescribed, SmallDifferences,
+    SymmetricPendulum, TaylorPendulum, Transverse, WholeTree,
 };
 pub use transfer_forms::{TransferForm, TransferForms};
 

@@ -1,5 +1,7 @@
 //! Requirements on the parameters of a model: emitted constructors check them.
 
+use alloc::vec::Vec;
+
 use crate::model::ParameterError;
 
 /// Passes a finite value.
@@ -62,45 +64,47 @@ pub struct LinkBody {
 
 /// Passes a tree whose mass matrix is regular for all angles.
 ///
-/// A link can turn about its resting pivot without kinetic energy if it has no
-/// inertia, no mass off its pivot, and every child hangs from the pivot or
-/// yields: lets its own pivot move without energy in some configuration.
-/// O(N²) for N links.
-///
 /// # Errors
-/// The error that the moment of inertia of such a link is zero.
-pub fn require_regular<const N: usize>(links: &[LinkBody; N]) -> Result<(), ParameterError> {
-    let mut yields = [false; N];
+/// The error that the moment of inertia of a [free link](free_link) is zero.
+pub fn require_regular(links: &[LinkBody]) -> Result<(), ParameterError> {
+    match free_link(links).and_then(|index| links.get(index)) {
+        None => Ok(()),
+        Some(link) => Err(ParameterError {
+            what: link.what,
+            value: 0.0,
+            requirement: "positive",
+        }),
+    }
+}
+
+/// Returns the last link that can turn about its resting pivot without kinetic energy in
+/// some configuration, if there is one: the mass matrix is singular there.
+///
+/// Such a link has no inertia, no mass off its pivot, and every child hangs from the
+/// pivot or yields: lets its own pivot move without energy in some configuration.
+/// O(links).
+pub fn free_link(links: &[LinkBody]) -> Option<usize> {
+    let origin = [0.0, 0.0];
+    // Pivots of the children that do not yield.
+    let mut firm = alloc::vec![Vec::new(); links.len()];
     for (index, link) in links.iter().enumerate().rev() {
-        let firm = || {
-            links
-                .iter()
-                .zip(&yields)
-                .filter(|(child, yields)| child.parent == Some(index) && !**yields)
-                .map(|(child, _)| child.pivot)
-        };
-        let origin = [0.0, 0.0];
+        let pivots: Vec<[f64; 2]> = firm.get_mut(index).map(core::mem::take)?;
         let free = link.inertia == 0.0;
-        let turns = free && (link.mass == 0.0 || link.com == origin) && firm().all(|p| p == origin);
-        if turns {
-            return Err(ParameterError {
-                what: link.what,
-                value: 0.0,
-                requirement: "positive",
-            });
+        let at = |place: [f64; 2]| pivots.iter().all(|pivot| *pivot == place);
+        if free && (link.mass == 0.0 || link.com == origin) && at(origin) {
+            return Some(index);
         }
-        let centre = if link.mass == 0.0 {
-            firm().next()
-        } else {
-            Some(link.com)
+        let centre = match link.mass == 0.0 {
+            true => pivots.last().copied(),
+            false => Some(link.com),
         };
-        let about = centre.is_some_and(|centre| centre != origin && firm().all(|p| p == centre));
-        let unburdened = link.mass == 0.0 && firm().next().is_none();
-        if let Some(own) = yields.get_mut(index) {
-            *own = unburdened || (free && about);
+        let about = centre.is_some_and(|centre| centre != origin && at(centre));
+        let unburdened = link.mass == 0.0 && pivots.is_empty();
+        if let (false, Some(parent)) = (unburdened || (free && about), link.parent) {
+            firm.get_mut(parent)?.push(link.pivot);
         }
     }
-    Ok(())
+    None
 }
 
 #[cfg(test)]

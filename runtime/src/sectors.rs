@@ -8,9 +8,12 @@
 //! and back by the functions of [`Sectors`], in either [`Normalisation`].
 
 mod normalisation;
+mod scales;
 
 pub use normalisation::Normalisation;
 use normalisation::{StateKind, inward, outward, renormalise};
+pub(crate) use scales::PowerKind;
+pub use scales::{ScaleBudget, Scales, degrees_of_freedom};
 
 use crate::scalar::Scalar;
 

@@ -20,3 +20,19 @@ pub struct FrontPage;
 #[cfg(doctest)]
 #[doc = include_str!("../../docs/limits.md")]
 pub struct Limits;
+
+/// The tutorials' listings compile, and what they assert holds.
+#[cfg(doctest)]
+mod tutorials {
+    #[doc = include_str!("../../docs/tutorials/paper.md")]
+    pub struct Paper;
+
+    #[doc = include_str!("../../docs/tutorials/sectors.md")]
+    pub struct Sectors;
+
+    #[doc = include_str!("../../docs/tutorials/games.md")]
+    pub struct Games;
+
+    #[doc = include_str!("../../docs/tutorials/large-trees.md")]
+    pub struct LargeTrees;
+}

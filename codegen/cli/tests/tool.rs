@@ -28,13 +28,17 @@ fn temporary(name: &str, contents: &str) -> PathBuf {
 }
 
 #[test]
-fn committed_expansion_is_fresh() {
-    let output = expand(&[
-        "--check".as_ref(),
-        fixture("expanded/paper.rs").as_ref(),
-        fixture("scenes/paper.rs").as_ref(),
-    ]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
+fn committed_expansions_are_fresh() {
+    let trees = fixture("../../runtime/trees");
+    let equations = ["general.rs", "straight.rs"].map(|name| {
+        let expanded = trees.join("src/equations").join(name);
+        (expanded, trees.join("equations").join(name))
+    });
+    let paper = (fixture("expanded/paper.rs"), fixture("scenes/paper.rs"));
+    for (expanded, source) in equations.into_iter().chain([paper]) {
+        let output = expand(&["--check".as_ref(), expanded.as_ref(), source.as_ref()]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+    }
 }
 
 #[test]

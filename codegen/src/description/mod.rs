@@ -48,12 +48,14 @@ mod item;
 mod list;
 mod parse;
 mod requests;
+mod source;
 mod text;
 
 use proc_macro2::{Ident, Span, TokenStream};
 
 pub use expression::{Expression, ExpressionKind};
 pub use parse::parse;
+pub use source::parse_text;
 
 /// The name of time in `drive(...)`, s.
 pub const TIME: &str = "t";
@@ -240,10 +242,25 @@ pub struct Multiplicity {
 /// A name and its value.
 #[derive(Debug, Clone)]
 pub struct Property {
+    /// The law in whose parentheses it stands, as in `friction(coulomb = 0.1)`.
+    pub within: Option<Ident>,
     /// The name.
     pub name: Ident,
     /// The value.
     pub value: Value,
+}
+
+impl Property {
+    /// Its name with the parentheses that it stands in; `friction` for the short form and
+    /// the long one, `friction(viscous = c)`.
+    pub fn key(&self) -> String {
+        let name = &self.name;
+        match &self.within {
+            Some(law) if name == "viscous" => law.to_string(),
+            Some(law) => format!("{law}({name})"),
+            None => name.to_string(),
+        }
+    }
 }
 
 /// The value of a property.

@@ -266,7 +266,13 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node
         Delimiter::Parenthesis,
         "`(` and the properties of the link",
     )?;
-    let properties = list(properties, report, property);
+    let mut damaged = false;
+    let properties = list(properties, report, |input, report| {
+        let members = members(input, report)?;
+        damaged |= members.damaged;
+        Ok(members.members)
+    });
+    damaged |= properties.damaged;
     brackets(input, "children", "[ ]")?;
     let children = if input.peek(token::Bracket) {
         let children = group(input, Delimiter::Bracket, "`[` and the children")?;
@@ -286,10 +292,28 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node
     Ok(Node {
         name,
         shape,
-        damaged: properties.damaged || children.damaged,
-        properties: properties.members,
+        damaged: damaged || children.damaged,
+        properties: properties.members.into_iter().flatten().collect(),
         children: children.members,
         copies,
+    })
+}
+
+/// A property of a link, or those in the parentheses of a law of friction.
+fn members(input: ParseStream<'_>, report: &mut Report) -> Result<List<Property>, ListFault> {
+    let name = identifier(input, "a property, as in `mass = 0.1`")?;
+    let is_law = ["friction", "drag"].iter().any(|law| name == law);
+    if is_law && input.peek(token::Paren) {
+        let laws = group(input, Delimiter::Parenthesis, "`(` and its laws")?;
+        let mut laws = list(laws, report, property);
+        for property in &mut laws.members {
+            property.within = Some(name.clone());
+        }
+        return Ok(laws);
+    }
+    Ok(List {
+        members: vec![property_value(name, input)?],
+        damaged: false,
     })
 }
 
@@ -321,7 +345,11 @@ fn property_value(name: Ident, input: ParseStream<'_>) -> Result<Property, ListF
     if matches!(value, Value::Each { .. }) && !input.is_empty() && !input.peek(Token![,]) {
         return Err(expected(input, EACH_WHOLE));
     }
-    Ok(Property { name, value })
+    Ok(Property {
+        within: None,
+        name,
+        value,
+    })
 }
 
 /// A single value or a pair.

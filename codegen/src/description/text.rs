@@ -90,7 +90,10 @@ fn separated<T: Display>(members: &[T], f: &mut Formatter<'_>) -> fmt::Result {
 
 impl Display for Property {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = {}", self.name, self.value)
+        match &self.within {
+            Some(law) => write!(f, "{law}({} = {})", self.name, self.value),
+            None => write!(f, "{} = {}", self.name, self.value),
+        }
     }
 }
 

@@ -201,7 +201,7 @@ impl Emission<'_> {
             Purpose::SymmetricAccelerations => vec![
                 format!("Second time derivatives (in rad/s²) of the symmetric coordinates at {}`coordinates` (in rad) and `rates` (in rad/s).", self.at_time()),
                 String::new(),
-                format!("Solves M̃(q) q̈ + b̃(q, q̇{}) = 0. A difference that is zero with its rate stays exactly zero.", self.and_time()),
+                format!("Solves M̃(q) q̈ + b̃(q, q̇{}) = 0. A difference that is zero with its rate stays exactly zero.{}", self.and_time(), self.braking_note()),
             ],
             Purpose::SymmetricMomenta => {
                 vec!["Generalized momenta p = M̃(q) q̇ (in kg m²/s) at symmetric `coordinates` (in rad) and their `rates` (in rad/s) (Toda and Ooshida, Eq. 10).".into()]
@@ -288,18 +288,24 @@ impl Emission<'_> {
             Purpose::DrivePower => vec![
                 "Power Σ Q_i ω_i (in W) of the drive on the whole tree at `time` (in s): dE/dt of E = K + U without friction.".into(),
             ],
-            Purpose::TotalFrictionPower => vec![
-                "Power −2 R (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.".into(),
-            ],
+            Purpose::TotalFrictionPower => {
+                let power = match self.has_nonlinear_friction() {
+                    true => "−2 R − Σ D w",
+                    false => "−2 R",
+                };
+                vec![format!("Power {power} (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.")]
+            }
             Purpose::Transverse(_)
             | Purpose::TransverseEnergy(_)
             | Purpose::TransverseTransfer(_)
             | Purpose::TransverseFriction(_) => self.transverse_meaning(purpose),
+            Purpose::SmallAccelerations | Purpose::SmallEnergy => self.small_meaning(purpose),
             Purpose::Positions(_)
             | Purpose::PointVelocities(_)
             | Purpose::PointTorques(_)
             | Purpose::LinkProperties => self.positions_meaning(purpose),
             Purpose::Link(function) => vec![link_meaning(function).into()],
+            Purpose::Scale(function) => vec![function.meaning().into()],
             Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
             Purpose::RootDrive => vec![
                 "What the drive adds to the apparent gravity at the root's pivot at `time` (in s), −a_x/l and −a_y/l, and its torque τ/(m l²) on the root.".into(),
@@ -319,8 +325,12 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::Coordinates => Some("symmetric `coordinates` (in rad)"),
         Argument::Rates => Some("their `rates` (in rad/s)"),
         Argument::Alpha => Some("angular accelerations `alpha` (in rad/s²)"),
-        Argument::Difference(_) => Some("differences `difference` (in rad)"),
-        Argument::DifferenceRate(_) => Some("their rates `difference_rate` (in rad/s)"),
+        Argument::Difference(_) | Argument::SmallDifferences => {
+            Some("differences `difference` (in rad)")
+        }
+        Argument::DifferenceRate(_) | Argument::SmallRates => {
+            Some("their rates `difference_rate` (in rad/s)")
+        }
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
         Argument::Torques => Some("`torques` (in N m)"),
         Argument::Prescribed(_) => Some("accelerations `prescribed` (in rad/s²)"),

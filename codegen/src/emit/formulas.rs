@@ -2,7 +2,9 @@
 
 use super::Emission;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
-use crate::mechanics::{Frame, TransferFormulas, TransferParts, WrittenOut};
+use crate::mechanics::{
+    BrakingTorque, Frame, LinkFormula, TransferFormulas, TransferParts, WrittenOut,
+};
 use crate::program::{Cause, Purpose};
 
 /// A formula: left side and right side.
@@ -10,6 +12,21 @@ pub(super) struct DocFormula {
     pub(super) left: String,
     pub(super) left_latex: String,
     pub(super) right: Expr,
+}
+
+impl From<LinkFormula> for DocFormula {
+    fn from(line: LinkFormula) -> Self {
+        let LinkFormula {
+            left,
+            left_latex,
+            right,
+        } = line;
+        Self {
+            left,
+            left_latex,
+            right,
+        }
+    }
 }
 
 impl Emission<'_> {
@@ -81,17 +98,24 @@ impl Emission<'_> {
                 None => Vec::new(),
             },
             Purpose::TotalFrictionPower => match &mechanics.friction_power {
-                Some(power) => simple("P", power),
+                Some(power) => {
+                    let mut formulas = simple("P", power);
+                    formulas.extend(self.braking_formulas(absolute));
+                    formulas
+                }
                 None => Vec::new(),
             },
             Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
+            Purpose::Scale(function) => self.scale_formulas(function),
             Purpose::Observable(n, form) => self.observable_formulas(n, form),
             Purpose::Positions(_) | Purpose::PointVelocities(_) => self.positions_formulas(purpose),
             Purpose::Transverse(_)
             | Purpose::TransverseEnergy(_)
             | Purpose::TransverseTransfer(_)
             | Purpose::TransverseFriction(_) => self.transverse_formulas(purpose),
-            Purpose::AbsoluteVelocities
+            Purpose::SmallEnergy => self.small_formulas(),
+            Purpose::SmallAccelerations
+            | Purpose::AbsoluteVelocities
             | Purpose::AccelerationsUnder
             | Purpose::Prescribed(_)
             | Purpose::OutsidePower
@@ -184,7 +208,21 @@ impl Emission<'_> {
                     right: bias.clone(),
                 }),
         );
+        formulas.extend(self.braking_formulas(frame));
         formulas
+    }
+
+    /// Torques of friction that is not viscous, link by link.
+    pub(super) fn braking_formulas(&self, frame: &Frame) -> Vec<DocFormula> {
+        let formula = |torque: &BrakingTorque| {
+            let symbol = self.mechanics.symbols.get(torque.symbol);
+            Some(DocFormula {
+                left: symbol.text.clone(),
+                left_latex: symbol.latex.clone(),
+                right: torque.formula()?,
+            })
+        };
+        frame.torques.iter().filter_map(formula).collect()
     }
 
     fn transfer(

@@ -31,7 +31,10 @@ impl Emission<'_> {
         // of the build uses, which only inlining allows. Those of loops call the
         // drive.
         let inline = match entry.purpose {
-            Purpose::Accelerations | Purpose::AccelerationsUnder | Purpose::Transverse(_) => {
+            Purpose::Accelerations
+            | Purpose::AccelerationsUnder
+            | Purpose::Transverse(_)
+            | Purpose::SmallAccelerations => {
                 quote!(#[inline(always)])
             }
             Purpose::Drive if self.scene.in_loops() => quote!(#[inline(always)]),
@@ -65,15 +68,20 @@ impl Emission<'_> {
         }
     }
 
-    /// Links and coordinates are equally many.
     pub(super) fn argument_size(&self, argument: Argument) -> Literal {
-        Literal::usize_unsuffixed(match argument {
+        Literal::usize_unsuffixed(self.argument_length(argument))
+    }
+
+    /// Links and coordinates are equally many.
+    fn argument_length(&self, argument: Argument) -> usize {
+        match argument {
             Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                 self.transverse_links(sector)
             }
+            Argument::SmallDifferences | Argument::SmallRates => self.small_count(),
             Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
             _ => self.scene.links.len(),
-        })
+        }
     }
 
     /// The body of a function that is short.
@@ -243,11 +251,7 @@ impl Emission<'_> {
             Some(strips) => strips.length(argument),
             None => match argument {
                 Argument::Forces => 2 * self.scene.links.len(),
-                Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
-                    self.transverse_links(sector)
-                }
-                Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
-                _ => self.scene.links.len(),
+                _ => self.argument_length(argument),
             },
         };
         let mut any = false;
@@ -278,7 +282,8 @@ impl Emission<'_> {
             | Argument::Sums
             | Argument::Elimination
             | Argument::Carried
-            | Argument::Pivot => quote!(let [#(#elements),*] = #array;),
+            | Argument::Pivot
+            | Argument::Given(_) => quote!(let [#(#elements),*] = #array;),
             _ => quote!(let [#(#elements),*] = *#array;),
         }
     }

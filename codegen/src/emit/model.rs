@@ -230,6 +230,7 @@ impl Emission<'_> {
             self.requirement(&requirement.what, &value, requirement.sign)
         });
         let regular = self.regularity();
+        let parametric = self.parametric();
         quote! {
             #[doc = #docs]
             #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
@@ -258,6 +259,48 @@ impl Emission<'_> {
                     #(#signs)*
                     #regular
                     ::core::result::Result::Ok(Self::from_parameters_unchecked(given))
+                }
+            }
+
+            #parametric
+        }
+    }
+
+    /// Parameters by name and number, for what fits them to data.
+    fn parametric(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let (parameters, other) = (
+            format_ident!("{}Parameters", name),
+            super::other_scalar(name),
+        );
+        let names = self
+            .scene
+            .parameters
+            .iter()
+            .map(|parameter| &parameter.name);
+        let fields = self.scene.parameters.iter().enumerate();
+        let fields = fields.map(|(index, parameter)| {
+            let (field, index) = (
+                format_ident!("{}", parameter.name),
+                Literal::usize_unsuffixed(index),
+            );
+            quote!(#field: values(#index))
+        });
+        let fields = quote!(#parameters { #(#fields),* });
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Parametric<T> for #name<T> {
+                const PARAMETERS: &'static [&'static str] = &[#(#names),*];
+
+                fn with_parameters<#other: #runtime::Scalar>(
+                    values: impl ::core::ops::Fn(usize) -> #other,
+                ) -> #name<#other> {
+                    #name::from_parameters_unchecked(#fields)
+                }
+
+                fn check_parameters(
+                    values: impl ::core::ops::Fn(usize) -> f64,
+                ) -> ::core::result::Result<(), #runtime::ParameterError> {
+                    ::core::result::Result::map(#name::<f64>::new(#fields), |_| ())
                 }
             }
         }

@@ -130,6 +130,9 @@ impl Emission<'_> {
             },
             Argument::Difference(sector) => &self.transverse_sector(sector).differences,
             Argument::DifferenceRate(sector) => &self.transverse_sector(sector).rates,
+            Argument::SmallDifferences | Argument::SmallRates => {
+                return self.small_name(argument, index);
+            }
             Argument::Torques => return format!("outside_{}", self.scene.links[index].name),
             Argument::Prescribed(set) => {
                 let link = self.scene.prescribed[set].links[index];

@@ -5,6 +5,7 @@ use super::doc_text::broken;
 use super::formulas::DocFormula;
 use crate::mechanics;
 use crate::mechanics::expression::Expr;
+use crate::scene::Link;
 
 /// Formulas of more rows than this are shown up to here.
 const ROWS: usize = 8;
@@ -16,12 +17,30 @@ impl Emission<'_> {
         mechanics::text(expr, &self.mechanics.symbols)
     }
 
+    /// Returns true if any friction or drag is not viscous.
+    pub(super) fn has_nonlinear_friction(&self) -> bool {
+        self.scene
+            .links
+            .iter()
+            .any(|link| !link.nonlinear.is_none())
+    }
+
+    /// What formulas in symmetric coordinates call D.
+    pub(super) fn braking_note(&self) -> &'static str {
+        match self.has_nonlinear_friction() {
+            true => {
+                " In the formulas D are the means and differences of torques of friction that is not viscous."
+            }
+            false => "",
+        }
+    }
+
     /// The rates of the momenta, with the torques that the scene has.
     pub(super) fn momentum_rates_in_words(&self) -> String {
         let links = &self.scene.links;
         let present = [
-            (links.iter().any(|link| link.friction.is_some()), "friction"),
-            (links.iter().any(|link| link.drag.is_some()), "drag"),
+            (links.iter().any(Link::has_friction), "friction"),
+            (links.iter().any(Link::has_drag), "drag"),
             (self.mechanics.drive.is_some(), "drive"),
         ];
         let present = present.into_iter().filter(|(present, _)| *present);

@@ -48,12 +48,7 @@ impl Emission<'_> {
         ];
         if let Some(link) = &self.mechanics.link {
             let formulas = link.formulas(&self.mechanics.symbols);
-            let formulas = formulas.into_iter().map(|line| DocFormula {
-                left: line.left,
-                left_latex: line.left_latex,
-                right: line.right,
-            });
-            let formulas: Vec<_> = formulas.collect();
+            let formulas: Vec<DocFormula> = formulas.into_iter().map(DocFormula::from).collect();
             self.show_text(&formulas, formulas.len(), &mut lines);
         }
         lines

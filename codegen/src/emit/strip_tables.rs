@@ -26,6 +26,15 @@ const BODIES: [&str; 12] = [
     "drag k against the ground (N m s)",
 ];
 
+/// Columns of laws of friction.
+const LAWS: [&str; 5] = [
+    "Coulomb friction C in the pivot (N m)",
+    "quadratic friction q in the pivot (N m s²)",
+    "width ε of friction in the pivot (rad/s)",
+    "quadratic drag q against the ground (N m s²)",
+    "width ε of drag (rad/s)",
+];
+
 impl Emission<'_> {
     /// `Self { … }`, the constants in place.
     pub(super) fn strip_values(&self, strips: &Strips) -> TokenStream {
@@ -66,10 +75,12 @@ impl Emission<'_> {
                 let [table, rows] =
                     self.table(&name, "the energies and powers", &columns, bodies, &known);
                 let (rest_table, rests) = self.rest_table(strips, &known);
+                let (law_table, laws) = self.law_table(strips, &known);
                 let value = quote! {
-                    bodies: #runtime::tree::Bodies::new(#runtime::tree::Shape::#shape, #rows)#rests
+                    bodies:
+                        #runtime::tree::Bodies::new(#runtime::tree::Shape::#shape, #rows)#rests #laws
                 };
-                (quote!(#table #rest_table), Some(value))
+                (quote!(#table #rest_table #law_table), Some(value))
             }
         };
         let properties = strips.strips.iter();
@@ -123,6 +134,23 @@ impl Emission<'_> {
         let name = format_ident!("rests");
         let [table, rows] = self.table(&name, "the springs", &columns, rests, known);
         (table, Some(quote!(.with_rests(#rows))))
+    }
+
+    /// The table of laws of friction, likewise.
+    fn law_table(
+        &self,
+        strips: &Strips,
+        known: &BTreeMap<ConstantId, Ident>,
+    ) -> (TokenStream, Option<TokenStream>) {
+        let laws = strips.strips.iter().filter_map(|strip| strip.laws.as_ref());
+        let laws: Vec<&[ConstantId]> = laws.map(|row| row.as_slice()).collect();
+        if laws.is_empty() {
+            return (TokenStream::new(), None);
+        }
+        let columns = LAWS.map(str::to_owned);
+        let name = format_ident!("laws");
+        let [table, rows] = self.table(&name, "friction", &columns, laws, known);
+        (table, Some(quote!(.with_laws(#rows))))
     }
 
     /// `let` lines for all constants that parameters are involved in, of the strips and

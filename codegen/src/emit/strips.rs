@@ -22,6 +22,7 @@ impl Emission<'_> {
         let energy = energies.then(|| self.strip_energy());
         let positions = self.positions_trait();
         let forced = self.scene.requests.forces.then(|| self.strip_forced());
+        let scales = self.strip_scales();
         quote! {
             #equations
             #functions
@@ -29,6 +30,7 @@ impl Emission<'_> {
             #energy
             #positions
             #forced
+            #scales
         }
     }
 
@@ -37,7 +39,7 @@ impl Emission<'_> {
         self.scene.in_loops() && FIELDS.contains(&name)
     }
 
-    fn equations_name(&self) -> Ident {
+    pub(super) fn equations_name(&self) -> Ident {
         format_ident!("{}Equations", self.item.ident)
     }
 

@@ -370,6 +370,7 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
         };
     }
     let parameters = format_ident!("{name}Parameters");
+    let other = super::other_scalar(name);
     quote! {
         #[allow(missing_docs)]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
@@ -387,6 +388,18 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
         #[allow(missing_docs, unused_variables, clippy::all)]
         impl<T: #runtime::Scalar> #name<T> {
             pub fn from_parameters_unchecked(parameters: #parameters<T>) -> Self {
+                ::core::unimplemented!()
+            }
+        }
+
+        impl<T: #runtime::Scalar> #runtime::Parametric<T> for #name<T> {
+            const PARAMETERS: &'static [&'static str] = &[];
+            fn with_parameters<#other: #runtime::Scalar>(
+                _: impl ::core::ops::Fn(usize) -> #other,
+            ) -> #name<#other> { ::core::unimplemented!() }
+            fn check_parameters(
+                _: impl ::core::ops::Fn(usize) -> f64,
+            ) -> ::core::result::Result<(), #runtime::ParameterError> {
                 ::core::unimplemented!()
             }
         }

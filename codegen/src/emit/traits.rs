@@ -22,6 +22,7 @@ impl Emission<'_> {
         let forms = self.transfer_forms();
         let positions = self.positions_trait();
         let transverse = self.transverse_trait();
+        let small = self.small_trait();
         let forced = self.scene.requests.forces.then(|| self.forced());
         let prescribed = self.prescribed_trait();
         let taylor = self.scene.requests.taylor.then(|| self.taylor_pendulum());
@@ -34,6 +35,7 @@ impl Emission<'_> {
             #forms
             #positions
             #transverse
+            #small
             #forced
             #prescribed
             #taylor

@@ -110,6 +110,21 @@ impl Emission<'_> {
         let transfer = self.by_sector("transfer", &["theta", "omega", "alpha"], true);
         let accelerations = self.by_sector("accelerations", &["theta", "omega", "alpha"], true);
         let power = self.friction_by_sector();
+        let braked = transverse.sectors.iter().any(|formulas| formulas.braked);
+        let along = braked.then(|| {
+            let power = self.friction_along();
+            quote! {
+                #[inline]
+                fn transverse_friction_power_along(
+                    &self,
+                    sector: usize,
+                    motion: #runtime::system::InPhaseMotion<'_, T>,
+                    difference_rate: &[T],
+                ) -> T {
+                    #power
+                }
+            }
+        });
         let motion = quote! {
             let #runtime::system::InPhaseMotion { theta, omega, alpha } = motion;
         };
@@ -182,6 +197,8 @@ impl Emission<'_> {
                 ) -> T {
                     #power
                 }
+
+                #along
             }
         })
     }
@@ -245,15 +262,49 @@ impl Emission<'_> {
         }
     }
 
-    /// The same of the power of friction, which takes the rates alone and may be zero.
+    /// The power of friction of sectors where it depends on the motion, and of the others.
+    fn friction_along(&self) -> TokenStream {
+        let (runtime, none) = (self.runtime(), self.no_answer("friction_power"));
+        let some = quote!(::core::option::Option::Some);
+        let arms = self.sector_arms(|formulas| match formulas.braked {
+            true => {
+                let name = &formulas.sector.name;
+                let function = format_ident!("transverse_friction_power_{name}");
+                quote! {
+                    match (
+                        #runtime::emitted::arrays([motion.omega]),
+                        #runtime::emitted::arrays([difference_rate]),
+                    ) {
+                        (#some([omega]), #some([difference_rate])) => {
+                            self.#function(omega, difference_rate)
+                        }
+                        _ => #none,
+                    }
+                }
+            }
+            false => quote! {
+                #runtime::Transverse::transverse_friction_power_of(self, sector, difference_rate)
+            },
+        });
+        quote! {
+            match sector {
+                #(#arms,)*
+                _ => #none,
+            }
+        }
+    }
+
+    /// The same of the power of friction, which takes the rates alone and may be zero. None
+    /// where it takes the motion too.
     fn friction_by_sector(&self) -> TokenStream {
         let (runtime, none) = (self.runtime(), self.no_answer("friction_power"));
         let some = quote!(::core::option::Option::Some);
         let arms = self.sector_arms(|formulas| {
             let links = Literal::usize_unsuffixed(formulas.sector.links);
-            let (known, power) = match formulas.friction.is_zero() {
-                true => (quote!(_), quote!(T::from_f64(0.0))),
-                false => {
+            let (known, power) = match (formulas.friction.is_zero(), formulas.braked) {
+                (true, _) => (quote!(_), quote!(T::from_f64(0.0))),
+                (_, true) => (quote!(_), none.clone()),
+                (false, false) => {
                     let name = &formulas.sector.name;
                     let function = format_ident!("transverse_friction_power_{name}");
                     (

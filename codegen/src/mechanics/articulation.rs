@@ -5,6 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::DerivedFrame;
+use super::friction::LawConstants;
 use crate::scene::LinkId;
 
 /// Constants of the links of one orbit; each is an expression in named
@@ -26,6 +27,8 @@ pub struct Joint {
     pub spring: Expr,
     /// Relative angle at which the spring is at rest.
     pub rest: Expr,
+    /// Laws of friction in the pivot and against the ground, beside viscous ones.
+    pub laws: [LawConstants; 2],
 }
 
 /// The quantities from which the articulated recursion is formed.
@@ -71,6 +74,7 @@ impl Derivation<'_> {
                 drag: optional(&link.drag, "k"),
                 spring: optional(&link.spring, "κ"),
                 rest: optional(&link.rest, "ρ"),
+                laws: self.law_constants(&orbit.name),
             }
         });
         Articulation {

@@ -84,11 +84,12 @@ impl Default for DerivedDrive {
 }
 
 impl DerivedDrive {
-    /// Notes −2 R, given the terms of R: left as squares, so that no rounding
-    /// turns its sign.
-    pub(super) fn note_friction(&mut self, dissipation: &[Formula]) {
+    /// Notes −2 R − Σ D w, given the terms of R and the products D w: left as squares, so
+    /// that no rounding turns its sign.
+    pub(super) fn note_friction(&mut self, dissipation: &[Formula], work: &[Formula]) {
         let minus_two = Formula::integer(-2);
-        self.friction = dissipation.iter().map(|term| &minus_two * term).sum();
+        let viscous = dissipation.iter().map(|term| &minus_two * term);
+        self.friction = viscous.chain(work.iter().map(|work| -work.clone())).sum();
     }
 }
 

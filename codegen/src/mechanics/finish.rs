@@ -34,6 +34,7 @@ impl Derivation<'_> {
             articulation: self.articulation(&absolute),
             positions: None,
             link: None,
+            scales: None,
             coordinates: Vec::new(),
             symmetric: None,
             sectors: None,
@@ -136,6 +137,7 @@ impl Derivation<'_> {
             energies: None,
             momentum: None,
             momentum_rates: None,
+            torques: Vec::new(),
             dissipative_forces: Vec::new(),
             drive: Vec::new(),
             bias: Vec::new(),
@@ -162,7 +164,8 @@ impl Derivation<'_> {
             .collect()
     }
 
-    pub(super) fn frame(&self, frame: &DerivedFrame) -> Frame {
+    pub(super) fn frame(&mut self, frame: &DerivedFrame) -> Frame {
+        let torques = self.plain_torques(&frame.torques);
         let requests = &self.scene.requests;
         Frame {
             coordinates: frame.coordinates.clone(),
@@ -181,6 +184,7 @@ impl Derivation<'_> {
             momentum_rates: requests
                 .momenta
                 .then(|| self.exprs(&frame.momentum_rates(self))),
+            torques,
             dissipative_forces: self.exprs(&frame.dissipative_forces()),
             drive: self.exprs(&frame.drive_forces(self)),
             bias: self.exprs(&frame.bias(self)),

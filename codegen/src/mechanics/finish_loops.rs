@@ -9,6 +9,8 @@ impl Derivation<'_> {
     pub(super) fn finish_loops(mut self) -> Mechanics {
         self.drive_signals();
         let link = self.link_balance();
+        let scales = self.scene.requests.scales();
+        let scales = scales.then(|| self.link_scales(&link.symbols));
         let gravity = self.quantity(&self.scene.gravity);
         Mechanics {
             parameters: self.parameters.clone(),
@@ -21,6 +23,7 @@ impl Derivation<'_> {
             },
             positions: None,
             link: Some(link),
+            scales,
             combinations: Vec::new(),
             constants: Vec::new(),
             coordinates: Vec::new(),

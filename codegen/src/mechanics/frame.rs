@@ -4,6 +4,7 @@
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::SymbolId;
+use super::friction::DerivedTorque;
 use std::collections::BTreeMap;
 
 /// Lower triangle of a symmetric matrix, sparse.
@@ -51,7 +52,12 @@ pub(super) struct DerivedFrame {
     pub(super) potential: Formula,
     /// The part of the potential energy that is in torsion springs.
     pub(super) springs: Formula,
+    /// Rayleigh's function R of viscous friction and drag, and Σ D w of the torques D of
+    /// all other friction, which do not count as functions of the velocities here: its
+    /// gradient in these is the torques of both.
     pub(super) dissipation: Formula,
+    /// The torques D.
+    pub(super) torques: Vec<DerivedTorque>,
     /// Function whose gradient at fixed time is the generalized forces of the
     /// drive; zero without a drive.
     pub(super) drive: Formula,
@@ -69,6 +75,7 @@ impl DerivedFrame {
             potential: Formula::zero(),
             springs: Formula::zero(),
             dissipation: Formula::zero(),
+            torques: Vec::new(),
             drive: Formula::zero(),
         }
     }

@@ -5,6 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
+use super::friction::DerivedTorque;
 use super::print::latex_name;
 use crate::scene::{Link, LinkId, Offset, Quantity};
 
@@ -29,7 +30,9 @@ impl Derivation<'_> {
         let potential = self.potential(&coordinates);
         let springs = self.springs(&coordinates);
         let dissipation = self.dissipation(&velocities);
-        self.drive.note_friction(&dissipation);
+        let torques = self.braking_torques(&velocities);
+        let work: Vec<Formula> = torques.iter().filter_map(DerivedTorque::work).collect();
+        self.drive.note_friction(&dissipation, &work);
         let drive = self.drive_work(&coordinates);
         DerivedFrame {
             coordinates,
@@ -38,7 +41,8 @@ impl Derivation<'_> {
             mass,
             potential: &potential + &springs,
             springs,
-            dissipation: dissipation.into_iter().sum(),
+            dissipation: dissipation.into_iter().chain(work).sum(),
+            torques,
             drive,
         }
     }
@@ -303,7 +307,7 @@ impl Derivation<'_> {
     }
 
     /// A link's angle or velocity less its parent's.
-    fn relative(&self, link: usize, symbols: &[SymbolId]) -> Formula {
+    pub(super) fn relative(&self, link: usize, symbols: &[SymbolId]) -> Formula {
         let own = Formula::symbol(symbols[link]);
         match self.scene.links[link].parent {
             Some(LinkId(parent)) => &own - &Formula::symbol(symbols[parent]),

@@ -158,17 +158,17 @@ fn prime(name: &str) -> String {
 }
 
 /// A vector.
-type Plane = [Formula; 2];
+pub(super) type Plane = [Formula; 2];
 
-fn plus(a: &Plane, b: &Plane) -> Plane {
+pub(super) fn plus(a: &Plane, b: &Plane) -> Plane {
     [&a[0] + &b[0], &a[1] + &b[1]]
 }
 
-fn times(factor: &Formula, a: &Plane) -> Plane {
+pub(super) fn times(factor: &Formula, a: &Plane) -> Plane {
     a.each_ref().map(|component| factor * component)
 }
 
-fn dot(a: &Plane, b: &Plane) -> Formula {
+pub(super) fn dot(a: &Plane, b: &Plane) -> Formula {
     &(&a[0] * &b[0]) + &(&a[1] * &b[1])
 }
 
@@ -258,16 +258,9 @@ impl Derivation<'_> {
     }
 
     /// The acceleration of a point of the link beside its pivot's, and ∂r/∂θ.
-    fn moved(&self, s: &LinkSymbols, [along, lateral]: Plane) -> (Plane, Plane) {
-        let [cos, sin] = s.direction.map(Formula::symbol);
-        let position = [
-            &(&along * &sin) + &(&lateral * &cos),
-            &(&lateral * &sin) - &(&along * &cos),
-        ];
-        let angle = s.angle;
-        let slope = |a: &Plane| a.each_ref().map(|component| self.partial(component, angle));
-        let lever = slope(&position);
-        let bend = slope(&lever);
+    fn moved(&self, s: &LinkSymbols, point: Plane) -> (Plane, Plane) {
+        let lever = self.link_lever(s, point);
+        let bend = self.turned(s, &lever);
         let square = Formula::symbol(s.omega).pow(2);
         let acceleration = plus(
             &times(&Formula::symbol(s.acceleration), &lever),

@@ -189,6 +189,7 @@ impl Derivation<'_> {
             potential: mean(&frame.potential),
             springs: mean(&frame.springs),
             dissipation: mean(&frame.dissipation),
+            torques: frame.torques.clone(),
             drive: mean(&frame.drive),
         }
     }
@@ -221,7 +222,8 @@ impl Derivation<'_> {
 
     /// The mean tree as plain data, and the velocities that the mismatch adds:
     /// M̃₀ u = −(M̃ − M̃₀) q̇.
-    pub(super) fn mean_tree(&self, mismatch: &Mismatch<'_>) -> MeanTree {
+    pub(super) fn mean_tree(&mut self, mismatch: &Mismatch<'_>) -> MeanTree {
+        let frame = self.frame(mismatch.mean);
         let velocities = &mismatch.frame.velocities;
         let rows = 0..velocities.len();
         let right = rows.map(|row| {
@@ -231,7 +233,7 @@ impl Derivation<'_> {
             self.expr(&-terms.sum::<Formula>())
         });
         MeanTree {
-            frame: self.frame(mismatch.mean),
+            frame,
             added: System {
                 unknowns: mismatch.added.clone(),
                 right: right.collect(),

@@ -13,6 +13,7 @@ pub mod expression;
 mod finish;
 mod finish_loops;
 mod frame;
+mod friction;
 mod hamiltonian;
 mod inverse_mass;
 mod lagrangian;
@@ -25,9 +26,11 @@ mod observables;
 mod positions;
 mod print;
 mod rate_symbols;
+mod scales;
 pub mod sectors;
 mod series;
 mod show;
+mod small;
 mod symmetric;
 mod transfer;
 mod transverse;
@@ -38,8 +41,9 @@ pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
+pub use friction::{BrakingTorque, FrictionPlace, LawConstants, TorqueSource};
 pub use inverse_mass::Counting;
-pub use link::{Composite, LinkBalance, LinkSymbols};
+pub use link::{Composite, LinkBalance, LinkFormula, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
     CanonicalRate, EnergySymbols, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame,
@@ -47,7 +51,9 @@ pub use observables::{
 };
 pub use positions::{LinkPositions, RelativePosition};
 pub use print::{latex, text};
+pub use scales::{LinkScales, ScaleSymbols};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
+pub use small::{SmallFormulas, SmallMechanics};
 pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 
@@ -112,6 +118,8 @@ pub struct Frame {
     /// ṗ_i = ∂L/∂q_i + Q_i, friction, drag and drive included, in coordinates
     /// and velocities, if momenta are asked for.
     pub momentum_rates: Option<Vec<Expr>>,
+    /// Torques of friction that is not viscous, as far as symbols stand for them.
+    pub torques: Vec<BrakingTorque>,
     /// Generalized forces −∂R/∂v_i of friction and drag, zero where there are
     /// none; contained in `bias` with the opposite sign.
     pub dissipative_forces: Vec<Expr>,
@@ -253,6 +261,8 @@ pub struct Mechanics {
     pub positions: Option<Vec<LinkPositions>>,
     /// The balance of one link, where the code is loops.
     pub link: Option<LinkBalance>,
+    /// Energies by scale of one link, where the code is loops and they are asked for.
+    pub scales: Option<LinkScales>,
     /// The symmetric coordinates, if asked for.
     pub coordinates: Vec<Coordinate>,
     /// The mechanics in symmetric coordinates, if asked for. On nested trees its

@@ -9,6 +9,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::DerivedFrame;
+use super::friction::LawConstants;
 use crate::scene::{Coordinate, LinkId, Offset, SectorVariables, sectors};
 
 /// Constants of the links of one orbit; each is an expression in named
@@ -37,6 +38,8 @@ pub struct OrbitConstants {
     pub friction: Expr,
     /// Viscous drag against the ground.
     pub drag: Expr,
+    /// Laws of friction in the pivot and against the ground, beside viscous ones.
+    pub laws: [LawConstants; 2],
     /// Functions of time c, s, τ in the generalized force of the drive,
     /// Q = s cos θ − c sin θ + τ.
     pub drive: [Expr; 3],
@@ -110,6 +113,7 @@ impl Derivation<'_> {
                 rest: optional(&link.rest, "ρ"),
                 friction: optional(&link.friction, "c"),
                 drag: optional(&link.drag, "k"),
+                laws: self.law_constants(&orbit.name),
                 drive: [self.cos(angle), self.sin(angle), angle]
                     .map(|symbol| expr(frame.drive.derivative(symbol).expand())),
             });

@@ -2,9 +2,9 @@
 
 use super::expression::{Expr, SymbolId};
 use super::{
-    Counting, DriveTerms, Frame, LinkBalance, LinkPositions, MatrixEntry, MeanTree, Mechanics,
-    OrbitMechanics, RelativePosition, Temporal, TransferParts, TransverseFormulas,
-    TransverseMechanics, text,
+    Counting, DriveTerms, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree,
+    Mechanics, OrbitMechanics, RelativePosition, SmallFormulas, SmallMechanics, Temporal,
+    TransferParts, TransverseFormulas, TransverseMechanics, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
@@ -140,6 +140,41 @@ impl Mechanics {
                 self.line(f, "power of friction", friction)?;
             }
         }
+        all.small
+            .iter()
+            .try_for_each(|small| self.small(f, all, small))
+    }
+
+    /// What the differences that act back add to the equations of the in-phase motion.
+    fn small(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        all: &TransverseMechanics,
+        small: &SmallMechanics,
+    ) -> fmt::Result {
+        for formulas in &small.sectors {
+            let SmallFormulas {
+                sector,
+                mass,
+                coupling,
+                bias,
+                difference_bias,
+                energy,
+            } = formulas;
+            writeln!(
+                f,
+                "differences of {} act back",
+                all.sectors[*sector].sector.name
+            )?;
+            self.matrix(f, "M₂", mass)?;
+            self.matrix(f, "M₁", coupling)?;
+            for (name, terms) in [("b₂", bias), ("b₁", difference_bias)] {
+                for (index, term) in terms.iter().enumerate() {
+                    self.line(f, &format!("{name}[{}]", index + 1), term)?;
+                }
+            }
+            self.line(f, "E₂", energy)?;
+        }
         Ok(())
     }
 
@@ -210,6 +245,11 @@ impl Mechanics {
         for (index, bias) in frame.bias.iter().enumerate() {
             self.line(f, &format!("b[{}]", index + 1), bias)?;
         }
+        for torque in &frame.torques {
+            if let Some(formula) = torque.formula() {
+                self.line(f, &self.name(torque.symbol), &formula)?;
+            }
+        }
         for (index, force) in frame.drive.iter().enumerate() {
             if !force.is_zero() {
                 self.line(f, &format!("Q[{}]", index + 1), force)?;
@@ -226,7 +266,9 @@ impl Mechanics {
 
     fn link(&self, f: &mut fmt::Formatter<'_>, link: &LinkBalance) -> fmt::Result {
         writeln!(f, "one link, with the subtrees on one pivot of it")?;
-        link.formulas(&self.symbols)
+        let mut formulas = link.formulas(&self.symbols);
+        formulas.extend(self.scales.iter().flat_map(LinkScales::formulas));
+        formulas
             .iter()
             .try_for_each(|formula| self.line(f, &formula.left, &formula.right))
     }

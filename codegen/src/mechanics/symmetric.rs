@@ -110,14 +110,25 @@ impl Derivation<'_> {
             .iter()
             .map(|(angle, value)| &absolute.drive.derivative(*angle) * value)
             .sum();
+        let mut in_rates = with_constants(linear(&absolute.velocities, &velocities));
+        let torques = match self.scene.has_unequal_copies() {
+            true => absolute
+                .torques
+                .iter()
+                .map(|torque| torque.substitute(&in_rates))
+                .collect(),
+            false => {
+                let (torques, of_links) = self.symmetric_torques(&absolute.torques, coordinates);
+                in_rates.extend(of_links);
+                torques
+            }
+        };
         DerivedFrame {
             mass: mass.map(|_, _, sum| sum.expand()),
             potential: &gravity + &springs,
             springs,
-            dissipation: absolute
-                .dissipation
-                .substitute(&with_constants(linear(&absolute.velocities, &velocities)))
-                .expand(),
+            dissipation: absolute.dissipation.substitute(&in_rates).expand(),
+            torques,
             drive: &moment + &torque,
             coordinates: ids,
             velocities,

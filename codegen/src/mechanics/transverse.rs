@@ -10,6 +10,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
 use super::frame::DerivedFrame;
+use super::small::SmallMechanics;
 use crate::scene::TransverseSector;
 use std::ops::Range;
 
@@ -32,6 +33,9 @@ pub struct TransverseFormulas {
     pub transfer: Expr,
     /// The power of friction and drag on it; zero without both.
     pub friction: Expr,
+    /// True if that power depends on the in-phase motion, as it does where friction is not
+    /// viscous.
+    pub braked: bool,
 }
 
 /// All sectors, with the accelerations of the in-phase motion that drive them.
@@ -41,10 +45,12 @@ pub struct TransverseMechanics {
     pub accelerations: Vec<SymbolId>,
     /// The sectors.
     pub sectors: Vec<TransverseFormulas>,
+    /// Those that act back, if any are asked for.
+    pub small: Option<SmallMechanics>,
 }
 
 /// Symbols of the small motion of all links beside the in-phase one.
-struct SmallMotion {
+pub(super) struct SmallMotion {
     accelerations: Vec<SymbolId>,
     differences: Vec<SymbolId>,
     rates: Vec<SymbolId>,
@@ -78,10 +84,12 @@ impl Derivation<'_> {
         };
         let balances = self.balances(frame, &small);
         let sectors = self.scene.transverse_sectors().into_iter();
-        let sectors =
-            sectors.map(|sector| self.transverse_sector(frame, &small, &balances, sector));
+        let sectors: Vec<TransverseFormulas> = sectors
+            .map(|sector| self.transverse_sector(frame, &small, &balances, sector))
+            .collect();
         TransverseMechanics {
-            sectors: sectors.collect(),
+            small: self.small(frame, &small, &sectors),
+            sectors,
             accelerations: small.accelerations,
         }
     }
@@ -140,13 +148,17 @@ impl Derivation<'_> {
             energy: shared(&energy),
             transfer: shared(&transfer),
             friction: shared(&friction),
+            braked: frame
+                .torques
+                .iter()
+                .any(|torque| friction.symbols().contains(&torque.slope)),
             sector,
         }
     }
 
     /// The part of a function of angles and velocities that is linear in the small motion
     /// of these links.
-    fn linearised(
+    pub(super) fn linearised(
         &self,
         frame: &DerivedFrame,
         small: &SmallMotion,
@@ -155,7 +167,7 @@ impl Derivation<'_> {
     ) -> Formula {
         let terms = block.map(|j| {
             let stiffness = self.partial(function, frame.coordinates[j]);
-            let damping = function.derivative(frame.velocities[j]);
+            let damping = self.velocity_slope(frame, function, frame.velocities[j]);
             &(&stiffness * &small.difference(j)) + &(&damping * &small.rate(j))
         });
         terms.sum::<Formula>().expand()

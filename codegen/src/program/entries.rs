@@ -51,6 +51,9 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     list.observables(scene, mechanics);
     if let Some(transverse) = &mechanics.transverse {
         list.transverse(mechanics, transverse);
+        if let Some(small) = &transverse.small {
+            list.small(mechanics, transverse, small);
+        }
     }
     if let Some(positions) = &mechanics.positions {
         list.positions(scene, mechanics, positions);

@@ -1,6 +1,6 @@
 //! Entry points: purpose, arguments and shape of the functions that code has.
 
-use super::ValueId;
+use super::{ScaleFunction, ValueId};
 use crate::mechanics::Counting;
 
 /// An argument of an entry point: an array, but for the time.
@@ -28,6 +28,10 @@ pub enum Argument {
     Difference(usize),
     /// Their rates, rad/s.
     DifferenceRate(usize),
+    /// Differences in all sectors that act back, one sector after the other, rad.
+    SmallDifferences,
+    /// Their rates, rad/s.
+    SmallRates,
     /// Generalized torques from outside, one for each absolute angle, N m.
     Torques,
     /// Accelerations of the prescribed links of the set with that number, rad/s².
@@ -53,6 +57,8 @@ pub enum Argument {
     Carried,
     /// Apparent gravity at a link's pivot.
     Pivot,
+    /// Numbers that a function of energies by scale takes beside constants and motion.
+    Given(ScaleFunction),
 }
 
 /// The shape in which an entry point returns its outputs.
@@ -221,6 +227,10 @@ pub enum Purpose {
     TransverseTransfer(usize),
     /// The power of friction on it.
     TransverseFriction(usize),
+    /// Accelerations of angles and of small differences that act back.
+    SmallAccelerations,
+    /// Their energy.
+    SmallEnergy,
     /// Positions of these points of all links.
     Positions(PointKind),
     /// Their velocities.
@@ -231,6 +241,8 @@ pub enum Purpose {
     LinkProperties,
     /// A function of the recursion, for one link of a tree in loops.
     Link(LinkFunction),
+    /// A function of energies by scale, for one link of a tree in loops.
+    Scale(ScaleFunction),
     /// Apparent gravity at the root's pivot of a tree in loops, in reduced units.
     RootGravity,
     /// Contribution of the drive to that, and its torque on the root, in reduced units.

@@ -2,12 +2,12 @@
 
 use super::lower::{Environment, Lowering};
 use super::symmetric::{
-    ConstantValues, CouplingValues, Fields, OrbitLinks, OrbitValues, Pose, SeriesArithmetic,
-    SymmetricMotion, SymmetricTree, TruncatedSeries,
+    ConstantValues, CouplingValues, Fields, LawValues, OrbitLinks, OrbitValues, Pose,
+    SeriesArithmetic, SymmetricMotion, SymmetricTree, TruncatedSeries,
 };
 use super::{Argument, ValueId};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Counting, Mechanics, OrbitMechanics};
+use crate::mechanics::{Counting, LawConstants, Mechanics, OrbitMechanics};
 use crate::scene::{LinkId, Scene};
 
 /// Form of the state that an entry point receives.
@@ -40,6 +40,23 @@ pub(super) fn symmetric_tree<'b>(
     }
 }
 
+/// The constants of a law of friction as values of the program.
+pub(super) fn law_values(lowering: &mut Lowering<'_>, law: &LawConstants) -> LawValues {
+    let frame = &lowering.mechanics.absolute;
+    let mut environment = Environment::new(frame, Argument::Theta, Some(Argument::Omega), None);
+    let law = lowering.law(&mut environment, law);
+    let [coulomb, quadratic, width] =
+        [law.coulomb, law.quadratic, law.width].map(|value| match lowering.builder.is(value, 0) {
+            true => TruncatedSeries::default(),
+            false => TruncatedSeries::of_order(0, value),
+        });
+    LawValues {
+        coulomb,
+        quadratic,
+        width,
+    }
+}
+
 /// The constants as values of the program.
 pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> ConstantValues {
     let mut environment = Environment::new(
@@ -56,7 +73,7 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
             TruncatedSeries::of_order(0, value)
         }
     };
-    let orbits = sectors
+    let mut orbits: Vec<OrbitValues> = sectors
         .orbits
         .iter()
         .map(|orbit| OrbitValues {
@@ -72,6 +89,7 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
             friction: series(&orbit.friction),
             drag: series(&orbit.drag),
             drive: [0, 1, 2].map(|part| series(&orbit.drive[part])),
+            laws: [LawValues::default(), LawValues::default()],
         })
         .collect();
     let couplings = sectors
@@ -84,6 +102,9 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
             sine: series(&coupling.sine),
         })
         .collect();
+    for (values, orbit) in orbits.iter_mut().zip(&sectors.orbits) {
+        values.laws = orbit.laws.each_ref().map(|law| law_values(lowering, law));
+    }
     ConstantValues { orbits, couplings }
 }
 

@@ -31,7 +31,10 @@ impl Program {
     /// functions run in plain numbers. Linear in the program's length, times a
     /// logarithm.
     pub fn fused(&self, entry: &Entry) -> BTreeMap<ValueId, FusedSum> {
-        let accelerates = matches!(entry.purpose, Purpose::Accelerations | Purpose::Link(_));
+        let accelerates = matches!(
+            entry.purpose,
+            Purpose::Accelerations | Purpose::Link(_) | Purpose::Scale(_)
+        );
         if !accelerates || self.without == Some(Pass::Fusing) {
             return BTreeMap::new();
         }

@@ -7,6 +7,7 @@
 use super::builder::Builder;
 use super::constants::ConstantId;
 use super::solve::Matrix;
+use super::symmetric::OrbitLinks;
 use super::{Argument, ValueId};
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{
@@ -20,6 +21,9 @@ pub(super) struct Lowering<'a> {
     pub(super) mechanics: &'a Mechanics,
     pub(super) builder: Builder,
     pub(super) constants: BTreeMap<SymbolId, ConstantId>,
+    /// The orbits with their means and differences, where the scene has symmetric
+    /// coordinates.
+    pub(super) orbits: &'a [OrbitLinks],
 }
 
 /// Values for the symbols of one frame: handed over by the caller, or formed on
@@ -58,6 +62,11 @@ impl<'a> Environment<'a> {
         }
     }
 
+    /// The value that a symbol has got already.
+    pub(super) fn supplied(&self, symbol: SymbolId) -> Option<ValueId> {
+        self.values.get(&symbol).copied()
+    }
+
     /// Hands over the value of a symbol.
     pub(super) fn supply(&mut self, symbol: SymbolId, value: ValueId) {
         self.values.insert(symbol, value);
@@ -72,9 +81,10 @@ fn position(symbols: &[SymbolId], symbol: SymbolId) -> usize {
 }
 
 impl<'a> Lowering<'a> {
-    pub(super) fn new(mechanics: &'a Mechanics) -> Self {
+    pub(super) fn new(mechanics: &'a Mechanics, orbits: &'a [OrbitLinks]) -> Self {
         Self {
             mechanics,
+            orbits,
             builder: Builder::default(),
             constants: BTreeMap::new(),
         }
@@ -86,7 +96,7 @@ impl<'a> Lowering<'a> {
         environment: &mut Environment<'_>,
         symbol: SymbolId,
     ) -> ValueId {
-        if let Some(&value) = environment.values.get(&symbol) {
+        if let Some(value) = environment.supplied(symbol) {
             return value;
         }
         let entry = self.mechanics.symbols.get(symbol).clone();
@@ -157,9 +167,13 @@ impl<'a> Lowering<'a> {
         solution
     }
 
-    /// A velocity of the expansion: w with M⁽⁰⁾ w = p, or a correction to it.
+    /// A torque of friction, or a velocity of the expansion: w with M⁽⁰⁾ w = p, or a
+    /// correction to it.
     fn derived(&mut self, environment: &mut Environment<'_>, symbol: SymbolId) -> ValueId {
         let mechanics = self.mechanics;
+        if let Some(torque) = self.braking(environment, symbol) {
+            return torque;
+        }
         if let Some(mean_tree) = &mechanics.mean_tree {
             let added = self.added(environment, mean_tree);
             let unknowns = &mean_tree.added.unknowns;

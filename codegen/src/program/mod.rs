@@ -17,6 +17,7 @@ mod entries;
 mod entry;
 mod entry_state;
 mod factors;
+mod friction;
 mod fuse;
 mod interpret;
 mod link;
@@ -34,6 +35,7 @@ mod rotations;
 mod rules;
 mod scale;
 mod sectors;
+mod small;
 mod solve;
 mod symmetric;
 mod taylor;
@@ -51,7 +53,7 @@ pub use entry::{
     Shape,
 };
 pub use fuse::FusedSum;
-pub use link::{Column, LINK_MOTION, Strip, Strips};
+pub use link::{Column, LINK_MOTION, ScaleFunction, Strip, Strips};
 pub use operation::{Definition, Op, ValueId};
 use passes::PASSES;
 pub use passes::{Pass, worth};
@@ -74,7 +76,11 @@ pub fn lower(
     scene: &Scene,
     mechanics: &Mechanics,
 ) -> Result<Program, TooManyValues> {
-    let mut lowering = lower::Lowering::new(mechanics);
+    let orbits = match mechanics.coordinates.as_slice() {
+        [] => Vec::new(),
+        coordinates => symmetric::orbits(scene, coordinates),
+    };
+    let mut lowering = lower::Lowering::new(mechanics, &orbits);
     lowering.builder.off = off;
     let (entries, choice, strips) = match scene.in_loops() {
         true => entries::link_entries(scene, &mut lowering),

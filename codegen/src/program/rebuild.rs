@@ -66,6 +66,10 @@ impl<'a> Rebuilt<'a> {
             Argument::Alpha => &transverse?.accelerations,
             Argument::Difference(sector) => &transverse?.sectors.get(sector)?.differences,
             Argument::DifferenceRate(sector) => &transverse?.sectors.get(sector)?.rates,
+            Argument::SmallDifferences => {
+                return transverse?.small_symbol(index, |of| &of.differences);
+            }
+            Argument::SmallRates => return transverse?.small_symbol(index, |of| &of.rates),
             // The reader knows the meaning of elements of rows.
             Argument::Forces
             | Argument::Torques
@@ -76,7 +80,8 @@ impl<'a> Rebuilt<'a> {
             | Argument::Sums
             | Argument::Elimination
             | Argument::Carried
-            | Argument::Pivot => return self.given.get(&(argument, index)).copied(),
+            | Argument::Pivot
+            | Argument::Given(_) => return self.given.get(&(argument, index)).copied(),
         };
         symbols.get(index).copied()
     }

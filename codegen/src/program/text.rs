@@ -15,8 +15,8 @@ impl Argument {
             Self::Rates => "rates",
             Self::Forces => "forces",
             Self::Alpha => "alpha",
-            Self::Difference(_) => "difference",
-            Self::DifferenceRate(_) => "difference_rate",
+            Self::Difference(_) | Self::SmallDifferences => "difference",
+            Self::DifferenceRate(_) | Self::SmallRates => "difference_rate",
             Self::Torques => "torques",
             Self::Prescribed(_) => "prescribed",
             Self::Absolute => "absolute",
@@ -28,6 +28,7 @@ impl Argument {
             Self::Elimination => "elimination",
             Self::Carried => "carried",
             Self::Pivot => "pivot",
+            Self::Given(_) => "given",
         }
     }
 }

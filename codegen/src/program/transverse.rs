@@ -20,6 +20,7 @@ impl EntryList<'_, '_> {
                 energy,
                 transfer,
                 friction,
+                braked,
             } = formulas;
             let mut environment = Environment::new(frame, Theta, Some(Omega), None);
             for (symbols, argument) in [
@@ -50,6 +51,8 @@ impl EntryList<'_, '_> {
                 outputs,
                 Shape::Vector,
             );
+            // Viscous friction takes the rates of the differences alone.
+            let power_of = [Omega, rate];
             for (quantity, purpose, arguments, value) in [
                 (
                     "energy",
@@ -66,7 +69,7 @@ impl EntryList<'_, '_> {
                 (
                     "friction_power",
                     Purpose::TransverseFriction(number),
-                    &[rate],
+                    &power_of[usize::from(!braked)..],
                     friction,
                 ),
             ] {

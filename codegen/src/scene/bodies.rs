@@ -82,6 +82,11 @@ pub(super) const COMMON: &[Dimension] = &[
     optional("at", "m", Sign::Any),
     optional("friction", "N m s", Sign::NonNegative),
     optional("drag", "N m s", Sign::NonNegative),
+    optional("friction(coulomb)", "N m", Sign::NonNegative),
+    optional("friction(quadratic)", "N m s²", Sign::NonNegative),
+    optional("friction(width)", "rad/s", Sign::Positive),
+    optional("drag(quadratic)", "N m s²", Sign::NonNegative),
+    optional("drag(width)", "rad/s", Sign::Positive),
     optional("spring", "N m", Sign::NonNegative),
     optional("rest", "rad", Sign::Any),
 ];

@@ -68,7 +68,7 @@ pub(super) fn resolve_drive(
     }
     let mut resolved = Drive::default();
     let mut seen: Vec<String> = Vec::new();
-    for Property { name, value } in parts {
+    for Property { name, value, .. } in parts {
         let (text, span) = (name.to_string(), name.span());
         if seen.contains(&text) {
             report.error(span, SyntaxMessage::duplicate_property(name));

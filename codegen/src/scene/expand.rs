@@ -113,6 +113,7 @@ fn link(template: &Template, pending: &Pending) -> Link {
         drag,
         spring,
         rest,
+        nonlinear,
         ..
     } = template;
     Link {
@@ -128,6 +129,7 @@ fn link(template: &Template, pending: &Pending) -> Link {
         drag: drag.clone(),
         spring: spring.clone(),
         rest: rest.clone(),
+        nonlinear: nonlinear.clone(),
     }
 }
 

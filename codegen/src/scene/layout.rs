@@ -87,7 +87,7 @@ pub(super) fn of_rule(
     let wanted = match rule.code {
         Some(Code::Unrolled) => return Ok(Layout::Unrolled),
         Some(Code::Loops) => true,
-        None => links >= FEWEST,
+        None => links >= FEWEST || asked.resolved.requests.scales(),
     };
     if !wanted {
         return Ok(Layout::Unrolled);
@@ -183,19 +183,22 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         taylor,
         positions: _,
         transverse,
+        small: _,
         forces: _,
         solve,
     } = &asked.resolved.requests;
     // Loops are the recursion.
     let factorization = *solve == Some(Solve::Factorization);
+    let exact_or_truncated = budget.as_ref().is_some_and(|budget| !budget.scales);
     let requests = [
         (*momenta, "`emit(momenta)`"),
         (*modes, "`emit(modes)`"),
         (*symmetric, "`emit(symmetric)`"),
         (transfer.is_some(), "`emit(transfer)`"),
-        (budget.is_some(), "`emit(budget)`"),
+        (exact_or_truncated, "`emit(budget)`"),
         (*taylor, "`emit(taylor)`"),
         (*transverse, "`emit(transverse)`"),
+        (asked.resolved.acting.is_some(), "`emit(small)`"),
         (asked.observables, "`observe(…)`"),
         (asked.prescribed, "`prescribed(…)`"),
         (factorization, "`solve = factorization`"),

@@ -16,6 +16,7 @@ mod bodies;
 pub mod coordinates;
 mod drive;
 mod expand;
+mod friction;
 mod layout;
 mod link_properties;
 mod names;
@@ -30,6 +31,7 @@ mod reduction;
 mod requests;
 mod resolve;
 mod rule;
+mod run_time;
 mod sectors;
 mod singular;
 mod symbols;
@@ -41,6 +43,7 @@ mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, TimeFunction};
+pub use friction::{FrictionLaw, NonlinearFriction};
 pub use layout::Layout;
 pub use link_properties::LINK_PROPERTIES;
 pub use names::is_keyword;
@@ -50,6 +53,7 @@ pub use observables::{
 };
 pub use quantity::Quantity;
 pub use resolve::resolve;
+pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};
 pub use transverse::TransverseSector;
 pub use unequal::UnequalNode;
@@ -175,6 +179,8 @@ pub struct Link {
     pub spring: Option<Quantity>,
     /// Relative angle at which the spring is at rest, rad; `None` for zero.
     pub rest: Option<Quantity>,
+    /// Friction and drag that are not viscous.
+    pub nonlinear: NonlinearFriction,
 }
 
 /// A point of a link, from the link's pivot, m.
@@ -360,8 +366,18 @@ pub struct Requests {
     pub positions: bool,
     /// Equations of small differences between copies in phase.
     pub transverse: bool,
+    /// Transverse sectors whose differences act back on the motion in phase, by number.
+    /// Comes with `transverse`.
+    pub small: Vec<usize>,
     /// Accelerations under torques that the caller hands over.
     pub forces: bool,
+}
+
+impl Requests {
+    /// Returns true if budgets by scale are asked for.
+    pub fn scales(&self) -> bool {
+        self.budget.as_ref().is_some_and(|budget| budget.scales)
+    }
 }
 
 /// Forms of the sectors' budget that are asked for; at least one. The forms
@@ -379,6 +395,9 @@ pub struct BudgetRequest {
     pub velocity: bool,
     /// Energy transfer from each sector to each other, by Parseval.
     pub matrix: bool,
+    /// Energies and transfers by scale, in loops: all sectors that branch in one
+    /// generation together, by Parseval.
+    pub scales: bool,
     /// Orders in the amplitude of the differences through which the transfers
     /// are expanded. Comes with `momenta` and `symmetric`.
     pub amplitude_orders: Vec<u32>,

@@ -163,6 +163,7 @@ const METHOD_FAMILIES: &[&str] = &[
     "friction_power",
     "outside_power",
     "sector_transfers",
+    "small_",
     "symmetric_",
     "transverse_",
     "transfer_amplitude_",

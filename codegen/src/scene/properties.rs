@@ -168,12 +168,18 @@ impl LinkKind {
         own.iter().chain(COMMON).chain(ratios.into_iter().flatten())
     }
 
-    /// The names of all properties.
-    fn known(&self) -> Vec<&'static str> {
-        let counts = if self.is_rule { COUNTS } else { &[] };
+    /// The names of all properties outside parentheses, or of those in the parentheses
+    /// of a law.
+    fn known(&self, law: Option<&str>) -> Vec<&'static str> {
+        let counts = if self.is_rule && law.is_none() {
+            COUNTS
+        } else {
+            &[]
+        };
         let mut known: Vec<&'static str> = counts.to_vec();
         for dimension in self.dimensions() {
-            if !known.contains(&dimension.name) {
+            let within = dimension.name.split_once('(').map(|(law, _)| law);
+            if within == law && !known.contains(&dimension.name) {
                 known.push(dimension.name);
             }
         }
@@ -192,7 +198,7 @@ impl LinkKind {
         let mut sound = !node.damaged;
         let mut seen: Vec<String> = Vec::new();
         for property in &node.properties {
-            let name = property.name.to_string();
+            let name = property.key();
             if seen.contains(&name) {
                 report.error(
                     property.name.span(),
@@ -229,8 +235,12 @@ impl LinkKind {
 
     /// The message about an unknown property, and the one probably meant.
     fn unknown(&self, name: String) -> (TreeMessage, Option<&'static str>) {
-        let known = self.known();
-        let nearest = nearest(&name, &known);
+        let known = self.known(name.split_once('(').map(|(law, _)| law));
+        let in_law = format!("({name})");
+        let in_law = COMMON.iter().find(|known| known.name.ends_with(&in_law));
+        let nearest = in_law
+            .map(|known| known.name)
+            .or_else(|| nearest(&name, &known));
         let message = TreeMessage::UnknownProperty {
             name,
             body: self.text.clone(),
@@ -357,6 +367,11 @@ fn in_words(name: &str) -> String {
     match name {
         "com" => "centre of mass".to_owned(),
         "at" => "pivot".to_owned(),
+        "friction(coulomb)" => "Coulomb friction".to_owned(),
+        "friction(quadratic)" => "quadratic friction".to_owned(),
+        "friction(width)" => "width of friction".to_owned(),
+        "drag(quadratic)" => "quadratic drag".to_owned(),
+        "drag(width)" => "width of drag".to_owned(),
         _ => name.replace('_', " "),
     }
 }

@@ -96,7 +96,7 @@ fn locks(
             continue;
         }
         let idle = [
-            ("friction", template.friction.is_some()),
+            ("friction", template.has_friction()),
             ("spring", template.spring.is_some()),
         ];
         for (property, _) in idle.into_iter().filter(|(_, given)| *given) {
@@ -304,6 +304,14 @@ fn lock(
             let sum = Quantity::sum(parent.drag.take().into_iter().chain([copies]));
             parent.drag = Some(sum);
         }
+        if !parent
+            .nonlinear
+            .take_ground(&mut link.nonlinear, link.copies)
+        {
+            let name = link.name.clone();
+            report.error(link.span, TreeMessage::LockedWidth { link: name });
+            return None;
+        }
     }
     let mut places = Vec::with_capacity(templates.len());
     let mut kept = 0;
@@ -338,8 +346,10 @@ fn merge(templates: &mut [Template], alike: &[bool]) {
             friction,
             drag,
             spring,
+            nonlinear,
             ..
         } = template;
+        nonlinear.times(weight);
         for value in [&mut body.mass, &mut body.inertia] {
             *value = times(weight, value);
         }

@@ -23,6 +23,7 @@ const OUTPUTS: &[&str] = &[
     "taylor",
     "positions",
     "transverse",
+    "small",
     "forces",
 ];
 
@@ -33,6 +34,7 @@ const BUDGET_FORMS: &[&str] = &[
     "velocity",
     "rest",
     "matrix",
+    "scales",
     "angle",
     "amplitude",
     "small",
@@ -54,10 +56,12 @@ pub(super) struct Resolved {
     transfer: Option<Span>,
     /// Place of the first order of the transfer that is written.
     transfer_order: Option<Span>,
-    budget: Option<Span>,
+    pub(super) budget: Option<Span>,
     /// Place of `transverse`.
     pub(super) transverse: Option<Span>,
-    /// Names of the sectors whose differences are small.
+    /// Place of `small`, and the names of the sectors whose differences act back.
+    pub(super) acting: Option<(Span, Vec<Ident>)>,
+    /// Names of the sectors whose differences are small in a budget.
     pub(super) small: Vec<Ident>,
 }
 
@@ -70,6 +74,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         transfer_order: None,
         budget: None,
         transverse: None,
+        acting: None,
         small: Vec::new(),
     };
     let mut seen: Vec<String> = Vec::new();
@@ -84,7 +89,7 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             report.error(span, OutputMessage::DuplicateRequest { name: text });
             continue;
         }
-        let formless = text != "transfer" && text != "budget";
+        let formless = !matches!(text.as_str(), "transfer" | "budget" | "small");
         if forms.is_some() && formless && OUTPUTS.contains(&text.as_str()) {
             report.error(span, OutputMessage::RequestForms { name: text.clone() });
         }
@@ -98,6 +103,11 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
             "transverse" => {
                 wanted.transverse = true;
                 resolved.transverse = Some(span);
+            }
+            "small" => {
+                wanted.transverse = true;
+                let names = acting(span, forms.as_deref(), *damaged, report);
+                resolved.acting = Some((span, names));
             }
             "forces" => wanted.forces = true,
             "symmetric" => {
@@ -135,6 +145,57 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         wanted.momenta = true;
     }
     resolved
+}
+
+/// Reads the sectors whose differences act back: none where all shall.
+fn acting(
+    span: Span,
+    forms: Option<&[RequestForm]>,
+    damaged: bool,
+    report: &mut Report,
+) -> Vec<Ident> {
+    let Some(forms) = forms else {
+        return Vec::new();
+    };
+    if forms.is_empty() && !damaged {
+        report.error(span, OutputMessage::NoSmallSector);
+    }
+    for RequestForm {
+        name,
+        value,
+        members,
+    } in forms
+    {
+        if value.is_some() || members.is_some() {
+            let name = name.to_string();
+            report.error(span, OutputMessage::RequestForms { name });
+        }
+    }
+    forms.iter().map(|form| form.name.clone()).collect()
+}
+
+/// Finds the sectors whose differences act back; what is wrong goes to `report`.
+pub(super) fn resolve_acting(
+    resolved: &Option<(Span, Vec<Ident>)>,
+    scene: &mut Scene,
+    report: &mut Report,
+) {
+    let Some((_, named)) = resolved else {
+        return;
+    };
+    let sectors = scene.transverse_sectors();
+    if named.is_empty() {
+        scene.requests.small = (0..sectors.len()).collect();
+        return;
+    }
+    let names: Vec<&str> = sectors.iter().map(|sector| sector.name.as_str()).collect();
+    let small = resolve_sectors(
+        named,
+        &names,
+        |name| names.iter().position(|known| *known == name),
+        report,
+    );
+    scene.requests.small = small;
 }
 
 /// Reads `solve = ...`.
@@ -197,6 +258,7 @@ fn budget(
             "velocity" => Some(&mut request.velocity),
             "rest" => Some(&mut request.rest),
             "matrix" => Some(&mut request.matrix),
+            "scales" => Some(&mut request.scales),
             _ => None,
         };
         match (flag, text.as_str()) {
@@ -233,6 +295,12 @@ fn budget(
         }
         seen.push((text, order));
     }
+    if request.scales {
+        let others = |form: &&RequestForm| form.name != "scales" && form.name != "parseval";
+        if let Some(form) = forms.iter().find(others) {
+            report.error(form.name.span(), OutputMessage::BesideScales);
+        }
+    }
     if request.amplitude_orders.is_empty()
         && request.angle_orders.is_empty()
         && let Some(name) = small.first()
@@ -250,17 +318,33 @@ pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut 
     let known = sectors(&symmetric_coordinates(scene));
     let differences = known.iter().filter(|sector| sector.difference.is_some());
     let names: Vec<&str> = differences.map(|sector| sector.name.as_str()).collect();
-    let mut small = Vec::new();
-    for ident in resolved {
-        let name = ident.to_string();
+    let find = |name: &str| {
         let found = known.iter().find(|sector| sector.name == name);
-        match found.and_then(|sector| sector.difference) {
-            Some(difference) if small.contains(&difference) => {
+        found.and_then(|sector| sector.difference)
+    };
+    let small = resolve_sectors(resolved, &names, find, report);
+    if let Some(budget) = &mut scene.requests.budget {
+        budget.small = small;
+    }
+}
+
+/// Finds each of the named sectors, known by `names`, once.
+fn resolve_sectors<S: PartialEq>(
+    written: &[Ident],
+    names: &[&str],
+    find: impl Fn(&str) -> Option<S>,
+    report: &mut Report,
+) -> Vec<S> {
+    let mut sectors = Vec::new();
+    for ident in written {
+        let name = ident.to_string();
+        match find(&name) {
+            Some(sector) if sectors.contains(&sector) => {
                 report.error(ident.span(), OutputMessage::DuplicateRequest { name });
             }
-            Some(difference) => small.push(difference),
+            Some(sector) => sectors.push(sector),
             None => {
-                let nearest = nearest(&name, &names).map(str::to_owned);
+                let nearest = nearest(&name, names).map(str::to_owned);
                 let known = names.join("`, `");
                 report.error(
                     ident.span(),
@@ -273,9 +357,7 @@ pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut 
             }
         }
     }
-    if let Some(budget) = &mut scene.requests.budget {
-        budget.small = small;
-    }
+    sectors
 }
 
 /// Reads the forms of the transfer; all of them if none is named.
@@ -384,7 +466,10 @@ pub(super) fn check_symmetry(
         let needy = [
             (resolved.symmetric, "symmetric"),
             (resolved.transfer, "transfer"),
-            (resolved.budget, "budget"),
+            (
+                resolved.budget.filter(|_| !resolved.requests.scales()),
+                "budget",
+            ),
         ];
         for (span, request) in needy {
             if let Some(span) = span {

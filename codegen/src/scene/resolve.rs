@@ -1,14 +1,14 @@
 //! Description to scene, on one page.
 
-use proc_macro2::Span;
-
 use super::drive::resolve_drive;
 use super::expand::{check_names, check_pairs, check_size, expand};
 use super::layout::{self, Asked, Layout};
 use super::observables::resolve_observables;
 use super::prescribed::resolve_prescribed;
 use super::reduction::reduce;
-use super::requests::{check_symmetry, resolve_requests, resolve_small, resolve_solve};
+use super::requests::{
+    check_symmetry, resolve_acting, resolve_requests, resolve_small, resolve_solve,
+};
 use super::rule::resolve_code;
 use super::singular::check_regular;
 use super::template::TreeBuilder;
@@ -70,6 +70,19 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     let links = expansion.links.len();
     let layout =
         by_rule.unwrap_or_else(|| layout::of_links(code, links, &templates, &asked, report));
+    let by_scale = resolved
+        .requests
+        .scales()
+        .then_some(resolved.budget)
+        .flatten();
+    let branches = matches!(layout, Layout::Generations { branching: 2.., .. });
+    if let Some(span) = by_scale
+        && readable
+        && !(branches && reduction.is_none())
+    {
+        report.error(span, OutputMessage::ScalesWithoutRule);
+        return None;
+    }
     if let Some(root) = templates.first()
         && layout == Layout::Unrolled
         && !check_pairs(&expansion.links, root.span, report)
@@ -110,10 +123,13 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     };
     if readable {
         if scene.requests.transverse && scene.transverse_sectors().is_empty() {
-            report.error(
-                resolved.transverse.unwrap_or_else(Span::call_site),
-                OutputMessage::NoTransverse,
-            );
+            let acting = resolved.acting.as_ref().map(|(span, _)| (*span, "small"));
+            let plain = resolved.transverse.map(|span| (span, "transverse"));
+            for (span, request) in plain.into_iter().chain(acting) {
+                report.error(span, OutputMessage::NoTransverse { request });
+            }
+        } else {
+            resolve_acting(&resolved.acting, &mut scene, report);
         }
         if !scene.groups.is_empty() {
             resolve_small(&resolved.small, &mut scene, report);
@@ -155,6 +171,7 @@ fn gravity(
         Some(Property {
             name,
             value: Value::Pair(..),
+            ..
         }) => {
             let message = TreeMessage::NotAPoint {
                 name: name.to_string(),

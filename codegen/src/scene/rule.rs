@@ -129,13 +129,18 @@ pub(super) fn scaled(
         if RATIOS.iter().any(|ratio| ratio.dimension.name == *name) {
             continue;
         }
-        let own = RATIOS.iter().find(|ratio| ratio.property == *name);
+        // Friction of all kinds has one ratio; its width has none.
+        let (property, member) = name.split_once('(').unwrap_or((name, ""));
+        let own = RATIOS.iter().find(|ratio| ratio.property == property);
+        let own = own.filter(|_| member != "width)");
         let own = own.map(|ratio| ratio.dimension.name);
         let factor = match (own.filter(|own| first.value(own).is_some()), *name) {
             (Some(own), _) => power(own)?,
             (None, "mass" | "bob_mass") => mass.clone(),
             (None, "inertia") => Quantity::product([mass.clone(), length.clone().power(2)?]),
-            (None, "friction" | "drag" | "spring" | "rest") => Quantity::integer(1),
+            (None, _) if ["friction", "drag", "spring", "rest"].contains(&property) => {
+                Quantity::integer(1)
+            }
             (None, _) => length.clone(),
         };
         let times = |value: &Quantity| Quantity::product([value.clone(), factor.clone()]);
@@ -159,8 +164,9 @@ impl Counts {
     /// reported elsewhere.
     pub(super) fn read(&mut self, node: &Node, report: &mut Report) {
         let mut named = false;
-        for Property { name, value } in &node.properties {
-            let text = name.to_string();
+        for property in &node.properties {
+            let Property { name, value, .. } = property;
+            let text = property.key();
             match text.as_str() {
                 "count" | "branching" => {
                     let count = count(value);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coordinates::symmetric_coordinates;
 use super::observables::{CoordinateIndex, Observed, Variable, VariableKind};
-use super::{Link, LinkId, ParameterId, Quantity, Scene};
+use super::{FrictionLaw, Link, LinkId, ParameterId, Quantity, Scene};
 
 /// The meaning of a name.
 pub(super) enum Meaning {
@@ -172,6 +172,21 @@ fn add_constants<'a>(
             .any(|link| force(&scene.links[link.0]).is_some())
         {
             names.push(format!("{word}_{own}"));
+        }
+    }
+    type Law = fn(&Link) -> &Option<FrictionLaw>;
+    let laws: [(&[&str], Law); 2] = [
+        (
+            &["coulomb", "quadratic_friction", "friction_width"],
+            |link| &link.nonlinear.joint,
+        ),
+        (&["quadratic_drag", "drag_width"], |link| {
+            &link.nonlinear.ground
+        }),
+    ];
+    for (words, law) in laws {
+        if links.iter().any(|link| law(&scene.links[link.0]).is_some()) {
+            names.extend(words.iter().map(|word| format!("{word}_{own}")));
         }
     }
     let mut above = links.first().and_then(|first| scene.links[first.0].parent);

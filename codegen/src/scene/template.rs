@@ -3,6 +3,7 @@
 use proc_macro2::Span;
 
 use super::bodies::{Body, GivenProperties};
+use super::friction::{NonlinearFriction, check_width};
 use super::names::check_link;
 use super::properties::Properties;
 use super::rule::{Code, GenerationRule};
@@ -38,6 +39,7 @@ pub(super) struct Template {
     pub(super) drag: Option<Quantity>,
     pub(super) spring: Option<Quantity>,
     pub(super) rest: Option<Quantity>,
+    pub(super) nonlinear: NonlinearFriction,
 }
 
 /// The templates and values that are built up on the way through the
@@ -88,6 +90,7 @@ impl TreeBuilder {
             report.error(copies.span, TreeMessage::ZeroCopies);
         }
         check_rest(node, report);
+        check_width(node, report);
         let shape = node.shape.as_ref();
         let is_rule = shape.is_some_and(|shape| shape == "generations");
         let right = |report: &Report| report.diagnostics().len() == before;
@@ -154,6 +157,7 @@ impl TreeBuilder {
             drag,
             spring,
             rest,
+            nonlinear: NonlinearFriction::of(&properties.given),
         };
         (template, properties)
     }
@@ -269,6 +273,7 @@ impl TreeBuilder {
                 drag,
                 spring,
                 rest,
+                nonlinear: NonlinearFriction::of(&given),
             });
         }
     }

@@ -133,6 +133,7 @@ impl Scene {
             drag,
             spring,
             rest,
+            nonlinear,
         } = link;
         let show = |Offset { along, lateral }: &Offset| {
             let along = along.display(&self.parameters);
@@ -165,6 +166,14 @@ impl Scene {
             if let Some(force) = force {
                 writeln!(f, "    {name} {} {unit}", force.display(&self.parameters))?;
             }
+        }
+        for (name, law) in nonlinear.laws() {
+            let [coulomb, quadratic, width] = [&law.coulomb, &law.quadratic, &law.width]
+                .map(|value| value.display(&self.parameters));
+            writeln!(
+                f,
+                "    {name} Coulomb {coulomb} N m, quadratic {quadratic} N m s², width {width} rad/s"
+            )?;
         }
         Ok(())
     }
@@ -209,6 +218,7 @@ impl Display for Requests {
             taylor,
             positions,
             transverse,
+            small,
             forces,
         } = self;
         write!(f, "accelerations")?;
@@ -230,6 +240,9 @@ impl Display for Requests {
                 write!(f, ", {name}")?;
             }
         }
+        if !small.is_empty() {
+            write!(f, ", small in {} sectors", small.len())?;
+        }
         if let Some(transfer) = transfer {
             write!(f, ", {transfer}")?;
         }
@@ -248,6 +261,7 @@ impl Display for BudgetRequest {
             parseval,
             velocity,
             matrix,
+            scales,
             amplitude_orders,
             angle_orders,
             small,
@@ -258,6 +272,7 @@ impl Display for BudgetRequest {
             (parseval, "parseval"),
             (velocity, "velocity"),
             (matrix, "matrix"),
+            (scales, "scales"),
         ];
         let named = flags.iter().filter(|(wanted, _)| **wanted);
         let forms: Vec<String> = named

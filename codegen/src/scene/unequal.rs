@@ -38,14 +38,14 @@ pub(super) fn unequal_copies(node: &Node, is_rule: bool, report: &mut Report) ->
 
 /// One copy of a node, without what hangs from it.
 fn single(node: &Node, copy: usize) -> Node {
-    let properties = node.properties.iter().map(|Property { name, value }| {
-        let own = match value {
+    let properties = node.properties.iter().map(|property| {
+        let own = match &property.value {
             Value::Each { values, .. } => values.get(copy),
             Value::Single(_) | Value::Pair(..) => None,
         };
         Property {
-            name: name.clone(),
-            value: own.unwrap_or(value).clone(),
+            value: own.unwrap_or(&property.value).clone(),
+            ..property.clone()
         }
     });
     Node {
@@ -69,10 +69,11 @@ impl Template {
                 drag,
                 spring,
                 rest,
+                nonlinear,
                 ..
             } = template;
             let forces = [friction, drag, spring, rest].map(Clone::clone);
-            (body.clone(), pivot.clone(), forces)
+            (body.clone(), pivot.clone(), forces, nonlinear.clone())
         };
         values(self) == values(other)
     }

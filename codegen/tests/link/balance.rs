@@ -103,12 +103,8 @@ impl Algebra<'_> {
                 Column::InverseInertia => &(unit * unit) / &inertia,
                 Column::Along => &ell * &inverse,
                 Column::Across => &w * &inverse,
-                Column::Friction
-                | Column::Drag
-                | Column::Spring
-                | Column::Rest
-                | Column::PerTorque
-                | Column::DriveTorque => self.s(SymbolId(20_000 + *column as u32)),
+                // Forces are whatever they are.
+                _ => self.s(SymbolId(20_000 + *column as u32)),
             };
             values.push((stand_in(Argument::Constants, index), value));
         }

@@ -30,6 +30,18 @@ const SEVERAL: &str = "gravity = 9.80665, trunk(mass = 0.3, com = (0.1, 0.02), i
         right: rod(mass = 0.1, length = 0.25, at = (0.15, 0.04), friction = c), \
         middle: disc(mass = 0.1, length = 0.05, radius = 0.02, at = 0) ]";
 
+/// Every law of friction, on some of the links; one law with a parameter.
+const BRAKED: &str = "gravity = 9.80665, trunk(mass = 0.3, com = 0.1, inertia = 2e-3, \
+    joint = 0.3, friction(viscous = 1e-3, coulomb = c, quadratic = 1e-3), drag(quadratic = 0.02)) [ \
+        left: rod(mass = 0.2, length = 0.3, friction(coulomb = 0.01, width = 0.5), spring = 0.1) [ \
+            tip: rod(mass = 0.05, length = 0.1, friction(quadratic = 1e-4)) ], \
+        right: rod(mass = 0.1, length = 0.25, drag(viscous = 1e-3, quadratic = 2e-3, width = 1)) ]";
+
+/// The same by a rule, so that all rows of a column are numbers.
+const BRAKED_RULE: &str = "gravity = 9.80665, tree: generations(count = 4, branching = 2, \
+    mass = 0.12, com = 0.1, inertia = 1e-3, joint = 0.3, mass_ratio = 0.5, length_ratio = 0.7, \
+    friction(coulomb = 1e-3, quadratic = 1e-4), friction_ratio = 0.3, drag(quadratic = 1e-4))";
+
 fn compiled(text: &str, code: &str) -> Stages {
     let text = format!("code = {code}, {text}");
     let attribute = text.parse().expect("tokens");

@@ -4,7 +4,7 @@
 use branched_pendulum_codegen::Stages;
 use branched_pendulum_codegen::program::{Argument, Program, Strips};
 
-use super::{BUSH, RULE, SEVERAL, compiled, tree};
+use super::{BRAKED, BRAKED_RULE, BUSH, RULE, SEVERAL, compiled, tree};
 /// The recursion through a tree, by the interpreter.
 struct Sweep<'s> {
     program: &'s Program,
@@ -176,4 +176,10 @@ fn a_driven_bush_moves_as_written_out() {
 #[test]
 fn several_attachments_move_as_written_out() {
     agree(SEVERAL, &[2e-3]);
+}
+
+#[test]
+fn links_with_friction_of_all_kinds_move_as_written_out() {
+    agree(BRAKED, &[0.03]);
+    agree(BRAKED_RULE, &[]);
 }

@@ -4,7 +4,7 @@ use clap::{Parser, ValueEnum};
 
 use super::apparatus::Friction;
 use crate::program::Results;
-use crate::program::command_line::{must_be, number, plain};
+use crate::program::command_line::{must_be, number, numbers, plain};
 
 /// The numbers in which trajectories are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -54,7 +54,7 @@ pub struct Arguments {
         id = "angles",
         value_name = "DEG[,DEG]...",
         default_value = "39.5,45,46.4,47.6,47.8,48.6",
-        value_parser = read_angles,
+        value_parser = numbers(ANGLES, "degrees"),
         allow_hyphen_values = true
     )]
     // By its full path, clap takes it for one value.
@@ -106,6 +106,9 @@ pub struct Arguments {
         value_parser = number(0.0..=1e-2, "")
     )]
     pub tolerance: f64,
+    /// writes a film of all releases as well, as SVG and as animated PNG
+    #[arg(long)]
+    pub animate: bool,
     /// Folder of results.
     #[command(flatten)]
     pub results: Results,
@@ -172,64 +175,8 @@ impl Arguments {
     }
 }
 
-/// Reads angles and ranges of angles, degrees, and sorts them.
-fn read_angles(value: &str) -> Result<Vec<f64>, String> {
-    let mut angles = Vec::new();
-    for part in value.split(',') {
-        for angle in read_range(part)? {
-            if !ANGLES.contains(&angle) {
-                return Err(format!("{angle} {}", must_be(&ANGLES, "degrees")));
-            }
-            if angles.contains(&angle) {
-                return Err(format!("{angle} degrees stand there twice"));
-            }
-            angles.push(angle);
-        }
-    }
-    angles.sort_by(f64::total_cmp);
-    Ok(angles)
-}
-
 /// Angles of release, degrees.
 const ANGLES: std::ops::RangeInclusive<f64> = -180.0..=180.0;
-
-/// Most angles of one range.
-const MOST_ANGLES: f64 = 10_000.0;
-
-/// An angle, or those of a range `FROM:TO:STEP`, both ends included.
-fn read_range(part: &str) -> Result<Vec<f64>, String> {
-    let read = |number: &str| match number.trim().parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(format!(
-            "`{number}` is not a number; a range is written `FROM:TO:STEP`"
-        )),
-    };
-    let numbers = part.split(':').map(read);
-    let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
-    let no_range = || {
-        format!(
-            "`{part}` is no range: write `FROM:TO:STEP`, as in `40:48:0.1`, with at most \
-             10000 steps that lead from one end to the other"
-        )
-    };
-    let [from, to, step] = *numbers else {
-        return match *numbers {
-            [angle] => Ok(vec![angle]),
-            _ => Err(no_range()),
-        };
-    };
-    // A step may miss the end by rounding.
-    let steps = ((to - from) / step + 1e-9).floor();
-    if !(0.0..MOST_ANGLES).contains(&steps) {
-        return Err(no_range());
-    }
-    // Decimals as they would be written: 40.3, not 40.300000000000004.
-    let rounded = |angle: f64| (angle * 1e9).round() / 1e9;
-    let numbers = (0..=steps as u32).map(f64::from);
-    Ok(numbers
-        .map(|number| rounded(from + number * step))
-        .collect())
-}
 
 #[cfg(test)]
 mod tests {

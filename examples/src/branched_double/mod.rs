@@ -10,12 +10,13 @@
 //! - [`apparatus`]: the two scenes, and what is measured at one instant,
 //! - [`experiment`]: one run from release to the last sample,
 //! - [`findings`]: what a run says, [`terms`]: the terms of W one by one,
-//! - [`table`], [`samples`], [`charts`], [`growth`]: how it is shown.
+//! - [`table`], [`samples`], [`charts`], [`growth`], [`film`]: how it is shown.
 
 pub mod apparatus;
 pub mod arguments;
 pub mod charts;
 pub mod experiment;
+pub mod film;
 pub mod findings;
 pub mod growth;
 pub mod run;

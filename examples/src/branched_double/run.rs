@@ -3,7 +3,9 @@
 use serde_json::json;
 
 use super::table;
-use super::{Apparatus, Arguments, Findings, Frequencies, Run, charts, growth, samples, scenes};
+use super::{
+    Apparatus, Arguments, Findings, Frequencies, Run, charts, film, growth, samples, scenes,
+};
 use crate::failure::Failure;
 use crate::program::Job;
 
@@ -29,6 +31,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     job.print(&format!("{report}\n{bands}\n"))?;
     charts::write(job, arguments, frequencies, &runs)?;
     growth::write(job, arguments, &runs, &findings)?;
+    if arguments.animate {
+        film::write(job, arguments, &runs)?;
+    }
     let work = runs.iter().map(|run| {
         json!({
             "angle_deg": run.angle_deg,

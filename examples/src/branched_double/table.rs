@@ -106,6 +106,7 @@ fn conditions(arguments: &Arguments) -> String {
         rate,
         precision,
         tolerance,
+        animate: _,
         results: _,
     } = arguments;
     format!(

@@ -1,11 +1,13 @@
-//! Charts: the course of the energies, the scales, the densities of the fluxes.
+//! Charts: the course of the energies, the scales, the densities of the fluxes; and the
+//! tree in motion.
 
 use branched_pendulum::analysis::statistics::Average;
-use branched_pendulum_charts::{Axis, Chart, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, ChartError, Film, FilmLink, Panel, Series};
 
 use super::arguments::Arguments;
 use super::findings::{Findings, Scale};
 use super::report::name;
+use super::scene::Shape;
 
 /// Energies of the scales against time, averaged over the starts.
 pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
@@ -120,4 +122,26 @@ pub fn densities(findings: &Findings) -> Chart {
         Axis::linear("(W − mean)/σ").range(-20.0, 20.0),
     )
     .panel(panel)
+}
+
+/// The tree through states that follow each other by `interval` seconds.
+///
+/// # Errors
+/// [`ChartError`] if there is nothing to be seen.
+pub fn film(shape: &Shape, states: &[Vec<f64>], interval: f64) -> Result<Film, ChartError> {
+    let mut links = Vec::new();
+    for generation in 0..shape.generations {
+        for place in 0..shape.width(generation) {
+            let above = generation.checked_sub(1);
+            let joint = above.map_or(0.0, |above| shape.length(above));
+            links.push(FilmLink {
+                parent: above.map(|above| shape.link(above, place % shape.width(above))),
+                pivot: [joint, 0.0],
+                end: [shape.length(generation), 0.0],
+            });
+        }
+    }
+    let pictures: Vec<&[f64]> = states.iter().map(|state| &state[..links.len()]).collect();
+    let title = format!("{} rods, the root driven by a motor", links.len());
+    Film::new(title, interval).tree("", &links, &pictures)
 }

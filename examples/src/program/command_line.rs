@@ -154,6 +154,68 @@ pub fn number(
     }
 }
 
+/// Reads numbers and ranges of numbers, all within a range, and sorts them.
+pub fn numbers(
+    range: RangeInclusive<f64>,
+    unit: &'static str,
+) -> impl Fn(&str) -> Result<Vec<f64>, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let gap = if unit.is_empty() { "" } else { " " };
+        let mut all = Vec::new();
+        for part in text.split(',') {
+            for number in read_range(part)? {
+                if !range.contains(&number) {
+                    return Err(format!("{number} {}", must_be(&range, unit)));
+                }
+                if all.contains(&number) {
+                    return Err(format!("{number}{gap}{unit} stand there twice"));
+                }
+                all.push(number);
+            }
+        }
+        all.sort_by(f64::total_cmp);
+        Ok(all)
+    }
+}
+
+/// Most numbers of one range.
+const MOST_NUMBERS: f64 = 10_000.0;
+
+/// A number, or those of a range `FROM:TO:STEP`, both ends included.
+fn read_range(part: &str) -> Result<Vec<f64>, String> {
+    let read = |number: &str| match number.trim().parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err(format!(
+            "`{number}` is not a number; a range is written `FROM:TO:STEP`"
+        )),
+    };
+    let numbers = part.split(':').map(read);
+    let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
+    let no_range = || {
+        format!(
+            "`{part}` is no range: write `FROM:TO:STEP`, as in `40:48:0.1`, with at most \
+             10000 steps that lead from one end to the other"
+        )
+    };
+    let [from, to, step] = *numbers else {
+        return match *numbers {
+            [number] => Ok(vec![number]),
+            _ => Err(no_range()),
+        };
+    };
+    // A step may miss the end by rounding.
+    let steps = ((to - from) / step + 1e-9).floor();
+    if !(0.0..MOST_NUMBERS).contains(&steps) {
+        return Err(no_range());
+    }
+    // Decimals as they would be written: 40.3, not 40.300000000000004.
+    let rounded = |number: f64| (number * 1e9).round() / 1e9;
+    let numbers = (0..=steps as u32).map(f64::from);
+    Ok(numbers
+        .map(|number| rounded(from + number * step))
+        .collect())
+}
+
 /// Tells a range, as `must be from 0.1 to 1000 s`.
 pub fn must_be(range: &RangeInclusive<f64>, unit: &str) -> String {
     let (low, high) = (plain(*range.start()), plain(*range.end()));

@@ -1,5 +1,38 @@
 //! Ctrl-C: what is finished stays, what is half written goes, and one line says
-//! where the results are.
+//! where the results are. A program that can end early does so instead, with the
+//! results that it has.
+
+use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
+
+/// A request to end that a program takes itself.
+#[derive(Debug, Default)]
+pub(super) struct Interruption {
+    taken: AtomicBool,
+    signal: AtomicI32,
+}
+
+// Nothing else is told between threads by these: relaxed order suffices.
+impl Interruption {
+    /// From now on the program takes the first request itself.
+    pub(super) fn take(&self) {
+        self.taken.store(true, Ordering::Relaxed);
+    }
+
+    /// Number of the signal that came, if one did and the program takes it.
+    pub(super) fn signal(&self) -> Option<i32> {
+        Some(self.signal.load(Ordering::Relaxed)).filter(|signal| *signal != 0)
+    }
+
+    /// Leaves a signal to the program; false where it does not take it.
+    #[cfg(unix)]
+    fn leave(&self, signal: i32) -> bool {
+        let taken = self.taken.swap(false, Ordering::Relaxed);
+        if taken {
+            self.signal.store(signal, Ordering::Relaxed);
+        }
+        taken
+    }
+}
 
 #[cfg(unix)]
 pub(super) fn watch(job: &super::Job) {
@@ -17,8 +50,10 @@ pub(super) fn watch(job: &super::Job) {
     };
     let (record, ledger) = (Arc::clone(&job.record), Arc::clone(&job.ledger));
     let progress = Arc::clone(&job.progress);
+    let interruption = Arc::clone(&job.interruption);
     std::thread::spawn(move || {
-        let Some(signal) = signals.forever().next() else {
+        let mut signals = signals.forever();
+        let Some(signal) = signals.find(|signal| !interruption.leave(*signal)) else {
             return;
         };
         // A terminal that takes no text holds this lock; the line below waits for

@@ -7,12 +7,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-use branched_pendulum_charts::Chart;
+use branched_pendulum_charts::{Chart, Film};
 use branched_pendulum_data::{Column, CsvError, CsvWriter};
 use serde_json::{Map, Value, json};
 
 use super::checkpoint::CHECKPOINT;
 use super::files::{Ledger, Part, SharedLedger, locked, replace};
+use super::interrupt::Interruption;
 use super::progress::Progress;
 use super::sealed::RunIdentity;
 use crate::failure::Failure;
@@ -122,6 +123,7 @@ pub struct Job {
     pub(super) record: Arc<Mutex<Record>>,
     pub(super) ledger: SharedLedger,
     pub(super) progress: Arc<Mutex<Progress>>,
+    pub(super) interruption: Arc<Interruption>,
     folder: Option<PathBuf>,
     /// Nobody reads the standard output any more.
     closed: Cell<bool>,
@@ -162,6 +164,7 @@ impl Job {
             record: Arc::new(Mutex::new(record)),
             ledger,
             progress: Arc::default(),
+            interruption: Arc::default(),
             folder,
             closed: Cell::new(false),
             kept: None,
@@ -207,11 +210,29 @@ impl Job {
         }
     }
 
+    /// What a run of a test would have printed.
+    pub fn printed(&self) -> String {
+        let kept = self.kept.as_ref();
+        kept.map_or(String::new(), |kept| kept.borrow().clone())
+    }
+
     /// Shows the progress of `parts` parts from now on.
     pub fn progress(&self, parts: usize) -> Progress {
         let progress = Progress::new(parts);
         *locked(&self.progress) = progress.clone();
         progress
+    }
+
+    /// Takes Ctrl-C from now on: it ends the run no more, but
+    /// [`is_interrupted`](Self::is_interrupted) says that it came, for a program that
+    /// then stops its work and writes what there is. A second one ends the run.
+    pub fn take_interruption(&self) {
+        self.interruption.take();
+    }
+
+    /// Returns true where Ctrl-C came that the program takes.
+    pub fn is_interrupted(&self) -> bool {
+        self.interruption.signal().is_some()
     }
 
     /// Puts a value into the record.
@@ -282,6 +303,18 @@ impl Job {
         }
         self.write(&format!("{name}.svg"), chart.to_svg()?.as_bytes())?;
         self.write(&format!("{name}.png"), &chart.to_png()?)
+    }
+
+    /// Writes a film as SVG and as animated PNG; `name` has no extension.
+    ///
+    /// # Errors
+    /// [`Failure::Chart`] or [`Failure::File`].
+    pub fn film(&self, name: &str, film: &Film) -> Result<(), Failure> {
+        if self.folder.is_none() {
+            return Ok(());
+        }
+        self.write(&format!("{name}.svg"), film.to_svg()?.as_bytes())?;
+        self.write(&format!("{name}.png"), &film.to_png()?)
     }
 
     /// Names of the files that are complete, in the order of writing.

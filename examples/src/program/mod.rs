@@ -57,12 +57,18 @@ pub fn main<A: Arguments>(run: impl FnOnce(&A, &Job) -> Result<(), Failure>) -> 
     };
     interrupt::watch(&job);
     let result = run(&arguments, &job);
+    let signal = job.interruption.signal();
     let ended = match &result {
+        Ok(()) if signal.is_some() => Ended::Interrupted,
         Ok(()) | Err(Failure::Closed) => Ended::Finished,
         Err(failure) => Ended::Failed(messages(failure).join(": ")),
     };
     let left = job.end(&ended);
     let left = left.map(|left| left.map_or(String::new(), |left| format!("; {left}")));
+    if let (Ok(()), Ok(left), Some(signal)) = (&result, &left, signal) {
+        say(&name, &format!("interrupted{left}"));
+        return ExitCode::from(u8::try_from(128 + signal).unwrap_or(1));
+    }
     match (result, left) {
         (Ok(()), Ok(_)) if !job.is_closed() => ExitCode::SUCCESS,
         (Ok(()) | Err(Failure::Closed), Ok(left)) => {

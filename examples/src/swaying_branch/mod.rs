@@ -37,8 +37,8 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     progress.begin("frames");
     let seen = reference(&branches, &windy, frame, frames)?;
     report::write_frames(job, &seen)?;
-    let picture = picture::animated(&branches.double, &seen, &windy);
-    job.write("swaying-branch-animation.svg", picture.as_bytes())?;
+    let film = picture::film(&branches.double, &seen, &windy)?;
+    job.film("swaying-branch-animation", &film)?;
     progress.next();
     let mut trials = Vec::new();
     for share in motion::WINDS {

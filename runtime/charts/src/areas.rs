@@ -3,6 +3,7 @@
 use crate::arrange::{PanelPlan, Plan};
 use crate::axis::{coordinate, drawable};
 use crate::cells::Grid;
+use crate::clip::Rect;
 use crate::description::Series;
 use crate::drawing::{Mark, Point};
 use crate::legend;
@@ -17,6 +18,22 @@ pub(crate) fn cells(
     place: &PanelPlan,
     marks: &mut Vec<Mark>,
 ) {
+    let samples = series.x.iter().zip(&series.y);
+    let shown = samples.filter_map(|(x, y)| cell((*x, *y), grid, plan, place));
+    marks.push(Mark::Areas {
+        polygons: shown.map(|cell| corners(&cell)).collect(),
+        color: style.color,
+        fill: Fill::Crisp,
+    });
+}
+
+/// The cell of a sample, as far as it is in view.
+pub(crate) fn cell(
+    (x, y): (f64, f64),
+    grid: &Grid,
+    plan: &Plan,
+    place: &PanelPlan,
+) -> Option<Rect> {
     let frame = &place.frame;
     let across = |at: f64| {
         let x = frame.left + plan.x.scale.place(at) * frame.width();
@@ -27,20 +44,28 @@ pub(crate) fn cells(
         y.clamp(frame.top, frame.bottom)
     };
     let (x_log, y_log) = (plan.x.scale.log, place.scale.log);
-    let samples = series.x.iter().zip(&series.y);
-    let shown = samples.filter(|(x, y)| drawable(x_log, **x) && drawable(y_log, **y));
-    let polygons = shown.filter_map(|(x, y)| {
-        let (left, right) = grid.across(coordinate(x_log, *x));
-        let (low, high) = grid.up(coordinate(y_log, *y));
-        let (left, right, low, high) = (across(left), across(right), up(low), up(high));
-        let polygon = vec![(left, low), (left, high), (right, high), (right, low)];
-        (left < right && high < low).then_some(polygon)
-    });
-    marks.push(Mark::Areas {
-        polygons: polygons.collect(),
-        color: style.color,
-        fill: Fill::Crisp,
-    });
+    if !(drawable(x_log, x) && drawable(y_log, y)) {
+        return None;
+    }
+    let (left, right) = grid.across(coordinate(x_log, x));
+    let (low, high) = grid.up(coordinate(y_log, y));
+    let cell = Rect {
+        left: across(left),
+        right: across(right),
+        top: up(high),
+        bottom: up(low),
+    };
+    (cell.left < cell.right && cell.top < cell.bottom).then_some(cell)
+}
+
+/// The corners of a rectangle.
+pub(crate) fn corners(cell: &Rect) -> Vec<Point> {
+    vec![
+        (cell.left, cell.bottom),
+        (cell.left, cell.top),
+        (cell.right, cell.top),
+        (cell.right, cell.bottom),
+    ]
 }
 
 /// The area of a band, in one piece between gaps; nothing for other series.
@@ -89,14 +114,14 @@ pub(crate) fn band(
 /// The sample in a legend, its left end in the middle of the line.
 pub(crate) fn sample((x, middle): Point, color: Color, fill: Fill) -> Mark {
     let (left, right) = (x + 0.2 * legend::SAMPLE, x + 0.8 * legend::SAMPLE);
-    let (top, bottom) = (middle - 5.0, middle + 5.0);
+    let cell = Rect {
+        left,
+        right,
+        top: middle - 5.0,
+        bottom: middle + 5.0,
+    };
     Mark::Areas {
-        polygons: vec![vec![
-            (left, bottom),
-            (left, top),
-            (right, top),
-            (right, bottom),
-        ]],
+        polygons: vec![corners(&cell)],
         color,
         fill,
     }

@@ -7,6 +7,7 @@ use crate::font::Font;
 use crate::guides::{self, Guide};
 use crate::label::{Label, widest};
 use crate::legend::{self, Legend};
+use crate::shades::ColorBar;
 use crate::style::Style;
 use crate::ticks::{Ticks, ticks};
 
@@ -42,6 +43,7 @@ pub(crate) struct Plan {
     pub(crate) x: XAxis,
     pub(crate) panels: Vec<PanelPlan>,
     pub(crate) legend: Legend,
+    pub(crate) colors: Option<ColorBar>,
 }
 
 pub(crate) struct XAxis {
@@ -110,6 +112,8 @@ impl Sketch<'_> {
         let title = Label::parse(&chart.title).wrap(font, TITLE_SIZE, inner);
         let legend = Legend::plan(chart, &self.styles, font, inner, heights);
 
+        let all = heights.iter().step_by(chart.columns).sum();
+        let colors = ColorBar::plan(chart, font, all)?;
         let y_ticks: Vec<Ticks> = self
             .y
             .iter()
@@ -119,12 +123,13 @@ impl Sketch<'_> {
         let y_labels = self.y_labels(heights);
         let margin = self.margin(&y_ticks, &y_labels);
         let columns = chart.columns.min(chart.panels.len()) as f64;
-        let outer = chart.width - EDGE - legend.side_width();
+        let bar = colors.as_ref().map_or(0.0, ColorBar::width);
+        let outer = chart.width - EDGE - legend.side_width() - bar;
         let column = (outer - EDGE - (columns - 1.0) * COLUMN_GAP) / columns;
         // From one column to the next.
         let step = column + COLUMN_GAP;
         let left = EDGE + margin;
-        let beyond = chart.width - (columns - 1.0) * step;
+        let beyond = chart.width - bar - (columns - 1.0) * step;
         let (ticks, right) = self.x_ticks(left, EDGE + column, beyond);
         let room = right - left;
         if room < LEAST_PANEL.0 {
@@ -194,6 +199,7 @@ impl Sketch<'_> {
             x,
             panels,
             legend,
+            colors,
         })
     }
 
@@ -282,7 +288,7 @@ pub(crate) fn tick_labels(ticks: &Ticks) -> Vec<Label> {
 }
 
 /// How many ticks an axis of this length has room for, `apart` px each.
-fn most(length: f64, apart: f64) -> usize {
+pub(crate) fn most(length: f64, apart: f64) -> usize {
     ((length / apart) as usize).clamp(5, 40)
 }
 

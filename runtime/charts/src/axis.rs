@@ -138,6 +138,22 @@ pub(crate) fn scales(chart: &Chart) -> Result<(Scale, Vec<Scale>), ChartError> {
     Ok((x, y.collect::<Result<_, _>>()?))
 }
 
+/// The scale of colours; none without shaded series.
+pub(crate) fn color_scale(chart: &Chart) -> Result<Option<Scale>, ChartError> {
+    let axis = chart.colors.clone().unwrap_or_else(|| Axis::linear(""));
+    let series = chart.panels.iter().flat_map(|panel| &panel.series);
+    let mut shaded = series
+        .filter_map(|series| series.shades.as_ref())
+        .peekable();
+    if shaded.peek().is_none() {
+        return Ok(None);
+    }
+    let mut extent = Extent::default();
+    let values = shaded.flatten().filter(|value| drawable(axis.log, **value));
+    values.for_each(|value| extent.add(*value));
+    Scale::showing(&axis, extent.ends(), 0.0).map(Some)
+}
+
 /// The y axis spans the samples in view; all of them where none is in view.
 fn y_scale(chart: &Chart, panel: &Panel, x: &Scale) -> Result<Scale, ChartError> {
     let mut extents = [Extent::default(), Extent::default()];
@@ -170,7 +186,8 @@ fn check(chart: &Chart, panel: &Panel, index: usize) -> Result<(), ChartError> {
         return Err(ChartError::Empty { panel: Some(index) });
     }
     for series in &panel.series {
-        for y in [Some(&series.y), series.low.as_ref()].into_iter().flatten() {
+        let others = [Some(&series.y), series.low.as_ref(), series.shades.as_ref()];
+        for y in others.into_iter().flatten() {
             if series.x.len() != y.len() {
                 return Err(ChartError::LengthMismatch {
                     series: series.label.clone(),

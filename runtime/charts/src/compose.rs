@@ -29,7 +29,12 @@ pub(crate) fn draw(chart: &Chart, plan: &Plan) -> Drawing {
         let grid = Grid::of(panel, chart.x.log);
         let all = || panel.series.iter().zip(&place.styles);
         for (series, style) in all().filter(|(series, _)| series.cells) {
-            areas::cells(series, *style, &grid, plan, place, &mut marks);
+            match plan.colors.as_ref().zip(series.shades.as_ref()) {
+                Some((colors, values)) => {
+                    colors.cells(series, values, (&grid, plan, place), &mut marks);
+                }
+                None => areas::cells(series, *style, &grid, plan, place, &mut marks),
+            }
         }
         draw_guides(panel, place, &mut marks);
         for (series, style) in all() {
@@ -42,6 +47,7 @@ pub(crate) fn draw(chart: &Chart, plan: &Plan) -> Drawing {
             draw_x_text(plan, &place.frame, &mut marks);
         }
     }
+    draw_colors(plan, &mut marks);
     draw_title(plan, &mut marks);
     draw_legend(plan, &mut marks);
     Drawing {
@@ -250,6 +256,20 @@ fn draw_title(plan: &Plan, marks: &mut Vec<Mark>) {
         let y = EDGE + (index as f64 + 0.72) * TITLE_LINE;
         let at = (plan.width / 2.0, y);
         marks.push(text(line, at, Anchor::Middle, TITLE_SIZE));
+    }
+}
+
+/// The bar of colours at the right of all panels, as high as they are.
+fn draw_colors(plan: &Plan, marks: &mut Vec<Mark>) {
+    let frames = || plan.panels.iter().map(|place| &place.frame);
+    if let Some(colors) = &plan.colors {
+        let frame = Rect {
+            left: frames().map(|f| f.left).fold(f64::INFINITY, f64::min),
+            right: frames().map(|f| f.right).fold(0.0, f64::max),
+            top: frames().map(|f| f.top).fold(f64::INFINITY, f64::min),
+            bottom: frames().map(|f| f.bottom).fold(0.0, f64::max),
+        };
+        colors.draw(&frame, marks);
     }
 }
 

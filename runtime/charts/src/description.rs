@@ -13,6 +13,7 @@ use crate::{png, svg};
 pub struct Chart {
     pub(crate) title: String,
     pub(crate) x: Axis,
+    pub(crate) colors: Option<Axis>,
     pub(crate) panels: Vec<Panel>,
     pub(crate) columns: usize,
     pub(crate) width: f64,
@@ -46,6 +47,8 @@ pub struct Series {
     /// Lower edge of a band, whose upper edge is `y`.
     pub(crate) low: Option<Vec<f64>>,
     pub(crate) cells: bool,
+    /// Values of cells whose colour tells them.
+    pub(crate) shades: Option<Vec<f64>>,
     /// Place among the classes of a heatmap.
     pub(crate) class: usize,
     pub(crate) joined: bool,
@@ -91,6 +94,7 @@ impl Series {
             y: y.to_vec(),
             low: None,
             cells: false,
+            shades: None,
             class: 0,
             joined: true,
             symbols: false,
@@ -126,6 +130,15 @@ impl Series {
             joined: false,
             cells: true,
             ..Self::line(label, x, y)
+        }
+    }
+
+    /// Cells whose colour tells their value, by the chart's [`colors`](Chart::colors):
+    /// dark where it is low. A value that is not a number leaves its cell empty.
+    pub fn shaded(x: &[f64], y: &[f64], values: &[f64]) -> Self {
+        Self {
+            shades: Some(values.to_vec()),
+            ..Self::cells("", x, y)
         }
     }
 
@@ -245,6 +258,7 @@ impl Chart {
         Self {
             title: title.into(),
             x,
+            colors: None,
             panels: Vec::new(),
             columns: 1,
             width: 900.0,
@@ -257,6 +271,14 @@ impl Chart {
     /// then stands below all of them.
     pub fn columns(mut self, columns: usize) -> Self {
         self.columns = columns.max(1);
+        self
+    }
+
+    /// Values of [`Series::shaded`] in all panels by this axis, which stands at the right as
+    /// a bar of colours; values beyond its range have the colour of its end. Without it,
+    /// a linear one spans the values.
+    pub fn colors(mut self, axis: Axis) -> Self {
+        self.colors = Some(axis);
         self
     }
 

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartError {
-    /// The chart has no panel, or the panel of this index has no series.
+    /// The chart has no panel, or the panel of this index has no series; or the film has
+    /// no tree, no links or no pictures.
     #[error("{}", empty(.panel))]
     Empty {
         /// Index of the empty panel, counted from the top; `None` where the
@@ -77,6 +78,25 @@ pub enum ChartError {
         width: f64,
         /// Width in px that would be left for a panel.
         left: f64,
+    },
+    /// A link of a film does not hang from a link before it, or not at a finite place.
+    #[error("link {link} of a film must hang from a link before it, at finite places")]
+    Link {
+        /// Index of the link.
+        link: usize,
+    },
+    /// A picture of a film has no finite angle for some link.
+    #[error(
+        "picture {picture} of a film has {found} angles: it needs a finite one for each of \
+         {links} links"
+    )]
+    Picture {
+        /// Number of the picture, from 0.
+        picture: usize,
+        /// Number of angles that it has.
+        found: usize,
+        /// Number of links.
+        links: usize,
     },
     /// The embedded font cannot be read, which is a defect of this crate.
     #[error("the embedded font cannot be read")]

@@ -54,7 +54,8 @@ impl Legend {
             at_right.lists.iter().zip(heights).all(|(list, height)| {
                 list.iter().map(Entry::height).sum::<f64>() <= *height + ROW_GAP
             });
-        if chart.columns == 1 && fits && at_right.cell <= WIDEST_SIDE * chart.width {
+        let shaded = panels_shaded(chart);
+        if chart.columns == 1 && !shaded && fits && at_right.cell <= WIDEST_SIDE * chart.width {
             return at_right;
         }
         let text_width = width - SAMPLE - GAP;
@@ -116,6 +117,12 @@ impl Legend {
             .chunks(columns)
             .collect()
     }
+}
+
+/// Returns true where a bar of colours stands at the right.
+fn panels_shaded(chart: &Chart) -> bool {
+    let mut series = chart.panels.iter().flat_map(|panel| &panel.series);
+    series.any(|series| series.shades.is_some())
 }
 
 pub(crate) fn row_height(row: &[Entry]) -> f64 {

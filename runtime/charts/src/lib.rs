@@ -1,8 +1,9 @@
-//! Charts from one description, as SVG and as PNG.
+//! Charts from one description, and films of trees, as SVG and as PNG.
 //!
 //! A [`Chart`] is a title, a shared x axis and one or more [`Panel`]s, above each
 //! other or in columns; a panel holds [`Series`] (lines, symbols, bands, the cells
-//! of a map), marker lines and a y axis.
+//! of a map), marker lines and a y axis. Maps whose colour is a value share a scale of
+//! colours, which stands at the right as a bar.
 //!
 //! ```no_run
 //! use branched_pendulum_charts::{Axis, Chart, ChartError, Panel};
@@ -67,11 +68,13 @@ mod decimate;
 mod description;
 mod drawing;
 mod error;
+mod film;
 mod font;
 mod guides;
 mod label;
 mod legend;
 mod png;
+mod shades;
 mod style;
 mod svg;
 #[cfg(test)]
@@ -80,4 +83,5 @@ mod ticks;
 
 pub use description::{Axis, Chart, Panel, Series};
 pub use error::ChartError;
+pub use film::{Film, FilmLink};
 pub use style::{Color, Dash, Symbol};

@@ -5,12 +5,52 @@ use tiny_skia::{
 use crate::drawing::{Drawing, LARGEST_SIDE, Mark, Point, Text};
 use crate::error::ChartError;
 use crate::font::{Font, Outline};
-use crate::style::{Color, Dash, Fill, Symbol};
+use crate::style::{Color, Dash, Fill, Symbol, WHITE};
 
 const BLACK: Color = Color::rgb(0, 0, 0);
 
 /// The drawing as a PNG of `scale` pixels per px.
 pub(crate) fn encode(drawing: &Drawing, font: &Font, scale: f64) -> Result<Vec<u8>, ChartError> {
+    let bytes = raster(drawing, font, scale, WHITE)?.encode_png();
+    bytes.map_err(|source| ChartError::Encode(Box::new(source)))
+}
+
+/// Drawings of one size as an animated PNG, which shows each for `interval` (s).
+pub(crate) fn encode_film(
+    drawings: impl ExactSizeIterator<Item = Drawing>,
+    font: &Font,
+    background: Color,
+    interval: f64,
+) -> Result<Vec<u8>, ChartError> {
+    let failed = |source: png::EncodingError| ChartError::Encode(Box::new(source));
+    let count = u32::try_from(drawings.len()).unwrap_or(u32::MAX);
+    let mut images = drawings.map(|drawing| raster(&drawing, font, 1.0, background));
+    let first = images.next().ok_or(ChartError::Empty { panel: None })??;
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, first.width(), first.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_animated(count, 0).map_err(failed)?;
+    let milliseconds = (1e3 * interval).round().clamp(1.0, f64::from(u16::MAX));
+    let delay = encoder.set_frame_delay(milliseconds as u16, 1000);
+    delay.map_err(failed)?;
+    let mut writer = encoder.write_header().map_err(failed)?;
+    for image in core::iter::once(Ok(first)).chain(images) {
+        // The background is opaque, and so is what lies on it.
+        let image = image?;
+        let pixels = image.data().chunks_exact(4);
+        let colors: Vec<u8> = pixels.flat_map(|pixel| pixel[..3].to_vec()).collect();
+        writer.write_image_data(&colors).map_err(failed)?;
+    }
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+fn raster(
+    drawing: &Drawing,
+    font: &Font,
+    scale: f64,
+    background: Color,
+) -> Result<Pixmap, ChartError> {
     let error = || ChartError::Size {
         width: drawing.width,
         height: drawing.height,
@@ -23,7 +63,8 @@ pub(crate) fn encode(drawing: &Drawing, font: &Font, scale: f64) -> Result<Vec<u
     let width = pixels(drawing.width).ok_or_else(error)?;
     let height = pixels(drawing.height).ok_or_else(error)?;
     let mut pixmap = Pixmap::new(width, height).ok_or_else(error)?;
-    pixmap.fill(tiny_skia::Color::WHITE);
+    let Color { red, green, blue } = background;
+    pixmap.fill(tiny_skia::Color::from_rgba8(red, green, blue, 255));
     let mut canvas = Canvas {
         pixmap,
         view: Transform::from_scale(scale as f32, scale as f32),
@@ -50,8 +91,7 @@ pub(crate) fn encode(drawing: &Drawing, font: &Font, scale: f64) -> Result<Vec<u
             Mark::Text(text) => canvas.text(text, font),
         }
     }
-    let bytes = canvas.pixmap.encode_png();
-    bytes.map_err(|source| ChartError::Encode(Box::new(source)))
+    Ok(canvas.pixmap)
 }
 
 struct Canvas {

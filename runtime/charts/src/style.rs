@@ -16,6 +16,9 @@ impl Color {
     }
 }
 
+/// What charts stand on.
+pub(crate) const WHITE: Color = Color::rgb(255, 255, 255);
+
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

@@ -2,7 +2,7 @@ use std::fmt::Write;
 
 use crate::drawing::{Anchor, Drawing, Mark, Point, Text};
 use crate::label::{Label, Level};
-use crate::style::{Color, Dash, Fill, Symbol};
+use crate::style::{Color, Dash, Fill, Symbol, WHITE};
 
 /// DejaVu Sans first, of which the layout knows the widths; those after it are
 /// as wide or narrower. Kerning, which the layout leaves out, stays off.
@@ -10,38 +10,49 @@ const FAMILIES: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
 
 /// The drawing as an SVG 1.1 document.
 pub(crate) fn document(drawing: &Drawing) -> String {
-    let (width, height) = (Px(drawing.width), Px(drawing.height));
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" \
-         height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-         font-family=\"{FAMILIES}\" style=\"font-kerning:none\">\n<title>{}</title>\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
-        escape(&drawing.title),
-    );
+    let size = (drawing.width, drawing.height);
+    let mut out = opening(&drawing.title, size, WHITE);
     for mark in &drawing.marks {
-        match mark {
-            Mark::Lines {
-                lines,
-                color,
-                width,
-                dash,
-            } => push_lines(&mut out, lines, *color, *width, *dash),
-            Mark::Symbols {
-                symbol,
-                at,
-                radius,
-                color,
-            } => push_symbols(&mut out, *symbol, at, *radius, *color),
-            Mark::Areas {
-                polygons,
-                color,
-                fill,
-            } => push_areas(&mut out, polygons, *color, *fill),
-            Mark::Text(text) => push_text(&mut out, text),
-        }
+        push_mark(&mut out, mark);
     }
     out.push_str("</svg>\n");
     out
+}
+
+/// The beginning of a document of this size (px): title and background.
+pub(crate) fn opening(title: &str, (width, height): Point, background: Color) -> String {
+    let (width, height) = (Px(width), Px(height));
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" \
+         height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+         font-family=\"{FAMILIES}\" style=\"font-kerning:none\">\n<title>{}</title>\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n",
+        escape(title),
+        Hex(background),
+    )
+}
+
+pub(crate) fn push_mark(out: &mut String, mark: &Mark) {
+    match mark {
+        Mark::Lines {
+            lines,
+            color,
+            width,
+            dash,
+        } => push_lines(out, lines, *color, *width, *dash),
+        Mark::Symbols {
+            symbol,
+            at,
+            radius,
+            color,
+        } => push_symbols(out, *symbol, at, *radius, *color),
+        Mark::Areas {
+            polygons,
+            color,
+            fill,
+        } => push_areas(out, polygons, *color, *fill),
+        Mark::Text(text) => push_text(out, text),
+    }
 }
 
 /// Writes into a string, which cannot fail.
@@ -175,7 +186,7 @@ fn escape(text: &str) -> String {
 
 /// A length with two decimals at most.
 #[derive(Clone, Copy)]
-struct Px(f64);
+pub(crate) struct Px(pub(crate) f64);
 
 impl std::fmt::Display for Px {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -184,7 +195,8 @@ impl std::fmt::Display for Px {
     }
 }
 
-struct Hex(Color);
+/// A colour as six hexadecimal digits.
+pub(crate) struct Hex(pub(crate) Color);
 
 impl std::fmt::Display for Hex {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

@@ -3,6 +3,7 @@
 //! - [`Linear`]: small motions about an equilibrium, in modes,
 //! - [`Linear::truncate`]: its slow modes alone,
 //! - [`LinearFrames`]: its exact propagation by frames,
+//! - [`NearlyInPhase`]: copies with small differences beside their motion in phase,
 //! - [`Switched`]: the full model and an approximation in turn, as the error allows.
 
 mod about;
@@ -11,11 +12,13 @@ mod frames;
 mod linear;
 mod matrix;
 mod measured;
+mod nearly;
 mod switched;
 
 pub use error::LinearError;
 pub use frames::LinearFrames;
 pub use linear::Linear;
+pub use nearly::NearlyInPhase;
 pub use switched::{SwitchLog, Switched};
 
 use crate::scalar::Real;
@@ -41,7 +44,7 @@ pub trait Approximation<T: Real> {
     /// follows a state: the largest error of an angle, relative to the amplitude of all.
     /// Cheap: no evaluation of the full model.
     ///
-    /// For [`LinearFrames`] it is between 0.8 and 12 times the error, for amplitudes up to
+    /// [`NearlyInPhase`] says how its own compares with errors. For [`LinearFrames`] it is between 0.8 and 12 times the error, for amplitudes up to
     /// 0.6 rad of the four trees of a test; too large where light links swing much more
     /// than heavy ones do.
     fn validity(&self, state: &[T]) -> T;

@@ -58,6 +58,34 @@ impl fmt::Display for InstructionSet {
     }
 }
 
+/// Runs `kernel` with single numbers that fuse, where the type and the machine have some,
+/// and with plain ones elsewhere.
+#[inline(always)]
+pub(crate) fn in_fused_numbers<T: Scalar, K: Kernel<T>>(kernel: K) -> K::Output {
+    T::by_kind(InFusedNumbers(kernel))
+}
+
+/// Asks for single numbers that fuse.
+struct InFusedNumbers<K>(K);
+
+impl<S: Scalar, K: Kernel<S>> ByKind<S> for InFusedNumbers<K> {
+    type Output = K::Output;
+
+    #[inline(always)]
+    fn of_any(self) -> K::Output {
+        self.0.run::<S>()
+    }
+
+    #[inline(always)]
+    fn of_plain(self) -> K::Output
+    where
+        S: Lane,
+    {
+        let set = InstructionSet::widest();
+        machine::run::<S, S, S::Fused, S::Fused, K>(set, self.0)
+    }
+}
+
 /// Runs `kernel` with fused single numbers and the widest instructions that fuse.
 ///
 /// # Errors

@@ -96,8 +96,21 @@ pub trait Transverse<T: Scalar>: Cast<T> {
         difference_rate: &[T],
     ) -> T;
 
-    /// Returns the power (in W) of friction and drag on the energy of the differences.
+    /// Returns the power (in W) of friction and drag on the energy of the differences. NaN
+    /// where friction is not viscous: it depends on the motion then, see
+    /// [`transverse_friction_power_along`](Self::transverse_friction_power_along).
     fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T;
+
+    /// Returns the power (in W) of friction and drag on the energy of the differences,
+    /// viscous or not.
+    fn transverse_friction_power_along(
+        &self,
+        sector: usize,
+        _motion: InPhaseMotion<'_, T>,
+        difference_rate: &[T],
+    ) -> T {
+        self.transverse_friction_power_of(sector, difference_rate)
+    }
 }
 
 /// An in-phase motion and the small differences of one sector as a first-order system:
@@ -303,5 +316,8 @@ by_reference! {
             difference_rate: &[T]
         ) -> T;
         fn transverse_friction_power_of(&self, sector: usize, difference_rate: &[T]) -> T;
+        fn transverse_friction_power_along(
+            &self, sector: usize, motion: InPhaseMotion<'_, T>, difference_rate: &[T]
+        ) -> T;
     }
 }

@@ -1,6 +1,7 @@
 //! Links of a tree in loops as bodies: energies with lateral offsets, momentum and
 //! powers of driven trees.
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::sum::Sum;
@@ -9,19 +10,22 @@ use crate::scalar::kind::{compiled, compiled_once};
 use crate::system::Workspace;
 
 /// Parents of the links.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// The parent of each link, before it; the root's own is 0.
     Parents(&'static [u32]),
+    /// Parents likewise, of a tree that is not known before the program runs.
+    Shared(Arc<[u32]>),
     /// Copies of each generation under each link of the one before, 1 for the
     /// root; links stand as in a [`Tree`](super::Tree).
     Generations(&'static [usize]),
 }
 
 impl Shape {
-    pub(super) fn links(self) -> usize {
+    pub(super) fn links(&self) -> usize {
         match self {
             Self::Parents(parents) => parents.len(),
+            Self::Shared(parents) => parents.len(),
             Self::Generations(copies) => super::links(copies),
         }
     }
@@ -29,13 +33,15 @@ impl Shape {
     /// Goes from the root to the leaves: the link, its parent but for the root,
     /// and the number of its row.
     #[inline(always)]
-    pub(super) fn each(self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
-        match self {
-            Self::Parents(parents) => {
-                for (link, &parent) in parents.iter().enumerate() {
-                    visit(link, (link > 0).then_some(parent as usize), link);
-                }
+    pub(super) fn each(&self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
+        let mut listed = |parents: &[u32]| {
+            for (link, &parent) in parents.iter().enumerate() {
+                visit(link, (link > 0).then_some(parent as usize), link);
             }
+        };
+        match self {
+            Self::Parents(parents) => listed(parents),
+            Self::Shared(parents) => listed(parents),
             Self::Generations(copies) => {
                 // Where the generation before starts, and how many links it has.
                 let (mut above, mut count) = (0, 1);
@@ -58,6 +64,9 @@ impl Shape {
 /// Numbers of a body.
 const ROW: usize = 12;
 
+/// Numbers of the laws of a link.
+const LAW: usize = 5;
+
 /// The links of a tree in loops as bodies. Emitted models hold them where there is
 /// a drive or a lateral offset, and energies are asked for.
 ///
@@ -70,6 +79,8 @@ pub struct Bodies<T> {
     rows: Vec<T>,
     /// Angles at which springs are at rest, likewise; empty where all are zero.
     rests: Vec<T>,
+    /// Laws of friction, likewise; empty where all friction is viscous.
+    laws: Vec<T>,
 }
 
 impl<T: Scalar> Bodies<T> {
@@ -82,8 +93,12 @@ impl<T: Scalar> Bodies<T> {
     /// stiffness of the torsion spring; friction in the pivot, drag.
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<T>) -> Self {
-        let rests = Vec::new();
-        Self { shape, rows, rests }
+        Self {
+            shape,
+            rows,
+            rests: Vec::new(),
+            laws: Vec::new(),
+        }
     }
 
     /// Returns these bodies with the angles at which the springs of each link or of each generation
@@ -93,13 +108,22 @@ impl<T: Scalar> Bodies<T> {
         Self { rests, ..self }
     }
 
+    /// Returns these bodies with friction beside viscous friction and drag: C, q and ε of the
+    /// torque (C/s + q s) w in the pivot of each link or of each generation at the rate w
+    /// relative to the parent, s = √(w² + ε²); q and ε of the torque q s w against the ground.
+    #[must_use]
+    pub fn with_laws(self, laws: Vec<T>) -> Self {
+        Self { laws, ..self }
+    }
+
     /// Returns these bodies on other scalars.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Bodies<S> {
         Bodies {
-            shape: self.shape,
+            shape: self.shape.clone(),
             rows: self.rows.iter().map(|&value| convert(value)).collect(),
             rests: self.rests.iter().map(|&value| convert(value)).collect(),
+            laws: self.laws.iter().map(|&value| convert(value)).collect(),
         }
     }
 
@@ -135,7 +159,8 @@ impl<T: Scalar> Bodies<T> {
         torque * at(omega, 0) - (x * momentum_x + y * momentum_y)
     }
 
-    /// Power −Σ c (ω − ω_parent)² + k ω², W, of friction and drag. NaN for a slice
+    /// Power −Σ c (ω − ω_parent)² + k ω², W, of friction and drag, with that of
+    /// [other friction](Self::with_laws). NaN for a slice
     /// of another length than there are links.
     #[must_use]
     pub fn friction_power(&self, omega: &[T]) -> T {
@@ -167,6 +192,13 @@ impl<T: Scalar> Bodies<T> {
     #[inline(always)]
     fn row(&self, number: usize) -> Option<&[T; ROW]> {
         let (rows, _) = self.rows.as_chunks();
+        rows.get(number)
+    }
+
+    /// Returns the laws of friction of a row, if there are any.
+    #[inline(always)]
+    fn law(&self, number: usize) -> Option<&[T; LAW]> {
+        let (rows, _) = self.laws.as_chunks();
         rows.get(number)
     }
 
@@ -204,6 +236,9 @@ impl<T: Scalar> Bodies<T> {
                         None => rate,
                     };
                     sum.add(friction * relative * relative + drag * rate * rate);
+                    if let Some(law) = self.law(row) {
+                        sum.add(braking_power(law, relative, rate));
+                    }
                 }
             });
         }
@@ -337,6 +372,17 @@ compiled_once! {
 compiled_once! {
     PotentialEnergy<T> = Bodies::sum_of_potential_energies:
         fn(&Bodies<T>, &mut Workspace<T>, &[T]) -> T
+}
+
+/// Power that friction of a link takes by these laws, at the rate relative to the parent
+/// and at its own.
+#[inline(always)]
+fn braking_power<T: Scalar>(law: &[T; LAW], relative: T, rate: T) -> T {
+    let &[coulomb, quadratic, width, drag, drag_width] = law;
+    let (square, own_square) = (relative * relative, rate * rate);
+    let speed = (square + width * width).sqrt();
+    let own_speed = (own_square + drag_width * drag_width).sqrt();
+    (coulomb / speed + quadratic * speed) * square + drag * own_speed * own_square
 }
 
 /// The number of a link, zero where there is none.

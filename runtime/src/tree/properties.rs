@@ -36,7 +36,7 @@ impl<T: Scalar> PropertyTable<T> {
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PropertyTable<S> {
         PropertyTable {
-            shape: self.shape,
+            shape: self.shape.clone(),
             rows: self.rows.iter().map(|&value| convert(value)).collect(),
         }
     }
@@ -154,12 +154,14 @@ impl<T: Scalar> PropertyTable<T> {
 
 impl Shape {
     /// Returns the parent of a link but the root's, and the number of its row.
-    fn link(self, link: usize) -> Option<(Option<usize>, usize)> {
+    fn link(&self, link: usize) -> Option<(Option<usize>, usize)> {
+        let listed = |parents: &[u32]| {
+            let &parent = parents.get(link)?;
+            Some(((link > 0).then_some(parent as usize), link))
+        };
         match self {
-            Self::Parents(parents) => {
-                let &parent = parents.get(link)?;
-                Some(((link > 0).then_some(parent as usize), link))
-            }
+            Self::Parents(parents) => listed(parents),
+            Self::Shared(parents) => listed(parents),
             Self::Generations(copies) => {
                 let (generation, number) = super::place(copies, link)?;
                 // Links of the generation above, in front of this one.

@@ -138,7 +138,7 @@ fn bodies_of_any_shape_stay_within_their_memory() {
         Shape::Generations(&[2, 3]),
     ] {
         for rows in [0, 11, 12, 100] {
-            let bodies = Bodies::new(shape, vec![1.0; rows]);
+            let bodies = Bodies::new(shape.clone(), vec![1.0; rows]);
             for length in [0, 1, 3, 8] {
                 let motion = vec![0.5; length];
                 let _ = bodies.kinetic_energy(&mut workspace, &motion, &motion);

@@ -11,7 +11,10 @@ mod events;
 mod failures;
 mod gauss;
 mod hostile;
+#[cfg(feature = "spectra")]
+mod lines;
 mod modes;
+mod normal;
 mod order;
 mod problems;
 mod projection;
@@ -21,6 +24,7 @@ mod sector_modes;
 #[cfg(feature = "serde")]
 mod serde;
 mod smoothing;
+#[cfg(feature = "spectra")]
 mod spectrum;
 mod stability;
 mod statistics;

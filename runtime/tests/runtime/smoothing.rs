@@ -5,20 +5,7 @@ use branched_pendulum::analysis::{KinematicSmoother, ModelSmoother, SmoothingErr
 use branched_pendulum::integrate::{Dop853, Integrator, Options, Rk4};
 use branched_pendulum::system::{OdeFn, State};
 
-/// Normal numbers by sums of twelve (Irwin and Hall), from a xorshift generator.
-pub(crate) struct Normal(pub(crate) u64);
-
-impl Normal {
-    pub(crate) fn next(&mut self) -> f64 {
-        let mut uniform = || {
-            self.0 ^= self.0 << 13;
-            self.0 ^= self.0 >> 7;
-            self.0 ^= self.0 << 17;
-            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        (0..12).map(|_| uniform()).sum::<f64>() - 6.0
-    }
-}
+use super::normal::Normal;
 
 fn signal(time: f64) -> [f64; 3] {
     let waves = [(0.8, 4.1, 0.3), (0.3, 9.7, 1.1), (0.1, 17.0, 2.0)];

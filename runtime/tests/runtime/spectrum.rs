@@ -66,38 +66,6 @@ fn half_the_sample_rate_is_counted_once() {
 }
 
 #[test]
-fn peaks_are_found_between_the_frequencies_of_the_grid() {
-    // 20 s of the paper's in-phase frequencies: the grid's spacing is 0.05 Hz.
-    let samples = series(2000, 100.0, &[(0.8731696, 1.0), (1.5825567, 0.25)]);
-    let spectrum =
-        Spectrum::at_fourier_frequencies(&samples, 100.0, SpectrumOptions::default()).unwrap();
-    let peaks = spectrum.peaks();
-    assert!(
-        (peaks[0].frequency_hz - 0.8731696).abs() < 0.002,
-        "{:?}",
-        peaks[0]
-    );
-    assert!((peaks[0].amplitude - 1.0).abs() < 0.04, "{:?}", peaks[0]);
-    assert!(
-        (peaks[1].frequency_hz - 1.5825567).abs() < 0.003,
-        "{:?}",
-        peaks[1]
-    );
-    assert!((peaks[1].amplitude - 0.25).abs() < 0.01, "{:?}", peaks[1]);
-
-    let fine: Vec<f64> = (0..600).map(|i| 0.5 + 0.0025 * f64::from(i)).collect();
-    let spectrum =
-        Spectrum::at_frequencies(&samples, 100.0, &fine, SpectrumOptions::default()).unwrap();
-    let peaks = spectrum.peaks();
-    assert!(
-        (peaks[0].frequency_hz - 0.8731696).abs() < 2e-4,
-        "{:?}",
-        peaks[0]
-    );
-    assert!((peaks[0].amplitude - 1.0).abs() < 1e-3, "{:?}", peaks[0]);
-}
-
-#[test]
 fn long_series_do_not_lose_the_phase() {
     let count = 200_000;
     let frequency = 1.0 / 8.0 + 1.0 / 400_000.0 * 2.0;

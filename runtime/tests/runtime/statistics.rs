@@ -4,7 +4,7 @@ use branched_pendulum::analysis::statistics::{
     Average, Blocking, Drift, StatisticsError, jackknife, transient,
 };
 
-use crate::smoothing::Normal;
+use crate::normal::Normal;
 
 /// Loss of memory of the process from one sample to the next.
 const MEMORY: f64 = 0.9;

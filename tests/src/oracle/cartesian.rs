@@ -97,8 +97,9 @@ impl Motion {
         for (index, link) in tree.links.iter().enumerate() {
             motion.add_body(tree, index, [theta, omega], push);
             let (torque, terms) = link.pivot_torque(index, theta, omega);
-            motion.bias[index] += link.drag * omega[index] - torque;
-            motion.bias_terms[index] += (link.drag * omega[index]).abs() + terms;
+            let (drag, drag_terms) = link.ground_torque(omega[index]);
+            motion.bias[index] -= drag + torque;
+            motion.bias_terms[index] += drag_terms + terms;
             if let Some(parent) = link.parent {
                 motion.bias[parent] += torque;
                 motion.bias_terms[parent] += terms;

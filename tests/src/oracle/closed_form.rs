@@ -54,7 +54,7 @@ pub fn equations(tree: &Tree, theta: &[f64], omega: &[f64]) -> (DMatrix<f64>, DV
         }
         let link = &tree.links[j];
         let (torque, _) = link.pivot_torque(j, theta, omega);
-        bias[j] += link.drag * omega[j] - torque;
+        bias[j] -= link.ground_torque(omega[j]).0 + torque;
         if let Some(parent) = link.parent {
             bias[parent] += torque;
         }

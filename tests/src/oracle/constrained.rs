@@ -59,7 +59,7 @@ pub fn driven(tree: &Tree, theta: &[f64], omega: &[f64], push: &Push) -> Vec<f64
         }
         right[position(body, 1)] = -link.mass * tree.gravity;
         let (torque, _) = link.pivot_torque(body, theta, omega);
-        right[angle(body)] += torque - link.drag * omega[body];
+        right[angle(body)] += torque + link.ground_torque(omega[body]).0;
         let Some(parent) = link.parent else {
             right[angle(body)] += push.torque;
             for axis in 0..2 {

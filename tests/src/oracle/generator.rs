@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use super::{Link, Tree};
+use super::{Law, Link, Tree};
 use crate::random::Random;
 
 /// Properties of a random tree.
@@ -43,9 +43,18 @@ struct Node {
 
 /// A tree of at most `recipe.links` links; the same seed gives the same tree.
 pub fn sample(recipe: &Recipe, seed: u64) -> Sample {
+    grown(recipe, seed, false)
+}
+
+/// The same with Coulomb and quadratic friction and drag.
+pub fn braked_sample(recipe: &Recipe, seed: u64) -> Sample {
+    grown(recipe, seed, true)
+}
+
+fn grown(recipe: &Recipe, seed: u64, braked: bool) -> Sample {
     let mut random = Random::new(seed);
     let gravity = decimal(&mut random, 1.0, 20.0);
-    let mut nodes = vec![node(&mut random, None, 1)];
+    let mut nodes = vec![node(&mut random, None, 1, braked)];
     let mut links = 1;
     let mut attempts = 0;
     while links < recipe.links && attempts < 1000 {
@@ -61,7 +70,8 @@ pub fn sample(recipe: &Recipe, seed: u64) -> Sample {
             continue;
         }
         links += instances;
-        let mut child = node(&mut random, Some((parent, &nodes[parent])), copies);
+        let above = Some((parent, &nodes[parent]));
+        let mut child = node(&mut random, above, copies, braked);
         child.instances = instances;
         nodes.push(child);
     }
@@ -105,6 +115,29 @@ impl Properties<'_> {
         value
     }
 
+    /// A law of friction with or without each of its parts.
+    fn law(&mut self, force: &str, has_coulomb: bool) -> Law {
+        let mut law = Law::default();
+        let parts = self.random.below(4);
+        let coulomb = has_coulomb && parts % 2 == 1;
+        if !coulomb && parts < 2 {
+            return law;
+        }
+        let _ = write!(self.text, "{force}(");
+        if coulomb {
+            law.coulomb = self.number("coulomb", 1e-3, 0.5);
+        }
+        if parts >= 2 {
+            law.quadratic = self.number("quadratic", 1e-4, 0.1);
+        }
+        law.width = match self.random.below(3) {
+            0 => 0.01,
+            _ => self.number("width", 1e-3, 1.0),
+        };
+        let _ = write!(self.text, "), ");
+        law
+    }
+
     /// A point along the link, or with a lateral offset.
     fn point(&mut self, name: &str) -> [f64; 2] {
         let (along_text, along) = decimal(self.random, -0.3, 0.8);
@@ -118,7 +151,7 @@ impl Properties<'_> {
     }
 }
 
-fn node(random: &mut Random, parent: Option<(usize, &Node)>, copies: usize) -> Node {
+fn node(random: &mut Random, parent: Option<(usize, &Node)>, copies: usize, braked: bool) -> Node {
     let shape = random.below(10);
     let mut properties = Properties {
         random,
@@ -144,6 +177,10 @@ fn node(random: &mut Random, parent: Option<(usize, &Node)>, copies: usize) -> N
     }
     if properties.random.below(4) == 0 {
         link.drag = properties.number("drag", 1e-4, 0.5);
+    }
+    if braked {
+        link.laws = [("friction", true), ("drag", false)]
+            .map(|(force, has_coulomb)| properties.law(force, has_coulomb));
     }
     if properties.random.below(4) == 0 {
         link.spring = properties.number("spring", 1e-3, 5.0);
@@ -180,6 +217,7 @@ fn body(properties: &mut Properties<'_>, shape: usize) -> (&'static str, Link, [
         drag: 0.0,
         spring: 0.0,
         rest: 0.0,
+        laws: Default::default(),
     };
     if shape == 0 {
         let mut plain = link(mass, 0.0, 0.0);

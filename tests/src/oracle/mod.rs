@@ -41,9 +41,53 @@ pub struct Link {
     pub spring: f64,
     /// Relative angle at which the spring is at rest, rad.
     pub rest: f64,
+    /// Friction beside viscous friction: in the pivot, and against the ground.
+    pub laws: [Law; 2],
+}
+
+/// A torque of Coulomb and quadratic friction, smooth at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Law {
+    /// Coulomb friction, N m.
+    pub coulomb: f64,
+    /// Quadratic friction, N m s².
+    pub quadratic: f64,
+    /// Rate at which both are as smooth as they are strong, rad/s.
+    pub width: f64,
+}
+
+impl Default for Law {
+    fn default() -> Self {
+        Self {
+            coulomb: 0.0,
+            quadratic: 0.0,
+            width: 1.0,
+        }
+    }
+}
+
+impl Law {
+    /// Torque against a rate, N m, and by how much it may change where every term that
+    /// the rate is the sum of changes by one part in one.
+    pub(crate) fn torque(&self, rate: f64, terms: f64) -> (f64, f64) {
+        let speed = rate.hypot(self.width);
+        let torque = self.coulomb * (rate / speed) + self.quadratic * rate * speed;
+        let slope = self.coulomb * (self.width / speed).powi(2) / speed
+            + self.quadratic * (speed + rate * rate / speed);
+        (torque, torque.abs() + slope * terms)
+    }
 }
 
 impl Link {
+    /// Torque of drag on the link at its angular velocity, N m, and its size.
+    pub(crate) fn ground_torque(&self, omega: f64) -> (f64, f64) {
+        let (torque, terms) = self.laws[1].torque(omega, 0.0);
+        (
+            -self.drag * omega - torque,
+            (self.drag * omega).abs() + terms,
+        )
+    }
+
     /// The link's value less its parent's.
     fn relative(&self, own: f64, all: &[f64]) -> f64 {
         own - self.parent.map_or(0.0, |parent| all[parent])
@@ -57,7 +101,11 @@ impl Link {
         let size = |own: f64, all: &[f64]| own.abs() + self.parent.map_or(0.0, |p| all[p].abs());
         let terms = self.friction * size(omega[index], omega)
             + self.spring * (size(theta[index], theta) + self.rest.abs());
-        (-torque, terms)
+        let (braking, braking_terms) = self.laws[0].torque(
+            self.relative(omega[index], omega),
+            size(omega[index], omega),
+        );
+        (-torque - braking, terms + braking_terms)
     }
 }
 

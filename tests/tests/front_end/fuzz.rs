@@ -70,6 +70,14 @@ const SEEDS: &[&str] = &[
         emit(energies, symmetric, transfer(exact)),
     )]
     struct Unequal;",
+    "#[branched_pendulum(
+        gravity = 9.8,
+        a: rod(mass = 1, length = 1, friction(viscous = 0.1, coulomb = c, quadratic = q)) [
+            b: rod(mass = 1, length = 1, friction(coulomb = 2, width = 0.1), drag(quadratic = 3)) * 2
+        ],
+        emit(energies, symmetric, transfer(exact)),
+    )]
+    struct Braked;",
 ];
 
 /// Tokens to put in, beside those of the seeds.
@@ -77,6 +85,7 @@ const TOKENS: &str = "0 1 2 -1 0.5 1e300 1e-300 1e999 1e99999999999 4294967296 0
      = == , ; : :: * ** / ^ + - ( ) [ ] { } (1, 2) (,) () [] {} (((1))) \
      mass com inertia joint at friction length radius width margin bob_mass count branching shape \
      mass_ratio length_ratio gravity drive torque x y t sin cos emit crate energies momenta transfer angle amplitude exact \
+     viscous coulomb quadratic width friction(coulomb = 1) drag(quadratic = q, width = 0) \
      observe budget canonical parseval matrix each each(1, 2) \
      sin cos sqrt theta_a theta_d omega_b_1 p_m twist kinetic_energy point rod disc generations parent child m g l pi self type Self _ é Ω true struct enum fn pub where <T> #";
 

@@ -161,6 +161,7 @@ fn link(mass: f64, com: f64, inertia: f64, [friction, drag, spring]: [f64; 3]) -
         drag,
         spring,
         rest: 0.0,
+        laws: Default::default(),
     }
 }
 

@@ -55,6 +55,7 @@ fn oracle(text: &str) -> (Tree, Vec<[f64; 2]>) {
         drag: 0.0,
         spring: 0.0,
         rest: 0.0,
+        laws: Default::default(),
     });
     let tree = Tree {
         gravity: 9.80665,

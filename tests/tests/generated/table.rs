@@ -77,6 +77,7 @@ fn oracle_of(scene: &Scene) -> Tree {
         drag: force(&link.drag),
         spring: force(&link.spring),
         rest: force(&link.rest),
+        laws: crate::loops::laws_of(link),
     });
     Tree {
         gravity: number(&scene.gravity),

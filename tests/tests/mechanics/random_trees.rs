@@ -192,6 +192,7 @@ fn generations_by_rule() {
         drag: 0.0,
         spring: 0.0,
         rest: 0.0,
+        laws: Default::default(),
     };
     let second = |parent: usize| rod(Some(parent), 0.2, 0.4, 0.5);
     let third = |parent: usize| rod(Some(parent), 0.1, 0.32, 0.4);

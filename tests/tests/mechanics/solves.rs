@@ -181,6 +181,7 @@ fn both_are_as_good_as_their_conditioning() {
         drag: 0.0,
         spring: 0.0,
         rest: 0.0,
+        laws: Default::default(),
     };
     let rod = |parent, mass: f64, length: f64, lever| {
         link(

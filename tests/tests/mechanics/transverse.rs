@@ -30,6 +30,7 @@ macro_rules! crown {
         struct $name;
     };
 }
+pub(super) use crown;
 
 crown!(Crown, emit(energies));
 crown!(InPhase, in_phase(all), emit(transverse, energies));
@@ -297,6 +298,7 @@ macro_rules! paper {
         struct $name;
     };
 }
+pub(super) use paper;
 
 paper!(Paper);
 paper!(PaperInPhase, in_phase(child), emit(transverse));
@@ -322,6 +324,7 @@ macro_rules! fifteen {
         struct $name;
     };
 }
+pub(super) use fifteen;
 
 fifteen!(Fifteen);
 fifteen!(FifteenInPhase, in_phase(tree), emit(transverse));

@@ -59,6 +59,7 @@ fn body(parent: Option<usize>, mass: f64, inertia: f64, com: [f64; 2], pivot: [f
         drag: 0.0,
         spring: 0.0,
         rest: 0.0,
+        laws: Default::default(),
     }
 }
 

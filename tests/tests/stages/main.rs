@@ -2,6 +2,7 @@
 //! equal each time.
 
 mod architecture;
+mod book;
 mod determinism;
 mod ladder;
 mod lengths;

@@ -127,7 +127,10 @@ impl FactoredEntry {
             ahead,
             user: alone.map(|(id, users)| (id, users[0])).collect(),
             chosen,
-            fused: matches!(entry.purpose, Purpose::Accelerations | Purpose::Link(_)),
+            fused: matches!(
+                entry.purpose,
+                Purpose::Accelerations | Purpose::Link(_) | Purpose::Scale(_)
+            ),
             own: BTreeMap::new(),
         }
     }

@@ -3,7 +3,9 @@
 use crate::mechanics::Mechanics;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, Setup, ValueId};
-use crate::scene::{LINK_PROPERTIES, Link, Offset, Quantity, Scene};
+use crate::scene::{
+    FrictionLaw, LINK_PROPERTIES, Link, NonlinearFriction, Offset, Quantity, Scene,
+};
 
 impl Lowering<'_> {
     /// A quantity of the description as a constant.
@@ -59,6 +61,35 @@ impl Lowering<'_> {
     /// Angle at which the spring of a link is at rest.
     pub(super) fn rest(&mut self, link: &Link) -> ConstantId {
         self.quantity(link.rest.as_ref().unwrap_or(&Quantity::zero()))
+    }
+
+    /// Constants of the laws of friction and drag of a link that are not viscous. A width
+    /// divides, so that it is one where there is none.
+    pub(super) fn law_constants(&mut self, link: &Link) -> [ConstantId; 5] {
+        let none = FrictionLaw {
+            coulomb: Quantity::zero(),
+            quadratic: Quantity::zero(),
+            width: Quantity::integer(1),
+        };
+        let NonlinearFriction { joint, ground } = &link.nonlinear;
+        let [joint, ground] = [joint, ground].map(|law| law.as_ref().unwrap_or(&none));
+        [
+            &joint.coulomb,
+            &joint.quadratic,
+            &joint.width,
+            &ground.quadratic,
+            &ground.width,
+        ]
+        .map(|quantity| self.quantity(quantity))
+    }
+
+    /// The same as values.
+    pub(super) fn laws(&mut self, link: &Link) -> [ValueId; 5] {
+        if link.nonlinear.is_none() {
+            return [0, 0, 1, 0, 1].map(|number| self.builder.integer(number));
+        }
+        let laws = self.law_constants(link);
+        laws.map(|constant| self.builder.constant(constant))
     }
 
     /// A link as a body, see [`Strip::body`](super::Strip).

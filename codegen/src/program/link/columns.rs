@@ -49,15 +49,49 @@ pub enum Column {
     Spring,
     /// Angle at which the spring is at rest.
     Rest,
+    /// Coulomb friction in the pivot over m l².
+    Coulomb,
+    /// Quadratic friction in the pivot over m l².
+    QuadraticFriction,
+    /// Width of friction in the pivot.
+    FrictionWidth,
+    /// Quadratic drag over m l².
+    QuadraticDrag,
+    /// Width of drag.
+    DragWidth,
     /// 1/(m l²), by which torques from outside are multiplied.
     PerTorque,
+    /// Mass, here and below in SI units: read by energies by scale alone.
+    BodyMass,
+    /// Moment of inertia about the centre of mass.
+    BodyInertia,
+    /// Place of the centre of mass along the link.
+    ComAlong,
+    /// Place of the centre of mass across the link.
+    ComAcross,
+    /// Place of the children's pivot along the link.
+    PlaceAlong,
+    /// Place of the children's pivot across the link.
+    PlaceAcross,
+    /// First moment of all that the link carries, along it.
+    CarriedMoment,
+    /// First moment of all that the link carries, across it.
+    LateralCarriedMoment,
+    /// Gravity.
+    Gravity,
+    /// Stiffness of the torsion spring.
+    Stiffness,
+    /// Friction in the pivot, N m s.
+    PivotFriction,
+    /// Drag against the ground, N m s.
+    GroundDrag,
     /// Torque on the root over m l², stated by each evaluation; zero in the rows.
     DriveTorque,
 }
 
 impl Column {
     /// All columns, in their order.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 34] = [
         Self::Inertia,
         Self::Moment,
         Self::LateralMoment,
@@ -73,7 +107,24 @@ impl Column {
         Self::Drag,
         Self::Spring,
         Self::Rest,
+        Self::Coulomb,
+        Self::QuadraticFriction,
+        Self::FrictionWidth,
+        Self::QuadraticDrag,
+        Self::DragWidth,
         Self::PerTorque,
+        Self::BodyMass,
+        Self::BodyInertia,
+        Self::ComAlong,
+        Self::ComAcross,
+        Self::PlaceAlong,
+        Self::PlaceAcross,
+        Self::CarriedMoment,
+        Self::LateralCarriedMoment,
+        Self::Gravity,
+        Self::Stiffness,
+        Self::PivotFriction,
+        Self::GroundDrag,
         Self::DriveTorque,
     ];
 
@@ -95,7 +146,24 @@ impl Column {
             Self::Drag => "drag",
             Self::Spring => "spring",
             Self::Rest => "rest",
+            Self::Coulomb => "coulomb",
+            Self::QuadraticFriction => "quadratic_friction",
+            Self::FrictionWidth => "friction_width",
+            Self::QuadraticDrag => "quadratic_drag",
+            Self::DragWidth => "drag_width",
             Self::PerTorque => "per_torque",
+            Self::BodyMass => "body_mass",
+            Self::BodyInertia => "body_inertia",
+            Self::ComAlong => "com_along",
+            Self::ComAcross => "com_across",
+            Self::PlaceAlong => "place_along",
+            Self::PlaceAcross => "place_across",
+            Self::CarriedMoment => "carried_moment",
+            Self::LateralCarriedMoment => "lateral_carried_moment",
+            Self::Gravity => "gravity",
+            Self::Stiffness => "stiffness",
+            Self::PivotFriction => "pivot_friction",
+            Self::GroundDrag => "ground_drag",
             Self::DriveTorque => "drive_torque",
         }
     }
@@ -118,8 +186,25 @@ impl Column {
             Self::Drag => "drag against the ground over m l²",
             Self::Spring => "stiffness of the torsion spring over m l²",
             Self::Rest => "angle at which the torsion spring is at rest",
+            Self::Coulomb => "Coulomb friction in the pivot over m l²",
+            Self::QuadraticFriction => "quadratic friction in the pivot over m l²",
+            Self::FrictionWidth => "width of friction in the pivot, rad/s",
+            Self::QuadraticDrag => "quadratic drag over m l²",
+            Self::DragWidth => "width of drag, rad/s",
             Self::PerTorque => "1/(m l²), factor of torques from outside",
-            Self::DriveTorque => "torque on the root over m l², stated anew by every evaluation",
+            Self::BodyMass => "mass (kg)",
+            Self::BodyInertia => "moment of inertia about the centre of mass (kg m²)",
+            Self::ComAlong => "place of the centre of mass along the link (m)",
+            Self::ComAcross => "place of the centre of mass across the link (m)",
+            Self::PlaceAlong => "place of the children's pivot along the link (m)",
+            Self::PlaceAcross => "place of the children's pivot across the link (m)",
+            Self::CarriedMoment => "first moment of all that the link carries (kg m)",
+            Self::LateralCarriedMoment => "first moment of that across the link (kg m)",
+            Self::Gravity => "gravity (m/s²)",
+            Self::Stiffness => "stiffness of the torsion spring (N m)",
+            Self::PivotFriction => "friction in the pivot (N m s)",
+            Self::GroundDrag => "drag against the ground (N m s)",
+            Self::DriveTorque => "torque on the root over m l², stated by each evaluation",
         }
     }
 }
@@ -136,6 +221,7 @@ impl Strips {
             Argument::Sums => 5 + torque,
             Argument::Elimination => 3,
             Argument::Carried if self.has_several_places => 4,
+            Argument::Given(function) => function.given().len(),
             _ => 2,
         }
     }
@@ -177,6 +263,7 @@ impl Strips {
             Argument::Sums if self.has_several_places => &ATTACHED,
             Argument::Sums => &SUMS,
             Argument::Elimination => &["gain_x", "gain_y", "offset"],
+            Argument::Given(function) => function.given(),
             _ => &["gravity_x", "gravity_y", "end_x", "end_y"],
         };
         names[index]

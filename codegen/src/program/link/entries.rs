@@ -19,10 +19,7 @@ impl EntryList<'_, '_> {
             unreachable!("trees in loops come with the balance of a link");
         };
         let table = self.lowering.strip_table(scene, balance);
-        let joints = scene
-            .links
-            .iter()
-            .any(|link| link.friction.is_some() || link.spring.is_some());
+        let joints = scene.links.iter().any(crate::scene::Link::has_joint_torque);
         let functions = Functions {
             table: &table,
             joints,
@@ -85,6 +82,9 @@ impl EntryList<'_, '_> {
             vec![accelerate],
             Shape::Scalar,
         );
+        if let Some(scales) = &mechanics.scales {
+            self.scale_functions(&functions, &balance.symbols, scales);
+        }
         self.root(mechanics, &table);
         if let Some(drive) = &mechanics.drive {
             self.drive(mechanics, drive);

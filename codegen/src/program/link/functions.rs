@@ -6,16 +6,19 @@ use super::deficit::{Deficit, Rest};
 use super::equations::{Attached, Elimination, Link, Response};
 use super::strips::Table;
 use crate::program::entries::EntryList;
+use crate::program::friction::Law;
 use crate::program::pair::Pair;
 use crate::program::{Argument, ValueId};
 
 /// The links whose constants an entry point reads.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     Leaf,
     Inner,
     /// A child, while the motion is its parent's.
     Child,
+    /// Any link.
+    Any,
 }
 
 /// The functions of one link.
@@ -28,11 +31,17 @@ pub(super) struct Functions<'t> {
 
 impl Functions<'_> {
     /// A column: the number that all rows have, or an element of the row.
-    fn column(&self, list: &mut EntryList<'_, '_>, kind: Kind, column: Column) -> ValueId {
+    pub(super) fn column(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        kind: Kind,
+        column: Column,
+    ) -> ValueId {
         let builder = &mut list.lowering.builder;
         let common = match (kind, column) {
             (Kind::Inner, Column::DriveTorque) if self.drive_torque => None,
             (Kind::Child, _) => self.table.common_of_children(builder, column),
+            (Kind::Any, _) => self.table.common_of_all(builder, column),
             _ => self.table.common(builder, kind == Kind::Leaf, column),
         };
         match common {
@@ -41,7 +50,7 @@ impl Functions<'_> {
         }
     }
 
-    fn motion(&self, list: &mut EntryList<'_, '_>, element: Motion) -> ValueId {
+    pub(super) fn motion(&self, list: &mut EntryList<'_, '_>, element: Motion) -> ValueId {
         list.lowering
             .builder
             .input(Argument::Motion, element as usize)
@@ -60,17 +69,25 @@ impl Functions<'_> {
             Kind::Child => Kind::Inner,
             kind => kind,
         };
+        let zero = list.lowering.builder.integer(0);
         let mut at = |column| self.column(list, own, column);
         let moment = [at(Column::Moment), at(Column::LateralMoment)];
         let (inertia, mass) = (at(Column::Inertia), at(Column::Mass));
         let (length, inverse_length) = (at(Column::Length), at(Column::InverseLength));
         let drag = at(Column::Drag);
+        let air = Law {
+            coulomb: zero,
+            quadratic: at(Column::QuadraticDrag),
+            width: at(Column::DragWidth),
+        };
         let driven = at(Column::DriveTorque);
         let joint = self.joint_torque(list, own);
         let outside = self.outside_torque(list, own);
         let builder = &mut list.lowering.builder;
-        // −c (ω − ω_π) − κ (θ − θ_π − ρ) − k ω + τ + Q and the torques of the children's joints.
+        // −c (ω − ω_π) − D − κ (θ − θ_π − ρ) − k ω − D⁰ + τ + Q and the torques of the children's joints.
         let dragged = builder.mul(drag, omega);
+        let braked = builder.braking_torque(&air, omega, "_ground");
+        let dragged = builder.add(dragged, braked);
         let resisting = builder.add(joint, dragged);
         let below = torque.unwrap_or_else(|| builder.integer(0));
         let pushed = builder.add(below, driven);
@@ -91,9 +108,14 @@ impl Functions<'_> {
         (link, joint)
     }
 
-    /// The torque of the joint on the parent, c (ω − ω_π) + κ (θ − θ_π − ρ).
+    /// The torque of the joint on the parent, c (ω − ω_π) + D + κ (θ − θ_π − ρ).
     fn joint_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
         let friction = self.column(list, kind, Column::Friction);
+        let law = Law {
+            coulomb: self.column(list, kind, Column::Coulomb),
+            quadratic: self.column(list, kind, Column::QuadraticFriction),
+            width: self.column(list, kind, Column::FrictionWidth),
+        };
         let spring = self.column(list, kind, Column::Spring);
         let rate = self.motion(list, Motion::JointRate);
         let mut angle = self.motion(list, Motion::JointAngle);
@@ -103,6 +125,8 @@ impl Functions<'_> {
             angle = builder.sub(angle, rest);
         }
         let (slowed, bent) = (builder.mul(friction, rate), builder.mul(spring, angle));
+        let braked = builder.braking_torque(&law, rate, "_joint");
+        let slowed = builder.add(slowed, braked);
         let torque = builder.add(slowed, bent);
         builder.name(torque, "joint_torque")
     }
@@ -282,7 +306,7 @@ impl Functions<'_> {
 
 /// Elements of [`Argument::Motion`].
 #[derive(Clone, Copy)]
-enum Motion {
+pub(super) enum Motion {
     Sine,
     Cosine,
     Omega,

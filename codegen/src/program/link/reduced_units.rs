@@ -27,6 +27,9 @@ pub(super) struct Unit {
     pub(super) forces: [ValueId; 3],
     /// Angle at which the spring is at rest.
     pub(super) rest: ValueId,
+    /// Constants of friction that is not viscous as they are: C, q and ε in the pivot,
+    /// q and ε against the ground; where links stand in loops.
+    pub(super) laws: [ValueId; 5],
 }
 
 /// All constants of the recursion.
@@ -50,6 +53,8 @@ pub(super) struct Given {
     pub(super) forces: [ValueId; 3],
     /// Angle at which the spring is at rest.
     pub(super) rest: ValueId,
+    /// As in [`Unit`].
+    pub(super) laws: [ValueId; 5],
 }
 
 impl Lowering<'_> {
@@ -57,6 +62,7 @@ impl Lowering<'_> {
     pub(super) fn units(&mut self, scene: &Scene, environment: &mut Environment<'_>) -> Units {
         let mechanics = self.mechanics;
         let mut given = Vec::new();
+        let zero = self.builder.integer(0);
         for joint in &mechanics.articulation.joints {
             let mut at = |expr| self.expr(environment, expr);
             given.push(Given {
@@ -65,6 +71,8 @@ impl Lowering<'_> {
                 pivot: [at(&joint.pivot[0]), at(&joint.pivot[1])],
                 forces: [at(&joint.friction), at(&joint.drag), at(&joint.spring)],
                 rest: at(&joint.rest),
+                // Their torques are symbols.
+                laws: [zero; 5],
             });
         }
         let gravity = self.expr(environment, &mechanics.articulation.gravity);
@@ -121,6 +129,7 @@ impl Units {
                 place: given.pivot.map(|component| builder.div(component, carrier)),
                 forces: given.forces,
                 rest: given.rest,
+                laws: given.laws,
             }
         });
         let links = links.collect();

@@ -29,6 +29,9 @@ pub struct Strip {
     /// Angle at which its springs are at rest, where energies are asked for and any
     /// spring of the tree has one.
     pub rest: Option<ConstantId>,
+    /// Laws of friction and drag that are not viscous, where energies are asked for and any
+    /// link of the tree has one: C, q and ε in the pivot, q and ε against the ground.
+    pub laws: Option<[ConstantId; 5]>,
     /// Its [properties](crate::scene::LINK_PROPERTIES), if positions are asked for.
     pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
 }
@@ -37,6 +40,7 @@ impl Strip {
     /// All constants that it holds.
     pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
         let others = self.body.iter().flatten().chain(&self.rest);
+        let others = others.chain(self.laws.iter().flatten());
         let others = others.chain(self.properties.iter().flatten());
         self.constants.iter().chain(others).copied()
     }
@@ -84,6 +88,11 @@ impl Table {
         let rows = self.rows.iter().zip(&self.is_leaf);
         let rows = rows.filter(|(_, is_leaf)| **is_leaf == leaves);
         shared(builder, rows.map(|(row, _)| row[column as usize]))
+    }
+
+    /// Number that all links have in a column, if it is one.
+    pub(super) fn common_of_all(&self, builder: &Builder, column: Column) -> Option<Rational> {
+        shared(builder, self.rows.iter().map(|row| row[column as usize]))
     }
 
     /// Number that all links but the root have in a column, if it is one.
@@ -152,12 +161,14 @@ impl Lowering<'_> {
             };
             let forces = forces.map(&mut optional);
             let rest = optional(&link.rest);
+            let laws = self.laws(link);
             given.push(Given {
                 inertia: composite[0],
                 moment: [composite[1], composite[2]],
                 pivot: self.values_of(&link.pivot),
                 forces,
                 rest,
+                laws,
             });
             masses.push(match children[index].is_empty() {
                 true => zero,
@@ -188,16 +199,20 @@ impl Lowering<'_> {
                 place,
             )
         });
-        let rows = rows.collect();
+        let mut rows: Vec<[ValueId; Column::ALL.len()]> = rows.collect();
         let root_gravity = builder.neg(units.gravity);
         let [mass, length] = units.tree;
         let area = builder.mul(length, length);
         let unit = builder.mul(mass, area);
         let one = builder.integer(1);
+        let per_torque = builder.div(one, unit);
+        if scene.requests.scales() {
+            self.scale_columns(scene, balance, &mut rows);
+        }
         Table {
             rows,
             root_gravity,
-            per_torque: builder.div(one, unit),
+            per_torque,
             units,
             is_leaf,
             has_several_places,
@@ -206,7 +221,7 @@ impl Lowering<'_> {
 
     /// M, h, the lateral moment and S of a link with these masses on its pivots: the
     /// derived expressions are sums over these.
-    fn composite(
+    pub(super) fn composite(
         &mut self,
         scene: &Scene,
         index: usize,
@@ -248,7 +263,7 @@ impl Lowering<'_> {
     }
 
     /// An expression at given values of its symbols.
-    fn at_values(&mut self, expr: &Expr, known: &[(SymbolId, ValueId)]) -> ValueId {
+    pub(super) fn at_values(&mut self, expr: &Expr, known: &[(SymbolId, ValueId)]) -> ValueId {
         match expr {
             Expr::Number(number) => self.builder.number(number.clone()),
             Expr::Symbol(symbol) => match known.iter().find(|(id, _)| id == symbol) {
@@ -282,6 +297,7 @@ impl Lowering<'_> {
         let any = |force: fn(&crate::scene::Link) -> bool| scene.links.iter().any(force);
         let mut strips = Vec::with_capacity(scene.links.len());
         let mut bodies: Vec<Option<[ConstantId; 12]>> = vec![None; scene.orbits.len()];
+        let has_laws = scene.requests.energies && any(|link| !link.nonlinear.is_none());
         let has_rests = scene.requests.energies && any(|link| link.rest.is_some());
         for link in &scene.links {
             let orbit = link.orbit.0;
@@ -304,6 +320,7 @@ impl Lowering<'_> {
                 constants,
                 body: bodies[orbit],
                 rest: has_rests.then(|| self.rest(link)),
+                laws: has_laws.then(|| self.law_constants(link)),
                 properties: scene.requests.positions.then(|| self.link_properties(link)),
             });
         }
@@ -312,7 +329,7 @@ impl Lowering<'_> {
             columns,
             strips,
             has_several_places: table.has_several_places,
-            has_joint_torques: any(|link| link.friction.is_some() || link.spring.is_some()),
+            has_joint_torques: any(crate::scene::Link::has_joint_torque),
             has_outside_torques: scene.requests.forces,
             has_drive_torque: drive.is_some_and(|drive| drive.torque.is_some()),
         }
@@ -340,6 +357,15 @@ fn row(
     let torque = builder.mul(tree_mass, area);
     let per_torque = builder.div(one, torque);
     let [friction, drag, spring] = unit.forces.map(|force| builder.div(force, torque));
+    let [
+        coulomb,
+        quadratic_friction,
+        friction_width,
+        quadratic_drag,
+        drag_width,
+    ] = unit.laws;
+    let [coulomb, quadratic_friction, quadratic_drag] =
+        [coulomb, quadratic_friction, quadratic_drag].map(|force| builder.div(force, torque));
     Column::ALL.map(|column| match column {
         Column::Inertia => unit.inertia,
         Column::Moment => unit.moment[0],
@@ -356,7 +382,12 @@ fn row(
         Column::Drag => drag,
         Column::Spring => spring,
         Column::Rest => unit.rest,
+        Column::Coulomb => coulomb,
+        Column::QuadraticFriction => quadratic_friction,
+        Column::FrictionWidth => friction_width,
+        Column::QuadraticDrag => quadratic_drag,
+        Column::DragWidth => drag_width,
         Column::PerTorque => per_torque,
-        Column::DriveTorque => zero,
+        _ => zero,
     })
 }

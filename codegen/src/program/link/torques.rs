@@ -1,13 +1,14 @@
 //! Torques in the joints, against the ground and on the root.
 
 use super::reduced_units::Units;
+use crate::mechanics::{FrictionPlace, TorqueSource};
 use crate::program::ValueId;
 use crate::program::lower::{Environment, Lowering};
 use crate::scene::Scene;
 
 impl Lowering<'_> {
-    /// Q of each link, in its unit of torque: what the caller hands over, −c (ω − ω_π) and
-    /// −κ (θ − θ_π − ρ) of its own joint less those of the joints on it, −k ω, and τ on the
+    /// Q of each link, in its unit of torque: what the caller hands over, −c (ω − ω_π),
+    /// other friction and −κ (θ − θ_π − ρ) of its own joint less those of the joints on it, −k ω, and τ on the
     /// root.
     pub(super) fn joint_torques(
         &mut self,
@@ -34,6 +35,21 @@ impl Lowering<'_> {
             let torque = self.symbol(environment, torque);
             let torque = self.builder.mul(units.links[0].per_torque, torque);
             torques[0] = self.builder.add(torques[0], torque);
+        }
+        for torque in &environment.frame.torques {
+            let TorqueSource::Link { link, .. } = torque.source else {
+                continue;
+            };
+            let braking = self.symbol(environment, torque.symbol);
+            let unit = &units.links[scene.links[link.0].orbit.0];
+            let own = self.builder.mul(unit.per_torque, braking);
+            torques[link.0] = self.builder.sub(torques[link.0], own);
+            let parent = scene.links[link.0].parent;
+            if let Some(parent) = parent.filter(|_| torque.place == FrictionPlace::Joint) {
+                let unit = &units.links[scene.links[parent.0].orbit.0];
+                let reaction = self.builder.mul(unit.per_torque, braking);
+                torques[parent.0] = self.builder.add(torques[parent.0], reaction);
+            }
         }
         let builder = &mut self.builder;
         let children = super::children(scene);

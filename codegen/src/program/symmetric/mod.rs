@@ -12,6 +12,7 @@
 mod budget;
 mod direction;
 mod field;
+mod friction;
 mod motion;
 mod named;
 mod parseval;
@@ -24,6 +25,7 @@ mod tree;
 
 pub(super) use budget::{Share, SymmetricMotion};
 pub(super) use field::{SymmetricField, SymmetricTree};
+pub(super) use friction::LawValues;
 pub(super) use motion::{ConstantValues, CouplingValues, Fields, OrbitValues, Pose};
 pub(super) use sector::SectorId;
 pub(super) use series::{SeriesArithmetic, TruncatedSeries};

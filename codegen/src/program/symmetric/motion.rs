@@ -3,6 +3,7 @@
 
 use super::direction::Direction;
 use super::field::{SymmetricField, SymmetricTree};
+use super::friction::LawValues;
 use super::series::TruncatedSeries;
 
 /// Values of the constants of one orbit; zeros are empty series.
@@ -19,6 +20,8 @@ pub(in crate::program) struct OrbitValues {
     pub(in crate::program) friction: TruncatedSeries,
     pub(in crate::program) drag: TruncatedSeries,
     pub(in crate::program) drive: [TruncatedSeries; 3],
+    /// Laws of friction in the pivot and against the ground, beside viscous ones.
+    pub(in crate::program) laws: [LawValues; 2],
 }
 
 /// Values of a coupling's constants, and the orbits that it couples.
@@ -196,10 +199,14 @@ impl SymmetricTree<'_> {
         relative: &SymmetricField,
     ) {
         let torque = self.scale(coefficient, relative);
-        self.hinted(&torque, "joint_torque");
-        self.accumulate(sums, &torque);
-        if let Some(parent) = self.orbits[relative.orbit].parent {
-            let reaction = self.gather(&torque, parent);
+        self.add_joint_torque(sums, &torque);
+    }
+
+    pub(super) fn add_joint_torque(&mut self, sums: &mut Fields, torque: &SymmetricField) {
+        self.hinted(torque, "joint_torque");
+        self.accumulate(sums, torque);
+        if let Some(parent) = self.orbits[torque.orbit].parent {
+            let reaction = self.gather(torque, parent);
             let reaction = self.neg(&reaction);
             self.accumulate(sums, &reaction);
         }
@@ -223,7 +230,7 @@ impl SymmetricTree<'_> {
     }
 
     /// A link's own less its parent's.
-    fn relative(&mut self, positions: &Fields, orbit: usize) -> SymmetricField {
+    pub(super) fn relative(&mut self, positions: &Fields, orbit: usize) -> SymmetricField {
         match self.orbits[orbit].parent {
             Some(parent) => {
                 let above = self.lift(&positions[parent], orbit);
@@ -257,6 +264,7 @@ impl SymmetricTree<'_> {
             let drag = self.scale(&constants.drag, rate);
             self.accumulate(&mut losses, &drag);
         }
+        self.add_braking(&mut losses, values, rates);
         self.all_hinted(&losses, "loss");
         losses.iter().map(|loss| self.neg(loss)).collect()
     }

@@ -1,8 +1,11 @@
 //! One over a quantity of every link, which keeps small differences accurate.
 
 use super::field::{SymmetricField, SymmetricTree};
-use super::series::TruncatedSeries;
+use super::series::{SeriesArithmetic, TruncatedSeries};
 use super::tree::Branch;
+
+/// A function of one copy.
+type CopyFunction = fn(&mut SeriesArithmetic<'_>, &TruncatedSeries) -> TruncatedSeries;
 
 impl SymmetricTree<'_> {
     /// One over a field, link by link.
@@ -46,7 +49,7 @@ impl SymmetricTree<'_> {
             }
             Some(branch) if is_pair_of_links(branch) => self.reciprocal_of_pair(branch, f),
             _ => {
-                let estimate = self.reciprocal_by_copies(f);
+                let estimate = self.by_copies(f, |series, value| series.reciprocal(value));
                 self.refined(f, &estimate)
             }
         }
@@ -65,28 +68,35 @@ impl SymmetricTree<'_> {
         result
     }
 
-    fn reciprocal_by_copies(&mut self, f: &SymmetricField) -> SymmetricField {
+    /// A function of a field, copy by copy: an estimate, as copies are subtracted.
+    pub(super) fn by_copies(
+        &mut self,
+        f: &SymmetricField,
+        function: CopyFunction,
+    ) -> SymmetricField {
         let mut result = SymmetricField::zero(f.orbit);
-        result.mean = self.inverted(self.branch(f.orbit), f, &f.mean.clone(), &mut result);
+        let branch = self.branch(f.orbit);
+        result.mean = self.of_copies(branch, f, &f.mean, &mut result, function);
         result
     }
 
-    fn inverted(
+    fn of_copies(
         &mut self,
         branch: Option<&Branch>,
         f: &SymmetricField,
         mean: &TruncatedSeries,
         result: &mut SymmetricField,
+        function: CopyFunction,
     ) -> TruncatedSeries {
         let Some(branch) = branch.filter(|branch| f.varies_below(Some(branch))) else {
-            return self.series.reciprocal(mean);
+            return function(&mut self.series, mean);
         };
         let means = self.means(branch, f, mean);
         let inverses: Vec<TruncatedSeries> = branch
             .copies
             .iter()
             .zip(&means)
-            .map(|(inner, mean)| self.inverted(inner.as_ref(), f, mean, result))
+            .map(|(inner, mean)| self.of_copies(inner.as_ref(), f, mean, result, function))
             .collect();
         for (index, value) in self.differences(&inverses).into_iter().enumerate() {
             result.put((branch.group, index + 1), value);

@@ -173,6 +173,17 @@ impl SeriesArithmetic<'_> {
         self.collected(kept)
     }
 
+    /// 1/√a of the part of order 0, which must be there.
+    pub(super) fn inverse_root(&mut self, a: &TruncatedSeries) -> TruncatedSeries {
+        let Some(leading) = a.coefficient(0) else {
+            unreachable!("a width of friction is positive")
+        };
+        let one = self.builder.integer(1);
+        let root = self.builder.sqrt(leading);
+        let inverse = self.builder.div(one, root);
+        self.value(inverse)
+    }
+
     /// 1/a, from the lowest order upwards; order 0 must be there.
     pub(super) fn reciprocal(&mut self, a: &TruncatedSeries) -> TruncatedSeries {
         let Some(leading) = a.coefficient(0) else {

@@ -29,6 +29,10 @@ pub enum OutputMessage {
         /// The known one that is spelt most alike.
         nearest: Option<&'static str>,
     },
+    /// A form of the budget beside `scales` that loops do not have.
+    BesideScales,
+    /// Budgets by scale of a tree that is not in loops over generations.
+    ScalesWithoutRule,
     /// `budget()` without any form.
     NoBudgetForm,
     /// `small` without sectors.
@@ -115,7 +119,15 @@ pub enum OutputMessage {
         function: String,
     },
     /// Small differences of copies in phase where there are none.
-    NoTransverse,
+    NoTransverse {
+        /// `transverse` or `small`.
+        request: &'static str,
+    },
+    /// An output that is derived for one tree, of a tree that is described at run time.
+    NotAtRunTime {
+        /// The output.
+        what: String,
+    },
 }
 
 /// Use of a tree that copies which differ stand against.
@@ -158,9 +170,21 @@ impl OutputMessage {
                 "not a form",
                 suggest(
                     nearest,
-                    "forms are `canonical`, `parseval`, `velocity`, `rest`, `matrix`, \
+                    "forms are `canonical`, `parseval`, `velocity`, `rest`, `matrix`, `scales`, \
                      `angle = 1`, `amplitude = 4`",
                 ),
+            ),
+            M::BesideScales => problem(
+                "budgets by scale are those of Parseval's energies alone",
+                "not beside `scales`",
+                "write `budget(parseval, scales)`, and other forms in a model of their own",
+            ),
+            M::ScalesWithoutRule => problem(
+                "budgets by scale are for trees by rule, in loops",
+                "no loops over generations of several copies here",
+                "describe the whole tree as `generations(count = 5, branching = 2, ...)` with equal \
+                 copies, without `code = unrolled`, `in_phase` and `locked`; other trees have \
+                 `budget(parseval, matrix)` by sector",
             ),
             M::NoBudgetForm => problem(
                 "no form of the budget is chosen",
@@ -289,10 +313,15 @@ impl OutputMessage {
                 format!("`{name}` would emit it again"),
                 format!("choose another name, as in `my_{name}`"),
             ),
-            M::NoTransverse => problem(
-                "`transverse` needs copies that move in phase",
+            M::NoTransverse { request } => problem(
+                format!("`{request}` needs copies that move in phase"),
                 "nothing moves in phase",
                 "add `in_phase(all)`, or `in_phase(child)` with a link that has copies",
+            ),
+            M::NotAtRunTime { what } => problem(
+                format!("no `{what}` at run time"),
+                "has to be derived for this tree",
+                "leave it out, or let the attribute `#[branched_pendulum(...)]` compile this tree",
             ),
         }
     }

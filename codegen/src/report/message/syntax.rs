@@ -6,6 +6,8 @@ use crate::report::nearest::nearest;
 /// A mistake in a description: its tokens, the struct and the settings.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SyntaxMessage {
+    /// Text that has no tokens of Rust.
+    NoTokens,
     /// Another token should stand here.
     Expected {
         /// The token that should.
@@ -115,6 +117,11 @@ impl SyntaxMessage {
     pub(super) fn problem(&self) -> Problem {
         use SyntaxMessage as M;
         match self {
+            M::NoTokens => problem(
+                "unreadable text",
+                "no token starts here, or brackets do not match",
+                "write a description as in `gravity = 9.80665, rod: rod(mass = 1, length = 1)`",
+            ),
             M::Expected { what } => problem(
                 format!("expected {what}"),
                 "something else stands here",

@@ -72,6 +72,16 @@ pub enum TreeMessage {
         /// The link.
         link: String,
     },
+    /// A width of friction without a law that has one.
+    IdleWidth {
+        /// The link.
+        link: String,
+    },
+    /// Drag of a locked link with another width than that of the link that holds it.
+    LockedWidth {
+        /// The link.
+        link: String,
+    },
     /// Children of a generation rule.
     RuleChildren,
     /// A pair where a single value is needed.
@@ -211,6 +221,16 @@ impl TreeMessage {
                 format!("`{link}` has a rest angle, but no spring"),
                 "nothing is at rest here",
                 "add `spring = ...`, the spring's stiffness in N m, or leave `rest` out",
+            ),
+            M::IdleWidth { link } => problem(
+                format!("`{link}` has a width of friction, but nothing that it smooths"),
+                "viscous friction has no width",
+                "add `coulomb = ...` in N m or `quadratic = ...` in N m s², or leave `width` out",
+            ),
+            M::LockedWidth { link } => problem(
+                format!("drag of `{link}` has another width than that of the link it is locked to"),
+                "two widths for one link",
+                "give both links the same `width`",
             ),
             M::RuleChildren => problem(
                 "a generation rule has no other children",

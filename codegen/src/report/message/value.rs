@@ -148,9 +148,9 @@ impl ValueMessage {
                     ),
                     Lookalike::Motion => (
                         "an angle or a velocity",
-                        "properties do not change with the motion: `friction` and `drag` are \
-                         coefficients, and `docs/limits.md` has other forces; give a parameter \
-                         another name",
+                        "properties do not change with the motion: `friction(...)` and `drag(...)` \
+                         have coefficients of laws, and `docs/limits.md` has other forces; give a \
+                         parameter another name",
                     ),
                 };
                 problem(

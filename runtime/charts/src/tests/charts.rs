@@ -1,7 +1,7 @@
 use crate::arrange::arrange;
 use crate::drawing::{Drawing, Mark, Text};
 use crate::font::Font;
-use crate::{Axis, Chart, ChartError, Panel, compose, style};
+use crate::{Axis, Chart, ChartError, Panel, Series, compose, style};
 
 type Failure = Result<(), Box<dyn std::error::Error>>;
 
@@ -46,6 +46,17 @@ fn awkward() -> Vec<(&'static str, Chart)> {
         .unzip();
     let values: Vec<f64> = (0..20).map(|k| 10.0_f64.powi(k % 7 - 3)).collect();
     vec![
+        (
+            "shaded",
+            chart()
+                .colors(Axis::log("growth rate (1/s)").range(0.01, 5.0))
+                .panel(
+                    panel()
+                        .series(Series::shaded(&cell_x, &cell_y, &values))
+                        .line("a", &t, &y),
+                )
+                .panel(panel().series(Series::shaded(&cell_x, &cell_y, &values))),
+        ),
         ("plain", chart().panel(panel().line("a", &t, &y))),
         (
             "long",

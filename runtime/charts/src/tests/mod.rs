@@ -1,2 +1,3 @@
 mod charts;
+mod films;
 mod parts;

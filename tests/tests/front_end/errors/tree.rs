@@ -290,6 +290,24 @@ pub(super) const CASES: &[Case] = &[
         "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1, rest = 0.1))] struct Pendulum;",
     ),
     (
+        "laws_of_friction",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1, friction(width = 0.1), drag(coulomb = 1, quadratic = 2)) [
+        b: rod(mass = 1, length = 1, friction = 1, friction(viscous = 2, coulomb = -1, width = 0)),
+        c: rod(mass = 1, length = 1, friction(columb = 1, quadratic 2), coulomb = 1, spring(rest = 1)),
+        d: rod(mass = 1, length = 1, friction(), drag(quadratic = omega_d)),
+    ])] struct Pendulum;",
+    ),
+    (
+        "locked_drag",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1, drag(quadratic = 1)) [
+        b: rod(mass = 1, length = 1, drag(quadratic = 1, width = 0.1)),
+        c: rod(mass = 1, length = 1, friction(coulomb = 1)),
+    ],
+    locked(b, 0.1), locked(c, 0.1))] struct Pendulum;",
+    ),
+    (
         "declared_parameters",
         "#[branched_pendulum(
     gravity = g,

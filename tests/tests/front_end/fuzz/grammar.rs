@@ -246,7 +246,10 @@ impl Grammar<'_> {
             return format!("{name} = each({})", values.join(", "));
         }
         let value = self.point(name);
-        format!("{name} = {value}")
+        match name {
+            "friction" | "drag" => law(name, &value, self.links.len()),
+            _ => format!("{name} = {value}"),
+        }
     }
 
     /// The value of one copy, for points also a pair.
@@ -353,7 +356,7 @@ impl Grammar<'_> {
         while self.one_in(8) {
             nodes.push(self.link());
         }
-        let transverse = self.pick(&["", ", emit(transverse)"]);
+        let transverse = self.pick(&["", ", emit(transverse)", ", emit(small)"]);
         format!("in_phase({}){transverse}", nodes.join(", "))
     }
 
@@ -459,5 +462,17 @@ impl Grammar<'_> {
             })
             .collect();
         format!("observe({})", observables.join(", "))
+    }
+}
+
+/// Friction with this coefficient by one law or several, told by what is drawn already:
+/// another draw would make other descriptions of all that follow.
+fn law(name: &str, value: &str, links: usize) -> String {
+    match (name, (value.len() + links) % 6) {
+        (_, 0) => format!("{name}(viscous = {value}, quadratic = {value})"),
+        (_, 1) => format!("{name}(quadratic = {value}, width = 0.1)"),
+        ("friction", 2) => format!("friction(coulomb = {value}, width = w)"),
+        ("friction", 3) => format!("friction(coulomb = 1, quadratic = {value}, viscous = 2,)"),
+        _ => format!("{name} = {value}"),
     }
 }

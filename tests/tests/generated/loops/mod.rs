@@ -3,14 +3,15 @@
 //! of the tests' own.
 
 mod driven;
+mod friction;
 mod offsets;
 mod places;
 
 use branched_pendulum::prelude::*;
-use branched_pendulum_codegen::scene::{Offset, Quantity, Scene};
+use branched_pendulum_codegen::scene::{NonlinearFriction, Offset, Quantity, Scene};
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::drive::{Jet, Push};
-use branched_pendulum_tests::oracle::{Link, Tree};
+use branched_pendulum_tests::oracle::{Law, Link, Tree};
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::source;
 use nalgebra::DVector;
@@ -107,6 +108,20 @@ fn scene_of(text: &str) -> Scene {
     source::stages_of(&format!("#[branched_pendulum({text})] struct Sample;")).scene
 }
 
+/// Laws of friction of a link in plain numbers.
+pub(crate) fn laws_of(link: &branched_pendulum_codegen::scene::Link) -> [Law; 2] {
+    let number = |quantity: &Quantity| quantity.exact().expect("no parameters").to_f64();
+    let NonlinearFriction { joint, ground } = &link.nonlinear;
+    [joint, ground].map(|law| match law {
+        Some(law) => Law {
+            coulomb: number(&law.coulomb),
+            quadratic: number(&law.quadratic),
+            width: number(&law.width),
+        },
+        None => Law::default(),
+    })
+}
+
 /// A scene that is written out, in plain numbers.
 fn oracle_of(scene: &Scene) -> Tree {
     let number = |quantity: &Quantity| quantity.exact().expect("no parameters").to_f64();
@@ -122,6 +137,7 @@ fn oracle_of(scene: &Scene) -> Tree {
         drag: force(&link.drag),
         spring: force(&link.spring),
         rest: force(&link.rest),
+        laws: laws_of(link),
     });
     Tree {
         gravity: number(&scene.gravity),

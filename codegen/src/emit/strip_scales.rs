@@ -1,0 +1,148 @@
+//! Energies by scale of trees in loops: the functions of one link, and the trait of the
+//! model.
+
+use super::Emission;
+use super::formulas::DocFormula;
+use crate::program::{Argument, Purpose, ScaleFunction};
+use crate::scene::{Layout, Link};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+impl Emission<'_> {
+    /// `impl ScaleEquations` and `impl Scales`, where energies by scale are asked for.
+    pub(super) fn strip_scales(&self) -> TokenStream {
+        let Layout::Generations { branching, .. } = self.scene.layout else {
+            return TokenStream::new();
+        };
+        if !self.scene.requests.scales() {
+            return TokenStream::new();
+        }
+        let runtime = self.runtime();
+        let (name, equations) = (&self.item.ident, self.equations_name());
+        let functions = ScaleFunction::ALL.map(|function| self.scale_function(function));
+        let any = |force: fn(&Link) -> bool| self.scene.links.iter().any(force);
+        let springs = any(|link| link.spring.is_some());
+        let friction = any(|link| link.friction.is_some());
+        let drag = any(|link| link.drag.is_some());
+        let moved = self.mechanics.drive.as_ref();
+        let moved = moved.is_some_and(|drive| !drive.pivot.is_empty());
+        let drive = match self.mechanics.drive {
+            Some(_) => quote!(::core::option::Option::Some(self.drive(time))),
+            None => quote!(::core::option::Option::None),
+        };
+        let time = self.time_name();
+        let copies = (0..self.scene.links.len()).map(|generation| {
+            Literal::usize_unsuffixed(if generation == 0 { 1 } else { branching })
+        });
+        quote! {
+            // Of commas: all tokens stand where the attribute does, see `emit`.
+            #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
+            impl #runtime::tree::ScaleEquations for #equations {
+                const SPRINGS: bool = #springs;
+                const FRICTION: bool = #friction;
+                const DRAG: bool = #drag;
+                const MOVED: bool = #moved;
+
+                #(#functions)*
+            }
+
+            impl<T: #runtime::Scalar> #runtime::Scales<T> for #name<T> {
+                const COPIES: &'static [usize] = &[#(#copies),*];
+
+                fn energies_by_scale(
+                    &self,
+                    workspace: &mut #runtime::system::Workspace<T>,
+                    theta: &[T],
+                    omega: &[T],
+                    budget: &mut #runtime::ScaleBudget<T>,
+                ) {
+                    self.tree.energies_by_scale(workspace, theta, omega, budget);
+                }
+
+                fn energies_by_sector(
+                    &self,
+                    workspace: &mut #runtime::system::Workspace<T>,
+                    theta: &[T],
+                    omega: &[T],
+                    energies: &mut [T],
+                ) {
+                    self.tree.energies_by_sector(workspace, theta, omega, energies);
+                }
+
+                fn budget_by_scale(
+                    &self,
+                    workspace: &mut #runtime::system::Workspace<T>,
+                    #time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    budget: &mut #runtime::ScaleBudget<T>,
+                ) {
+                    let given = [theta, omega, &[]];
+                    self.tree.budget_by_scale(workspace, #drive, given, budget);
+                }
+
+                fn budget_by_scale_under(
+                    &self,
+                    workspace: &mut #runtime::system::Workspace<T>,
+                    #time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    torques: &[T],
+                    budget: &mut #runtime::ScaleBudget<T>,
+                ) {
+                    let given = [theta, omega, torques];
+                    self.tree.budget_by_scale_under(workspace, #drive, given, budget);
+                }
+            }
+        }
+    }
+
+    /// A function of the trait, from its entry point.
+    fn scale_function(&self, function: ScaleFunction) -> TokenStream {
+        let Some(entry) = self.entry(Purpose::Scale(function)) else {
+            return TokenStream::new();
+        };
+        let (runtime, docs) = (self.runtime(), self.entry_docs(entry));
+        let body = self.plain_body(entry);
+        let name = format_ident!("{}", function.name());
+        let given = Literal::usize_unsuffixed(function.given().len());
+        let results = Literal::usize_unsuffixed(function.results());
+        let arguments = entry.arguments.iter().map(|argument| {
+            let name = format_ident!("{}", argument.name());
+            let kind = match argument {
+                Argument::Constants => quote!(&Self::Constants<T>),
+                Argument::Motion => quote!(#runtime::tree::LinkMotion<T>),
+                _ => quote!([T; #given]),
+            };
+            quote!(#name: #kind)
+        });
+        quote! {
+            #docs
+            #[inline(always)]
+            fn #name<T: #runtime::Scalar>(#(#arguments),*) -> [T; #results] {
+                #body
+            }
+        }
+    }
+
+    /// The derived formulas behind a function of a link.
+    pub(super) fn scale_formulas(&self, function: ScaleFunction) -> Vec<DocFormula> {
+        let Some(scales) = &self.mechanics.scales else {
+            return Vec::new();
+        };
+        let named = match function {
+            ScaleFunction::Torques => 0..4,
+            ScaleFunction::Velocity => 4..8,
+            ScaleFunction::Moment => 8..12,
+            ScaleFunction::Energy => 12..13,
+            ScaleFunction::Eliminate => 13..14,
+            ScaleFunction::Flow => 14..18,
+            ScaleFunction::Slope => 18..19,
+            ScaleFunction::Inertial => 19..20,
+            ScaleFunction::Factor => 0..0,
+        };
+        let formulas = scales.formulas().into_iter();
+        let formulas = formulas.skip(named.start).take(named.len());
+        formulas.map(DocFormula::from).collect()
+    }
+}

@@ -1,0 +1,358 @@
+//! Friction that is not viscous (physics §16): its torques are symbols of their own, which
+//! stand in the equations of motion as viscous torques do.
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::expression::{Expr, Role, SymbolId, Symbols};
+use super::frame::DerivedFrame;
+use super::print::latex_name;
+use crate::scene::{Coordinate, FrictionLaw, Link, LinkId};
+
+/// Constants of a law of friction; each is an expression in named constants, zero where
+/// the law has no such part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawConstants {
+    /// C.
+    pub coulomb: Expr,
+    /// q.
+    pub quadratic: Expr,
+    /// ε.
+    pub width: Expr,
+}
+
+/// The part of a link that friction acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrictionPlace {
+    /// Its pivot.
+    Joint,
+    /// Itself, against the ground.
+    Ground,
+}
+
+/// A torque (C/s + q s) w of friction, by which a link or its joint is braked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BrakingTorque {
+    /// The symbol that stands for it.
+    pub symbol: SymbolId,
+    /// Its derivative by w; of single links.
+    pub slope: SymbolId,
+    /// The part of the links that it acts on.
+    pub place: FrictionPlace,
+    /// Whose torque it is.
+    pub source: TorqueSource,
+}
+
+/// The meaning of a braking torque in its frame.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TorqueSource {
+    /// The torque of one link.
+    Link {
+        /// The link.
+        link: LinkId,
+        /// Its rate w in the frame's velocities.
+        rate: Expr,
+        /// Its law.
+        law: LawConstants,
+        /// The speed s, a symbol for formulas alone.
+        speed: SymbolId,
+    },
+    /// The component of the torques of copies in this symmetric coordinate.
+    Coordinate(usize),
+}
+
+/// A braking torque while it is derived.
+#[derive(Clone)]
+pub(super) struct DerivedTorque {
+    pub(super) symbol: SymbolId,
+    pub(super) slope: SymbolId,
+    pub(super) place: FrictionPlace,
+    pub(super) source: DerivedSource,
+}
+
+#[derive(Clone)]
+pub(super) enum DerivedSource {
+    Link { link: LinkId, rate: Formula },
+    Coordinate(usize),
+}
+
+impl DerivedTorque {
+    /// D w of a link.
+    pub(super) fn work(&self) -> Option<Formula> {
+        match &self.source {
+            DerivedSource::Link { rate, .. } => Some(&Formula::symbol(self.symbol) * rate),
+            DerivedSource::Coordinate(_) => None,
+        }
+    }
+}
+
+impl DerivedTorque {
+    /// The torque with its rate in other symbols.
+    pub(super) fn substitute(&self, replacements: &[(SymbolId, Formula)]) -> Self {
+        let mut torque = self.clone();
+        if let DerivedSource::Link { rate, .. } = &mut torque.source {
+            *rate = rate.substitute(replacements).expand();
+        }
+        torque
+    }
+}
+
+impl FrictionPlace {
+    const ALL: [Self; 2] = [Self::Joint, Self::Ground];
+
+    /// The law of a link there.
+    fn law(self, link: &Link) -> Option<&FrictionLaw> {
+        match self {
+            Self::Joint => link.nonlinear.joint.as_ref(),
+            Self::Ground => link.nonlinear.ground.as_ref(),
+        }
+    }
+
+    /// The mark of its letters.
+    fn mark(self) -> &'static str {
+        match self {
+            Self::Joint => "",
+            Self::Ground => "⁰",
+        }
+    }
+
+    fn latex_mark(self) -> &'static str {
+        match self {
+            Self::Joint => "",
+            Self::Ground => "^{0}",
+        }
+    }
+}
+
+impl Derivation<'_> {
+    /// The torques of all links, with their constants named.
+    pub(super) fn braking_torques(&mut self, velocities: &[SymbolId]) -> Vec<DerivedTorque> {
+        let mut torques = Vec::new();
+        for index in 0..velocities.len() {
+            let scene = self.scene;
+            for place in FrictionPlace::ALL {
+                let Some(law) = place.law(&scene.links[index]) else {
+                    continue;
+                };
+                self.name_law(index, place, law);
+                let rate = match place {
+                    FrictionPlace::Joint => self.relative(index, velocities),
+                    FrictionPlace::Ground => Formula::symbol(velocities[index]),
+                };
+                let link = LinkId(index);
+                let source = DerivedSource::Link { link, rate };
+                torques.push(self.torque_called(&scene.links[index].name, place, source));
+            }
+        }
+        torques
+    }
+
+    fn torque_called(
+        &mut self,
+        name: &str,
+        place: FrictionPlace,
+        source: DerivedSource,
+    ) -> DerivedTorque {
+        let (mark, tex) = (place.mark(), latex_name(name));
+        let code = match place {
+            FrictionPlace::Joint => "braking",
+            FrictionPlace::Ground => "braking_ground",
+        };
+        let mark_latex = place.latex_mark();
+        let mut intern = |suffix: &str, prime: &str, latex_prime: &str| {
+            self.symbols.intern(
+                Role::Derived,
+                &format!("{code}{suffix}_{name}"),
+                &format!("D{mark}{prime}_{name}"),
+                &format!("D{mark_latex}{latex_prime}_{{\\mathrm{{{tex}}}}}"),
+            )
+        };
+        DerivedTorque {
+            symbol: intern("", "", ""),
+            slope: intern("_slope", "′", "{}'"),
+            place,
+            source,
+        }
+    }
+
+    /// Names C, q and ε of a link.
+    fn name_law(&mut self, index: usize, place: FrictionPlace, law: &FrictionLaw) {
+        let orbit = self.orbit_name(index);
+        let (mark, latex_mark) = (place.mark(), place.latex_mark());
+        let (words, what) = match place {
+            FrictionPlace::Joint => (
+                ["coulomb", "quadratic_friction", "friction_width"],
+                format!("friction in the pivot of `{orbit}`"),
+            ),
+            FrictionPlace::Ground => (
+                ["coulomb_drag", "quadratic_drag", "drag_width"],
+                format!("drag of `{orbit}` against the ground"),
+            ),
+        };
+        let letters = [
+            ("C", "C", "Coulomb ", "N m", &law.coulomb),
+            ("q", "q", "quadratic ", "N m s²", &law.quadratic),
+            ("ε", "\\varepsilon", "width of ", "rad/s", &law.width),
+        ];
+        for (word, (letter, latex, kind, unit, value)) in words.into_iter().zip(letters) {
+            let value = self.quantity(value);
+            self.constant(
+                &format!("{word}_{orbit}"),
+                &format!("{letter}{mark}_{orbit}"),
+                &format!("{latex}{latex_mark}_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
+                &format!("{kind}{what}"),
+                unit,
+                value,
+            );
+        }
+    }
+
+    /// The constants of the laws of an orbit, in the pivot and against the ground.
+    pub(super) fn law_constants(&self, orbit: &str) -> [LawConstants; 2] {
+        FrictionPlace::ALL.map(|place| {
+            let named = |letter: &str| {
+                let text = format!("{letter}{}_{orbit}", place.mark());
+                let found = self.symbols.find(&text);
+                let found = found.filter(|id| self.constants.contains_key(id));
+                found.map_or_else(Expr::zero, Expr::Symbol)
+            };
+            LawConstants {
+                coulomb: named("C"),
+                quadratic: named("q"),
+                width: named("ε"),
+            }
+        })
+    }
+
+    /// The torques of equal copies in symmetric coordinates, and what stands for those of
+    /// the links: link = mean + Σ weight · difference, as for their angles. Sums over
+    /// copies of what is equal in all of them then vanish before any number is rounded.
+    pub(super) fn symmetric_torques(
+        &mut self,
+        torques: &[DerivedTorque],
+        coordinates: &[Coordinate],
+    ) -> (Vec<DerivedTorque>, Vec<(SymbolId, Formula)>) {
+        let (mut found, mut replacements) = (Vec::new(), Vec::new());
+        for place in FrictionPlace::ALL {
+            for (index, coordinate) in coordinates.iter().enumerate() {
+                let (orbit, _) = coordinate.kind.orbit_and_difference();
+                let first = self.scene.orbits[orbit].links[0];
+                if place.law(&self.scene.links[first.0]).is_some() {
+                    let source = DerivedSource::Coordinate(index);
+                    found.push(self.torque_called(&coordinate.name, place, source));
+                }
+            }
+        }
+        for torque in torques {
+            let DerivedSource::Link { link, .. } = &torque.source else {
+                continue;
+            };
+            let members = found.iter().filter_map(|member: &DerivedTorque| {
+                let DerivedSource::Coordinate(index) = member.source else {
+                    return None;
+                };
+                let mut weights = coordinates[index].weights.iter();
+                let (_, weight) = weights.find(|(own, _)| own == link)?;
+                let is_same = member.place == torque.place;
+                is_same.then(|| &Formula::integer(*weight) * &Formula::symbol(member.symbol))
+            });
+            replacements.push((torque.symbol, members.sum()));
+        }
+        (found, replacements)
+    }
+
+    /// The derivative by a velocity, through the torques that depend on it.
+    pub(super) fn velocity_slope(
+        &self,
+        frame: &DerivedFrame,
+        function: &Formula,
+        velocity: SymbolId,
+    ) -> Formula {
+        let mut slopes = vec![function.derivative(velocity)];
+        for torque in &frame.torques {
+            if let DerivedSource::Link { rate, .. } = &torque.source {
+                let own = &rate.derivative(velocity) * &Formula::symbol(torque.slope);
+                slopes.push(&function.derivative(torque.symbol) * &own);
+            }
+        }
+        slopes.into_iter().sum()
+    }
+
+    /// The torques of a frame as plain data.
+    pub(super) fn plain_torques(&mut self, torques: &[DerivedTorque]) -> Vec<BrakingTorque> {
+        let torques = torques.iter().map(|torque| {
+            let source = match &torque.source {
+                DerivedSource::Link { link, rate } => {
+                    let law = self.law(*link, torque.place);
+                    let rate = self.expr(rate);
+                    TorqueSource::Link {
+                        link: *link,
+                        speed: self.speed(*link, &rate, &law.width),
+                        rate,
+                        law,
+                    }
+                }
+                DerivedSource::Coordinate(index) => TorqueSource::Coordinate(*index),
+            };
+            BrakingTorque {
+                symbol: torque.symbol,
+                slope: torque.slope,
+                place: torque.place,
+                source,
+            }
+        });
+        torques.collect()
+    }
+
+    fn law(&self, LinkId(link): LinkId, place: FrictionPlace) -> LawConstants {
+        let [joint, ground] = self.law_constants(&self.orbit_name(link));
+        match place {
+            FrictionPlace::Joint => joint,
+            FrictionPlace::Ground => ground,
+        }
+    }
+
+    /// √(w² + ε²) for formulas.
+    fn speed(&mut self, LinkId(link): LinkId, rate: &Expr, width: &Expr) -> SymbolId {
+        let spelt = |print: fn(&Expr, &Symbols) -> String| {
+            let [rate, width] = [rate, width].map(|expr| print(expr, &self.symbols));
+            match rate.contains(' ') {
+                true => [format!("({rate})"), width],
+                false => [rate, width],
+            }
+        };
+        let ([rate, width], [latex_rate, latex_width]) = (spelt(super::text), spelt(super::latex));
+        self.symbols.intern(
+            Role::Derived,
+            &format!("speed_{}", self.scene.links[link].name),
+            &format!("√({rate}² + {width}²)"),
+            &format!("\\sqrt{{{latex_rate}^2 + {latex_width}^2}}"),
+        )
+    }
+}
+
+impl BrakingTorque {
+    /// The torque of one link as a formula, (C/s + q s) w.
+    pub fn formula(&self) -> Option<Expr> {
+        let TorqueSource::Link {
+            rate, law, speed, ..
+        } = &self.source
+        else {
+            return None;
+        };
+        let speed = Expr::Symbol(*speed);
+        let mut parts = Vec::new();
+        if !law.coulomb.is_zero() {
+            let inverse = Expr::Power(Box::new(speed.clone()), -1);
+            parts.push(Expr::Product(vec![law.coulomb.clone(), inverse]));
+        }
+        if !law.quadratic.is_zero() {
+            parts.push(Expr::Product(vec![law.quadratic.clone(), speed]));
+        }
+        let mut factors = match parts.len() {
+            1 => parts.remove(0).factors().to_vec(),
+            _ => vec![Expr::Sum(parts)],
+        };
+        factors.insert(1, rate.clone());
+        Some(Expr::Product(factors))
+    }
+}

@@ -1,0 +1,145 @@
+//! Torques of friction that is not viscous (physics §16).
+//!
+//! One function forms them for single links, written out and in loops. In symmetric
+//! coordinates of equal copies they are formed on means and differences.
+
+use super::ValueId;
+use super::builder::Builder;
+use super::entry_state::{law_values, symmetric_tree};
+use super::lower::{Environment, Lowering};
+use super::symmetric::Fields;
+use crate::mechanics::expression::{Expr, SymbolId};
+use crate::mechanics::{BrakingTorque, FrictionPlace, LawConstants, TorqueSource};
+
+/// The constants of a law as values.
+#[derive(Clone, Copy)]
+pub(super) struct Law {
+    pub(super) coulomb: ValueId,
+    pub(super) quadratic: ValueId,
+    pub(super) width: ValueId,
+}
+
+impl Builder {
+    /// √(w² + ε²).
+    fn speed(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
+        let square = self.mul(rate, rate);
+        let width = self.mul(law.width, law.width);
+        let sum = self.add(square, width);
+        let speed = self.sqrt(sum);
+        self.name(speed, &format!("speed{suffix}"))
+    }
+
+    /// (C/s + q s) w, zero without a law; `suffix` belongs to the names of its values.
+    pub(super) fn braking_torque(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
+        let is_none = [law.coulomb, law.quadratic].map(|constant| self.is(constant, 0));
+        if is_none == [true; 2] {
+            return self.integer(0);
+        }
+        let speed = self.speed(law, rate, suffix);
+        let factor = match is_none {
+            [true, _] => self.mul(law.quadratic, speed),
+            [_, true] => self.div(law.coulomb, speed),
+            _ => {
+                let coulomb = self.div(law.coulomb, speed);
+                let quadratic = self.mul(law.quadratic, speed);
+                self.add(coulomb, quadratic)
+            }
+        };
+        self.mul(factor, rate)
+    }
+
+    /// The derivative of the torque by w, C ε²/s³ + q (s + w²/s).
+    fn braking_slope(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
+        let speed = self.speed(law, rate, suffix);
+        let one = self.integer(1);
+        let inverse = self.div(one, speed);
+        let relative = self.mul(rate, inverse);
+        let width = self.mul(law.width, inverse);
+        let narrow = self.mul(width, width);
+        let narrow = self.mul(law.coulomb, narrow);
+        let coulomb = self.mul(narrow, inverse);
+        let excess = self.mul(rate, relative);
+        let sum = self.add(speed, excess);
+        let quadratic = self.mul(law.quadratic, sum);
+        self.add(coulomb, quadratic)
+    }
+}
+
+impl Lowering<'_> {
+    pub(super) fn law(&mut self, environment: &mut Environment<'_>, law: &LawConstants) -> Law {
+        let mut at = |expr: &Expr| self.expr(environment, expr);
+        Law {
+            coulomb: at(&law.coulomb),
+            quadratic: at(&law.quadratic),
+            width: at(&law.width),
+        }
+    }
+
+    /// The value of a torque of friction or of its slope, if the symbol stands for one.
+    pub(super) fn braking(
+        &mut self,
+        environment: &mut Environment<'_>,
+        symbol: SymbolId,
+    ) -> Option<ValueId> {
+        let frame = environment.frame;
+        let mut torques = frame.torques.iter();
+        let torque = torques.find(|known| [known.symbol, known.slope].contains(&symbol))?;
+        match &torque.source {
+            TorqueSource::Coordinate(_) => {
+                self.braking_fields(environment, torque.place);
+                environment.supplied(symbol)
+            }
+            TorqueSource::Link { rate, law, .. } => {
+                let rate = self.expr(environment, rate);
+                let law = self.law(environment, law);
+                let code = &self.mechanics.symbols.get(symbol).code;
+                let link = &self.mechanics.symbols.get(torque.symbol).code;
+                let suffix = link.replacen("braking", "", 1);
+                let value = match symbol == torque.slope {
+                    true => self.builder.braking_slope(&law, rate, &suffix),
+                    false => self.builder.braking_torque(&law, rate, &suffix),
+                };
+                Some(self.builder.name(value, code))
+            }
+        }
+    }
+
+    /// Supplies the torques at a place in symmetric coordinates.
+    fn braking_fields(&mut self, environment: &mut Environment<'_>, place: FrictionPlace) {
+        let (mechanics, frame) = (self.mechanics, environment.frame);
+        let velocities = frame.velocities.iter();
+        let velocities: Vec<ValueId> = velocities
+            .map(|&velocity| self.symbol(environment, velocity))
+            .collect();
+        let orbits = self.orbits;
+        let laws = mechanics.articulation.joints.iter();
+        let laws: Vec<_> = laws
+            .map(|joint| law_values(self, &joint.laws[place as usize]))
+            .collect();
+        let mut tree = symmetric_tree(self, orbits, None);
+        let mut rates: Fields = tree.zeros();
+        for (coordinate, &velocity) in mechanics.coordinates.iter().zip(&velocities) {
+            let (orbit, sector) = coordinate.kind.orbit_and_difference();
+            let value = tree.series.value(velocity);
+            rates[orbit].set(sector, value);
+        }
+        let mut found = Vec::new();
+        for BrakingTorque { symbol, source, .. } in
+            frame.torques.iter().filter(|torque| torque.place == place)
+        {
+            let TorqueSource::Coordinate(index) = *source else {
+                continue;
+            };
+            let (orbit, sector) = mechanics.coordinates[index].kind.orbit_and_difference();
+            let rate = tree.braking_rate(&rates, orbit, place);
+            let torque = tree.braking_torque(&laws[orbit], &rate);
+            let component = tree.component(&torque, sector);
+            found.push((*symbol, tree.series.total(&component)));
+        }
+        for (symbol, value) in found {
+            let code = &mechanics.symbols.get(symbol).code;
+            self.builder.name(value, code);
+            environment.supply(symbol, value);
+        }
+    }
+}

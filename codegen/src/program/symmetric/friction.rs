@@ -1,0 +1,111 @@
+//! Torques of friction that is not viscous, on means and differences.
+//!
+//! Between copies they are nonlinear. With f = w² + ε² and y = 1/√f all else is products
+//! of fields, so that differences that are zero stay so, and small ones keep their digits.
+
+use super::field::{SymmetricField, SymmetricTree};
+use super::motion::{ConstantValues, Fields};
+use super::series::TruncatedSeries;
+use crate::exact::Rational;
+use crate::mechanics::FrictionPlace;
+
+/// Values of the constants of a law; zeros are empty series.
+#[derive(Default)]
+pub(in crate::program) struct LawValues {
+    pub(in crate::program) coulomb: TruncatedSeries,
+    pub(in crate::program) quadratic: TruncatedSeries,
+    pub(in crate::program) width: TruncatedSeries,
+}
+
+impl LawValues {
+    pub(in crate::program) fn is_zero(&self) -> bool {
+        self.coulomb.is_zero() && self.quadratic.is_zero()
+    }
+}
+
+impl SymmetricTree<'_> {
+    /// The rates that a law is about: of the joints of an orbit, or of its links.
+    pub(in crate::program) fn braking_rate(
+        &mut self,
+        rates: &Fields,
+        orbit: usize,
+        place: FrictionPlace,
+    ) -> SymmetricField {
+        match place {
+            FrictionPlace::Joint => self.relative(rates, orbit),
+            FrictionPlace::Ground => rates[orbit].clone(),
+        }
+    }
+
+    /// Adds the torques of friction that is not viscous.
+    pub(super) fn add_braking(
+        &mut self,
+        sums: &mut Fields,
+        values: &ConstantValues,
+        rates: &Fields,
+    ) {
+        for (orbit, constants) in values.orbits.iter().enumerate() {
+            let [joint, ground] = &constants.laws;
+            if !joint.is_zero() {
+                let rate = self.braking_rate(rates, orbit, FrictionPlace::Joint);
+                let torque = self.braking_torque(joint, &rate);
+                self.add_joint_torque(sums, &torque);
+            }
+            if !ground.is_zero() {
+                let torque = self.braking_torque(ground, &rates[orbit]);
+                self.accumulate(sums, &torque);
+            }
+        }
+    }
+
+    /// (C/s + q s) w = (C y + q f y) w.
+    pub(in crate::program) fn braking_torque(
+        &mut self,
+        law: &LawValues,
+        rate: &SymmetricField,
+    ) -> SymmetricField {
+        let square = self.mul(rate, rate);
+        let width = self.series.mul(&law.width, &law.width);
+        let width = SymmetricField::uniform(rate.orbit, width);
+        let square = self.add(&square, &width);
+        self.hinted(&square, "speed_squared");
+        let inverse = self.inverse_root(&square);
+        self.hinted(&inverse, "inverse_speed");
+        let mut factor = self.scale(&law.coulomb, &inverse);
+        if !law.quadratic.is_zero() {
+            let speed = self.mul(&square, &inverse);
+            self.hinted(&speed, "speed");
+            let quadratic = self.scale(&law.quadratic, &speed);
+            factor = self.add(&factor, &quadratic);
+        }
+        self.mul(&factor, rate)
+    }
+
+    /// One over the root of a positive field, link by link.
+    fn inverse_root(&mut self, f: &SymmetricField) -> SymmetricField {
+        let leading = self.leading(f);
+        let mut result = self.by_copies(&leading, |series, value| series.inverse_root(value));
+        if leading.varies_below(self.branch(f.orbit)) {
+            result = self.refined_root(&leading, &result);
+        }
+        // Each round gains one order at least.
+        for _ in 0..self.series.truncation.unwrap_or(0) {
+            result = self.refined_root(f, &result);
+        }
+        result
+    }
+
+    /// One step of Newton's: y + y (1 − f y²)/2.
+    fn refined_root(&mut self, f: &SymmetricField, estimate: &SymmetricField) -> SymmetricField {
+        let one = self.series.integer(1);
+        let one = SymmetricField::uniform(f.orbit, one);
+        let product = self.mul(f, estimate);
+        let product = self.mul(&product, estimate);
+        let defect = self.sub(&one, &product);
+        let half = Rational::from_ratio(1, 2).unwrap_or_else(Rational::one);
+        let half = self.series.number(half);
+        let defect = self.scale(&half, &defect);
+        let correction = self.mul(estimate, &defect);
+        self.add(estimate, &correction)
+    }
+}

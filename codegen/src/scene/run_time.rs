@@ -1,0 +1,48 @@
+//! Scenes of trees that are computed as they are described, with equations that no
+//! description changes.
+
+use super::layout::Layout;
+use super::{Scene, resolve};
+use crate::description::Description;
+use crate::report::{OutputMessage, Report, SizeMessage};
+
+/// Outputs that hold for every tree, so that they need not be asked for.
+const ALWAYS: [&str; 5] = ["energies", "momenta", "modes", "positions", "forces"];
+
+/// Outputs that are derived for one tree.
+const DERIVED: [&str; 5] = ["symmetric", "transfer", "budget", "taylor", "transverse"];
+
+/// Most links.
+const MOST: usize = 1 << 16;
+
+/// Checks a description as [`resolve`] does, and that nothing is asked for which
+/// has to be derived. Outputs that hold for every tree may be asked for or not.
+pub fn resolve_at_run_time(description: &Description, report: &mut Report) -> Option<Scene> {
+    let mut refuse = |name: &proc_macro2::Ident, what: String| {
+        report.error(name.span(), OutputMessage::NotAtRunTime { what });
+    };
+    let mut kept = description.clone();
+    kept.requests.retain(|request| {
+        let name = request.name.to_string();
+        let derived = DERIVED.contains(&name.as_str());
+        if derived {
+            refuse(&request.name, format!("emit({name})"));
+        }
+        let always = ALWAYS.contains(&name.as_str()) && request.forms.is_none();
+        !derived && !always
+    });
+    for observable in kept.observables.drain(..) {
+        refuse(&observable.name, "observe(...)".to_owned());
+    }
+    for prescribed in kept.prescribed.drain(..) {
+        refuse(&prescribed.name, "prescribed(...)".to_owned());
+    }
+    let scene = resolve(&kept, report)?;
+    if let (Layout::Generations { links, .. }, Some(root)) =
+        (scene.layout, description.roots.first())
+        && links > MOST
+    {
+        report.error(root.name.span(), SizeMessage::TooManyLinks { limit: MOST });
+    }
+    report.is_empty().then_some(scene)
+}

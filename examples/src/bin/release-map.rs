@@ -1,0 +1,11 @@
+//! Growth of the antiphase mode over the plane of releases.
+//!
+//! `release-map --help` lists the options.
+
+use std::process::ExitCode;
+
+use branched_pendulum_examples::{program, release_map};
+
+fn main() -> ExitCode {
+    program::main(release_map::run)
+}

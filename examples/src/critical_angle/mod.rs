@@ -1,0 +1,49 @@
+//! Growth of the antiphase mode against the angle of release, by the linear equations of
+//! small differences: windows in which it grows, without friction and with.
+//!
+//! - [`arguments`]: the command line, [`scene`]: the pendulum in phase,
+//! - [`scan`]: growth at every angle, [`windows`]: where it is large,
+//! - [`report`]: words and table, [`charts`]: charts.
+
+pub mod arguments;
+pub mod charts;
+pub mod report;
+pub mod scan;
+pub mod scene;
+pub mod windows;
+
+pub use arguments::Arguments;
+pub use scan::{Friction, Scan};
+
+use crate::failure::Failure;
+use crate::program::Job;
+
+/// Computes the growth with every friction, prints the windows and writes table and
+/// charts. Ctrl-C leaves the frictions that are done.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let frictions = Friction::all(arguments);
+    let progress = job.progress(frictions.len());
+    job.take_interruption();
+    let mut scans = Vec::new();
+    for friction in frictions {
+        if job.is_interrupted() {
+            break;
+        }
+        progress.begin(&friction.to_string());
+        let done = scans.len();
+        let share = |share| progress.within(done, share);
+        scans.push(Scan::new(arguments, friction, share)?);
+    }
+    if scans.is_empty() {
+        return Ok(());
+    }
+    job.print(&report::report(arguments, &scans))?;
+    report::write(job, arguments, &scans)?;
+    charts::write(job, arguments, &scans)?;
+    let undetermined = scans.iter().map(|scan| scan.undetermined().count());
+    job.report("undetermined", undetermined.collect::<Vec<_>>());
+    Ok(())
+}

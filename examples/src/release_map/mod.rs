@@ -1,0 +1,56 @@
+//! Growth rate of small differences between copies, over the plane of releases from
+//! rest: the angle of the parent and the common angle of all that hangs from it.
+//!
+//! - [`arguments`]: the command line, [`scenes`]: the trees in phase,
+//! - [`map`]: growth at every point of a plane,
+//! - [`normal_modes`]: the nonlinear normal modes through it, [`blades`]: the tongues of
+//!   instability between them, and their frequencies,
+//! - [`output`]: words, table and chart.
+
+pub mod arguments;
+pub mod blades;
+pub mod map;
+pub mod normal_modes;
+pub mod output;
+pub mod scenes;
+
+pub use arguments::{Arguments, Plane, Scene};
+pub use map::Map;
+
+use self::scenes::{ArmsInPhase, HeavyChildren, HeavyChildrenParameters};
+use crate::critical_angle::scene::{InPhase, InPhaseParameters};
+use crate::failure::Failure;
+use crate::program::Job;
+
+/// Computes the map asked for and writes it; Ctrl-C leaves the rows that are done.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    job.take_interruption();
+    match (arguments.plane, arguments.scene) {
+        (Plane::RatioEnergy, _) => {
+            let map = map::over_ratios(arguments, job, |ratio| {
+                Ok(HeavyChildren::new(HeavyChildrenParameters { ratio })?)
+            })?;
+            output::ratios(job, &map)
+        }
+        (Plane::Releases, Scene::Paper) => {
+            let model = InPhase::new(InPhaseParameters { friction: 0.0 })?;
+            let map = map::over_releases(arguments, job, &model)?;
+            if map.is_empty() {
+                return Ok(());
+            }
+            let modes = normal_modes::of(&model, map.largest())?;
+            let blades = match job.is_interrupted() {
+                true => Vec::new(),
+                false => blades::find(arguments, &model, &modes)?,
+            };
+            output::releases(arguments, job, &map, &modes, &blades)
+        }
+        (Plane::Releases, Scene::Arms) => {
+            let map = map::over_releases(arguments, job, &ArmsInPhase::new())?;
+            output::releases(arguments, job, &map, &[], &[])
+        }
+    }
+}

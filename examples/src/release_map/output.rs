@@ -1,0 +1,267 @@
+//! Words, table and chart of a map.
+
+use std::fmt::Write;
+
+use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
+use branched_pendulum_data::{Cell, Column};
+
+use super::arguments::{Arguments, Scene};
+use super::blades::{Resonance, Tongue, span};
+use super::map::Map;
+use super::normal_modes::NormalMode;
+use crate::critical_angle::scan::PAPER;
+use crate::failure::Failure;
+use crate::program::Job;
+
+/// Growth rates between which colours change, 1/s.
+const RATES: [f64; 2] = [0.01, 5.0];
+
+/// Prints, writes and draws the plane of releases.
+///
+/// # Errors
+/// [`Failure`].
+pub fn releases(
+    arguments: &Arguments,
+    job: &Job,
+    map: &Map,
+    modes: &[NormalMode],
+    tongues: &[Tongue],
+) -> Result<(), Failure> {
+    if map.is_empty() {
+        return Ok(());
+    }
+    let title = match arguments.scene {
+        Scene::Paper => "Growth rate of the antiphase mode after a release from rest",
+        Scene::Arms => "Growth rate of a difference between two jointed arms, released from rest",
+    };
+    job.print(&format!(
+        "{}{}{}",
+        summary(map),
+        told(modes),
+        list(arguments, tongues)
+    ))?;
+    let angles = [
+        Column::new("children", "degrees"),
+        Column::new("parent", "degrees"),
+    ];
+    table(job, "release-map", angles, map)?;
+    let (mut x, mut y, mut rates) = (Vec::new(), Vec::new(), Vec::new());
+    for (children, parent, grown) in map.points() {
+        // The other half mirrors this one.
+        for sign in [1.0, -1.0] {
+            if sign > 0.0 || parent > 0.0 {
+                x.push(sign * children);
+                y.push(sign * parent);
+                rates.push(grown.rate.value);
+            }
+        }
+    }
+    let axis =
+        Axis::linear("angle of the parent θ_1(0) (°)").range(-arguments.parent, arguments.parent);
+    let panel = Panel::new(axis).series(Series::shaded(&x, &y, &rates));
+    let panel = modes.iter().zip(LINES).fold(panel, |panel, (mode, color)| {
+        let (x, y) = mode.curve();
+        let label = format!("nonlinear normal mode f_{}", mode.sign);
+        panel.series(Series::line(label, &x, &y).color(color).dash(Dash::Solid))
+    });
+    let panel = match arguments.scene {
+        Scene::Paper => {
+            let middle = 0.5 * (PAPER[0] + PAPER[1]);
+            let line = [-arguments.parent, arguments.parent];
+            let threshold = Series::points("the paper's threshold", &[0.0; 2], &[-middle, middle]);
+            panel
+                .series(
+                    Series::line("the paper's releases", &[0.0; 2], &line)
+                        .color(LINES[2])
+                        .dash(Dash::Dashed),
+                )
+                .series(threshold.color(LINES[2]).symbol(Symbol::Diamond))
+        }
+        Scene::Arms => panel,
+    };
+    let x = Axis::linear("common angle of the children (°)");
+    let chart = Chart::new(title, x.range(-arguments.children, arguments.children));
+    draw(job, "release-map", chart.panel(panel))
+}
+
+/// Colours of lines that are seen on dark blue and on yellow.
+const LINES: [Color; 3] = [
+    Color::rgb(225, 70, 60),
+    Color::rgb(70, 200, 245),
+    Color::rgb(250, 120, 200),
+];
+
+/// Prints, writes and draws the plane of ratio and energy.
+///
+/// # Errors
+/// [`Failure`].
+pub fn ratios(job: &Job, map: &Map) -> Result<(), Failure> {
+    if map.is_empty() {
+        return Ok(());
+    }
+    job.print(&summary(map))?;
+    let columns = [Column::new("mass ratio", ""), Column::new("energy", "")];
+    table(job, "ratio-energy", columns, map)?;
+    let points = map.points();
+    let points: Vec<[f64; 3]> = points
+        .map(|(x, y, grown)| [x, y, grown.rate.value])
+        .collect();
+    let [x, y, rates] = [0, 1, 2].map(|i| points.iter().map(|p| p[i]).collect::<Vec<f64>>());
+    let panel = Panel::new(Axis::linear("energy over that with a horizontal parent"))
+        .series(Series::shaded(&x, &y, &rates))
+        .vertical(1.0, "the paper's children");
+    let x = Axis::log("mass of the children over that of the paper's");
+    let title = "Growth rate of the antiphase mode, released with vertical children";
+    draw(job, "ratio-energy", Chart::new(title, x).panel(panel))
+}
+
+fn draw(job: &Job, name: &str, chart: Chart) -> Result<(), Failure> {
+    let [low, high] = RATES;
+    let colors = Axis::log("growth rate (1/s)").range(low, high);
+    job.chart(name, &chart.colors(colors).size(960.0, 720.0))
+}
+
+fn table(job: &Job, name: &str, [x, y]: [Column; 2], map: &Map) -> Result<(), Failure> {
+    let columns = [
+        x,
+        y,
+        Column::new("growth rate", "1/s"),
+        Column::new("growth rate between tolerances", ""),
+        Column::new("growth factor", ""),
+        Column::new("frequency of the difference", "Hz"),
+    ];
+    job.csv(&format!("{name}.csv"), &columns, |csv| {
+        map.points().try_for_each(|(x, y, grown)| {
+            let factor = grown
+                .factors
+                .first()
+                .map_or(f64::NAN, |factor| factor.value);
+            let (rate, frequency) = (grown.rate, grown.frequency_hz.value);
+            let row = [x, y, rate.value, rate.difference, factor, frequency];
+            csv.row(row.map(Cell::from))
+        })
+    })
+}
+
+fn summary(map: &Map) -> String {
+    let points: Vec<_> = map.points().collect();
+    let count = points.len();
+    let share = |inside: &dyn Fn(f64) -> bool| {
+        let some = points.iter().filter(|(.., grown)| inside(grown.rate.value));
+        100.0 * some.count() as f64 / count.max(1) as f64
+    };
+    let open = points
+        .iter()
+        .filter(|(.., grown)| !grown.rate.is_determined())
+        .count();
+    let lost = map.grown.len() - count;
+    format!(
+        "{count} releases, {:.1} % with a growth rate below {} 1/s, {:.1} % with one above 1 1/s.\n\
+         At {open} the two tolerances differ by more than 1 %{}\n",
+        share(&|rate| rate < RATES[0]),
+        RATES[0],
+        share(&|rate| rate > 1.0),
+        if lost == 0 {
+            ".".to_owned()
+        } else {
+            format!("; {lost} could not be followed.")
+        },
+    )
+}
+
+/// Ends of the modes, and where differences grow along them.
+fn told(modes: &[NormalMode]) -> String {
+    let mut text = String::new();
+    for mode in modes {
+        let Some(last) = mode.orbits.last() else {
+            continue;
+        };
+        let [parent, children] = [0, 1].map(|i| last.release[i].to_degrees());
+        let grows = mode
+            .floquet
+            .iter()
+            .filter(|floquet| floquet.rate.value > 1e-4);
+        let most = grows
+            .clone()
+            .map(|floquet| floquet.rate.value)
+            .fold(0.0, f64::max);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "Mode f_{}: {:.4} Hz when small, {:.4} Hz at {parent:.1}° and {children:.1}°; differences \
+             grow along\n  {} of its {} motions, by {most:.3} 1/s at most",
+            mode.sign,
+            mode.frequency_hz,
+            1.0 / last.period,
+            grows.count(),
+            mode.orbits.len(),
+        );
+    }
+    text
+}
+
+/// The places of largest growth, with their frequencies.
+fn list(arguments: &Arguments, tongues: &[Tongue]) -> String {
+    if tongues.is_empty() {
+        return String::new();
+    }
+    let mut text = format!(
+        "\nTongues of instability at some angles of the parent, over {} s: where they grow most\n  \
+         parent  children (tongue)           rate 1/s  f_eff Hz    f_+ Hz    f_− Hz  resonance\n",
+        span(arguments)
+    );
+    for Tongue { edges, ridge } in tongues {
+        let ([parent, children], [from, to]) = (ridge.release, *edges);
+        let [plus, minus] = ridge.modes;
+        let place = format!("{children}° ({from}° to {to}°)");
+        let resonance = match ridge.resonance {
+            None => "-".to_owned(),
+            Some(Resonance { numbers, mismatch }) => {
+                format!("f_eff − {}/2 = {mismatch:.0e} Hz", sum(numbers))
+            }
+        };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "  {parent:5}°  {place:26}  {:8.4}  {:8.5}  {plus:8.5}  {minus:8.5}  {resonance}",
+            ridge.rate, ridge.effective,
+        );
+    }
+    let first = tongues.iter().filter_map(|tongue| tongue.ridge.resonance);
+    let first: Vec<f64> = first
+        .filter(|resonance| resonance.numbers == [1, 1])
+        .map(|resonance| resonance.mismatch.abs())
+        .collect();
+    if !first.is_empty() {
+        let most = first.iter().copied().fold(0.0, f64::max);
+        let _ = writeln!(
+            text,
+            "In the blades between the modes, at {} places, |f_eff − (f_+ + f_−)/2| is {most:.1e} Hz at \
+             most:\ntwice the frequency of the difference is the sum of those of the two modes",
+            first.len()
+        );
+    }
+    text
+}
+
+/// A combination of frequencies as it is written: (2f_+ − f_−).
+fn sum(numbers: [i32; 2]) -> String {
+    let mut text = String::new();
+    for (number, sign) in numbers.into_iter().zip(['+', '−']) {
+        if number == 0 {
+            continue;
+        }
+        let joint = match (number < 0, text.is_empty()) {
+            (true, true) => "−",
+            (true, false) => " − ",
+            (false, true) => "",
+            (false, false) => " + ",
+        };
+        let many = match number.abs() {
+            1 => String::new(),
+            many => many.to_string(),
+        };
+        text.push_str(&format!("{joint}{many}f_{sign}"));
+    }
+    format!("({text})")
+}

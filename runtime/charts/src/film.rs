@@ -1,0 +1,462 @@
+//! Trees in motion.
+
+use std::fmt::Write;
+
+use crate::drawing::{Anchor, Drawing, Mark, Point, Text};
+use crate::error::ChartError;
+use crate::font::Font;
+use crate::label::Label;
+use crate::style::{Color, Dash, Symbol, automatic};
+use crate::{png, svg};
+
+/// A link of a [`Film`]; places are (along the link, across it) in m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmLink {
+    /// Index of the link that it hangs from, which stands before it; none of a root.
+    pub parent: Option<usize>,
+    /// The link's pivot on its parent, from the parent's pivot.
+    pub pivot: [f64; 2],
+    /// The link's end, from its pivot.
+    pub end: [f64; 2],
+}
+
+/// Trees in motion side by side, as one SVG file that browsers play without a script, or
+/// as an animated PNG.
+///
+/// Links are given once, and then an angle for each link and picture, in rad from the
+/// downward vertical. All trees have the scale in which all of them fit at all times.
+/// In the SVG a link turns about its pivot in the frame of its parent, so that lengths stay
+/// what they are between two pictures.
+///
+/// ```
+/// use branched_pendulum_charts::{ChartError, Film, FilmLink};
+///
+/// # fn main() -> Result<(), ChartError> {
+/// let upper = FilmLink { parent: None, pivot: [0.0; 2], end: [0.3, 0.0] };
+/// let lower = FilmLink { parent: Some(0), pivot: [0.3, 0.0], end: [0.2, 0.0] };
+/// let pictures = [[0.5, 0.0], [0.4, 0.1], [0.2, 0.3]];
+/// let film = Film::new("Two links", 0.05).tree("θ_1(0) = 0.5", &[upper, lower], &pictures)?;
+/// assert!(film.to_svg()?.contains("animateTransform"));
+/// assert!(film.to_png()?.starts_with(b"\x89PNG"));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Film {
+    title: String,
+    interval: f64,
+    columns: usize,
+    width: f64,
+    upwards: bool,
+    background: Color,
+    trees: Vec<Tree>,
+}
+
+#[derive(Clone, Debug)]
+struct Tree {
+    label: String,
+    /// SVG behind the tree: the root's pivot at (0, 0), y downwards, in px.
+    behind: String,
+    links: Vec<FilmLink>,
+    looks: Vec<Look>,
+    pictures: Vec<Vec<f64>>,
+}
+
+/// How a link is drawn.
+#[derive(Clone, Debug)]
+struct Look {
+    color: Color,
+    /// Thickness, px.
+    width: f64,
+    /// SVG in the frame of the link: its pivot at (0, 0), its direction downwards, in px.
+    attached: String,
+}
+
+/// Space around the trees, and height of the line below each that says which it is, px.
+const MARGIN: f64 = 14.0;
+const LABEL: f64 = 22.0;
+const TEXT_SIZE: f64 = 13.0;
+
+/// Thickness of the root, px, and of a link over that of its parent.
+const ROOT_WIDTH: f64 = 7.0;
+const THINNER: f64 = 0.8;
+
+/// Most pictures of an animated PNG: it has as many compressed images.
+const MOST_PNG_PICTURES: usize = 600;
+
+/// Where the trees stand, in px.
+struct Layout {
+    /// Pixels in a metre.
+    scale: f64,
+    /// Pivots of the trees' roots.
+    roots: Vec<Point>,
+    width: f64,
+    height: f64,
+    /// Anchors of the labels.
+    labels: Vec<(f64, f64)>,
+}
+
+impl Film {
+    /// A film without trees, with `interval` (s) between two pictures.
+    pub fn new(title: impl Into<String>, interval: f64) -> Self {
+        Self {
+            title: title.into(),
+            interval,
+            columns: 3,
+            width: 720.0,
+            upwards: false,
+            background: Color::rgb(255, 255, 255),
+            trees: Vec::new(),
+        }
+    }
+
+    /// Adds a tree that moves through `pictures`, which have an angle for each link.
+    ///
+    /// # Errors
+    /// [`ChartError::Link`] if a link does not hang from one before it or if its places are
+    /// not finite, [`ChartError::Picture`] if a picture has another number of angles, or
+    /// one that is not finite.
+    pub fn tree<P: AsRef<[f64]>>(
+        mut self,
+        label: impl Into<String>,
+        links: &[FilmLink],
+        pictures: &[P],
+    ) -> Result<Self, ChartError> {
+        let mut looks: Vec<Look> = Vec::new();
+        let mut depths: Vec<usize> = Vec::new();
+        for (index, link) in links.iter().enumerate() {
+            let finite = link.pivot.iter().chain(&link.end).all(|x| x.is_finite());
+            if !finite || link.parent.is_some_and(|parent| parent >= index) {
+                return Err(ChartError::Link { link: index });
+            }
+            let depth = link.parent.map_or(0, |parent| depths[parent] + 1);
+            depths.push(depth);
+            looks.push(Look {
+                color: automatic(depth).0,
+                width: (ROOT_WIDTH * THINNER.powf(depth as f64)).max(1.0),
+                attached: String::new(),
+            });
+        }
+        let pictures: Vec<Vec<f64>> = pictures.iter().map(|p| p.as_ref().to_vec()).collect();
+        let wrong = |picture: &Vec<f64>| {
+            picture.len() != links.len() || picture.iter().any(|angle| !angle.is_finite())
+        };
+        if let Some(number) = pictures.iter().position(wrong) {
+            return Err(ChartError::Picture {
+                picture: number,
+                found: pictures[number].len(),
+                links: links.len(),
+            });
+        }
+        self.trees.push(Tree {
+            label: label.into(),
+            behind: String::new(),
+            links: links.to_vec(),
+            looks,
+            pictures,
+        });
+        Ok(self)
+    }
+
+    /// Sets the width (px) and the number of trees in a row; 720 and 3 at first.
+    #[must_use]
+    pub fn size(mut self, width: f64, columns: usize) -> Self {
+        (self.width, self.columns) = (width, columns.max(1));
+        self
+    }
+
+    /// Lets the trees stand up: angles are from the upward vertical.
+    #[must_use]
+    pub fn upwards(mut self) -> Self {
+        self.upwards = true;
+        self
+    }
+
+    /// Sets the colour behind the trees, white at first.
+    #[must_use]
+    pub fn background(mut self, color: Color) -> Self {
+        self.background = color;
+        self
+    }
+
+    /// Sets colour and thickness (px) of a link of the last tree, by default those of its
+    /// generation. A link that it does not have is left alone.
+    #[must_use]
+    pub fn link(mut self, link: usize, color: Color, width: f64) -> Self {
+        let looks = self
+            .trees
+            .last_mut()
+            .and_then(|tree| tree.looks.get_mut(link));
+        if let Some(look) = looks {
+            (look.color, look.width) = (color, width);
+        }
+        self
+    }
+
+    /// Puts SVG behind the last tree: the root's pivot at (0, 0), y downwards, in px. The
+    /// animated PNG goes without.
+    #[must_use]
+    pub fn behind(mut self, svg: &str) -> Self {
+        if let Some(tree) = self.trees.last_mut() {
+            tree.behind.push_str(svg);
+        }
+        self
+    }
+
+    /// Attaches SVG to a link of the last tree, in its frame: the pivot at (0, 0), the link
+    /// downwards, in px (mirrored in a film [`upwards`](Self::upwards)). [`scale`](Self::scale)
+    /// says how many px are a metre. The animated PNG goes without.
+    #[must_use]
+    pub fn attach(mut self, link: usize, svg: &str) -> Self {
+        let looks = self
+            .trees
+            .last_mut()
+            .and_then(|tree| tree.looks.get_mut(link));
+        if let Some(look) = looks {
+            look.attached.push_str(svg);
+        }
+        self
+    }
+
+    /// Attributes of an SVG animation that takes one value a picture.
+    pub fn timed(&self, value: impl Fn(usize) -> f64) -> String {
+        let count = self.pictures();
+        let duration = self.interval * count.saturating_sub(1) as f64;
+        let values: Vec<String> = (0..count)
+            .map(|number| svg::Px(value(number)).to_string())
+            .collect();
+        let values = values.join(";");
+        format!("dur=\"{duration:.3}s\" repeatCount=\"indefinite\" values=\"{values}\"")
+    }
+
+    /// Pixels in a metre.
+    ///
+    /// # Errors
+    /// As [`to_svg`](Self::to_svg).
+    pub fn scale(&self) -> Result<f64, ChartError> {
+        Ok(self.layout()?.scale)
+    }
+
+    /// Number of pictures: those of the tree that has the fewest.
+    fn pictures(&self) -> usize {
+        let counts = self.trees.iter().map(|tree| tree.pictures.len());
+        counts.min().unwrap_or(0)
+    }
+
+    /// Renders to an SVG document.
+    ///
+    /// # Errors
+    /// [`ChartError::Empty`] without trees, links or pictures, [`ChartError::Size`] if the
+    /// width is not usable.
+    pub fn to_svg(&self) -> Result<String, ChartError> {
+        let layout = self.layout()?;
+        let mut out = svg::opening(&self.title, (layout.width, layout.height), self.background);
+        for ((tree, root), marks) in self
+            .trees
+            .iter()
+            .zip(&layout.roots)
+            .zip(self.labels(&layout))
+        {
+            svg::push_mark(&mut out, &marks);
+            let flip = if self.upwards {
+                " transform=\"scale(1 -1)\""
+            } else {
+                ""
+            };
+            put(
+                &mut out,
+                format_args!(
+                    "<g transform=\"translate({} {})\">\n{}<g{flip} stroke-linecap=\"round\">\n",
+                    svg::Px(root.0),
+                    svg::Px(root.1),
+                    tree.behind,
+                ),
+            );
+            let roots = (0..tree.links.len()).filter(|&link| tree.links[link].parent.is_none());
+            for link in roots {
+                self.push_link(&mut out, tree, link, layout.scale);
+            }
+            out.push_str("</g></g>\n");
+        }
+        out.push_str("</svg>\n");
+        Ok(out)
+    }
+
+    /// Writes a link, and in its frame the links that hang from it.
+    fn push_link(&self, out: &mut String, tree: &Tree, index: usize, scale: f64) {
+        let (link, look) = (tree.links[index], &tree.looks[index]);
+        // Positive angles turn the end to the right, which in SVG is against the clock.
+        let turn = |picture: usize| {
+            let angles = &tree.pictures[picture];
+            -(angles[index] - link.parent.map_or(0.0, |parent| angles[parent])).to_degrees()
+        };
+        let at = |[along, across]: [f64; 2]| (svg::Px(scale * across), svg::Px(scale * along));
+        let (pivot, end) = (at(link.pivot), at(link.end));
+        put(
+            out,
+            format_args!(
+                "<g transform=\"translate({} {})\"><g transform=\"rotate({})\">\
+                 <animateTransform attributeName=\"transform\" type=\"rotate\" {}/>\n\
+                 <line x2=\"{}\" y2=\"{}\" stroke=\"{}\" stroke-width=\"{}\"/>\n{}",
+                pivot.0,
+                pivot.1,
+                svg::Px(turn(0)),
+                self.timed(turn),
+                end.0,
+                end.1,
+                svg::Hex(look.color),
+                svg::Px(look.width),
+                look.attached,
+            ),
+        );
+        let children =
+            (index + 1..tree.links.len()).filter(|&child| tree.links[child].parent == Some(index));
+        for child in children {
+            self.push_link(out, tree, child, scale);
+        }
+        out.push_str("</g></g>\n");
+    }
+
+    /// Renders to the bytes of an animated PNG, of 600 pictures at most: of longer films
+    /// every second one, every third one, and so on.
+    ///
+    /// # Errors
+    /// As [`to_svg`](Self::to_svg), and [`ChartError::Font`] and [`ChartError::Encode`].
+    pub fn to_png(&self) -> Result<Vec<u8>, ChartError> {
+        let (font, layout) = (Font::embedded()?, self.layout()?);
+        let stride = self.pictures().div_ceil(MOST_PNG_PICTURES);
+        let drawings = (0..self.pictures())
+            .step_by(stride)
+            .map(|picture| self.drawing(&layout, picture));
+        let interval = self.interval * stride as f64;
+        png::encode_film(drawings, &font, self.background, interval)
+    }
+
+    fn drawing(&self, layout: &Layout, picture: usize) -> Drawing {
+        let mut marks = self.labels(layout);
+        for (tree, root) in self.trees.iter().zip(&layout.roots) {
+            let down = if self.upwards { -1.0 } else { 1.0 };
+            let place =
+                |[x, y]: [f64; 2]| (root.0 + layout.scale * x, root.1 + down * layout.scale * y);
+            for (ends, look) in tree.segments(picture).iter().zip(&tree.looks) {
+                let [from, to] = ends.map(place);
+                marks.push(Mark::Lines {
+                    lines: vec![vec![from, to]],
+                    color: look.color,
+                    width: look.width,
+                    dash: Dash::Solid,
+                });
+                marks.push(Mark::Symbols {
+                    symbol: Symbol::Circle,
+                    at: vec![from, to],
+                    radius: look.width / 2.0,
+                    color: look.color,
+                });
+            }
+        }
+        Drawing {
+            width: layout.width,
+            height: layout.height,
+            title: Label::parse(&self.title).plain(),
+            marks,
+        }
+    }
+
+    fn labels(&self, layout: &Layout) -> Vec<Mark> {
+        let labels = self.trees.iter().zip(&layout.labels);
+        labels
+            .map(|(tree, &at)| {
+                Mark::Text(Text {
+                    label: Label::parse(&tree.label),
+                    at,
+                    anchor: Anchor::Middle,
+                    size: TEXT_SIZE,
+                    upwards: false,
+                })
+            })
+            .collect()
+    }
+
+    fn layout(&self) -> Result<Layout, ChartError> {
+        let count = self.pictures();
+        if count == 0 || self.trees.iter().any(|tree| tree.links.is_empty()) {
+            return Err(ChartError::Empty { panel: None });
+        }
+        // Left, top, right and bottom of all trees at all times, m.
+        let mut bounds = [0.0_f64; 4];
+        for tree in &self.trees {
+            for picture in 0..count {
+                for [x, y] in tree.segments(picture).into_iter().flatten() {
+                    let y = if self.upwards { -y } else { y };
+                    bounds = [
+                        bounds[0].min(x),
+                        bounds[1].min(y),
+                        bounds[2].max(x),
+                        bounds[3].max(y),
+                    ];
+                }
+            }
+        }
+        let [left, top, right, bottom] = bounds;
+        let columns = self.columns.min(self.trees.len());
+        let cell = self.width / columns as f64;
+        let scale = (cell - 2.0 * MARGIN) / (right - left).max(bottom - top);
+        let labelled = self.trees.iter().any(|tree| !tree.label.is_empty());
+        let row = scale * (bottom - top) + 2.0 * MARGIN + if labelled { LABEL } else { 0.0 };
+        let height = row * self.trees.len().div_ceil(columns) as f64;
+        if !(scale.is_finite() && scale > 0.0 && height <= crate::drawing::LARGEST_SIDE) {
+            return Err(ChartError::Size {
+                width: self.width,
+                height,
+                scale: 1.0,
+            });
+        }
+        let cells = (0..self.trees.len()).map(|index| {
+            let (column, line) = (index % columns, index / columns);
+            (cell * column as f64, row * line as f64)
+        });
+        let centre = (cell - scale * (left + right)) / 2.0;
+        let (roots, labels) = cells
+            .map(|(x, y)| {
+                let root = (x + centre, y + MARGIN - scale * top);
+                (root, (x + cell / 2.0, y + row - MARGIN / 2.0))
+            })
+            .unzip();
+        Ok(Layout {
+            scale,
+            roots,
+            width: self.width,
+            height,
+            labels,
+        })
+    }
+}
+
+impl Tree {
+    /// Both ends of every link in a picture, in m from the root's pivot, x to the right, y
+    /// downwards.
+    fn segments(&self, picture: usize) -> Vec<[[f64; 2]; 2]> {
+        let angles = &self.pictures[picture];
+        let turned = |[along, across]: [f64; 2], angle: f64| {
+            let (s, c) = angle.sin_cos();
+            [along * s + across * c, along * c - across * s]
+        };
+        let mut pivots: Vec<[f64; 2]> = Vec::new();
+        let mut segments = Vec::new();
+        for (link, &angle) in self.links.iter().zip(angles) {
+            let [x, y] = link.parent.map_or([0.0; 2], |parent| {
+                let [dx, dy] = turned(link.pivot, angles[parent]);
+                [pivots[parent][0] + dx, pivots[parent][1] + dy]
+            });
+            let [dx, dy] = turned(link.end, angle);
+            pivots.push([x, y]);
+            segments.push([[x, y], [x + dx, y + dy]]);
+        }
+        segments
+    }
+}
+
+fn put(out: &mut String, arguments: std::fmt::Arguments<'_>) {
+    // Writing to a string cannot fail.
+    let _ = out.write_fmt(arguments);
+}

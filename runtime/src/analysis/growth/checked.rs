@@ -1,0 +1,37 @@
+//! Numbers that are computed at two tolerances.
+
+/// A number that was computed at two tolerances.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Checked {
+    /// The number, by the tighter tolerance.
+    pub value: f64,
+    /// Its difference from that of the other tolerance, relative: to the number itself,
+    /// or, for rates and frequencies below one in the time looked at, to that one.
+    pub difference: f64,
+}
+
+impl Checked {
+    /// Largest relative difference of a number that counts as determined.
+    pub const DETERMINED: f64 = 0.01;
+
+    /// Returns true where the two tolerances agree to 1 %.
+    pub fn is_determined(&self) -> bool {
+        self.difference <= Self::DETERMINED
+    }
+
+    /// Of a positive number given by its logarithms.
+    pub(super) fn of_logarithms(coarse: f64, fine: f64) -> Self {
+        Self {
+            value: fine.exp(),
+            difference: (coarse - fine).abs().exp_m1(),
+        }
+    }
+
+    /// Of a number in 1/s found over `span` seconds.
+    pub(super) fn of_rates(coarse: f64, fine: f64, span: f64) -> Self {
+        Self {
+            value: fine,
+            difference: (coarse - fine).abs() / fine.abs().max(1.0 / span),
+        }
+    }
+}

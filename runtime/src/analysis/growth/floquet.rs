@@ -1,0 +1,108 @@
+//! Floquet multipliers: the fate of small deviations from periodic motions.
+
+use core::ops::ControlFlow;
+
+use nalgebra::DMatrix;
+
+use super::{BrakeOrbit, Checked, FINER, GrowthError, differences};
+use crate::analysis::variational::{Linearised, flow_jacobian};
+use crate::integrate::{Dop853, Options};
+use crate::system::{State, Transverse, TransverseOde};
+
+/// The monodromy matrix of small deviations from a periodic motion: what one period of
+/// their equations makes of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Floquet {
+    /// Period of the equations of the deviations, s: half of the motion's for
+    /// differences beside a symmetric one.
+    pub period: f64,
+    /// The matrix, row by row: deviations of angles first, then of velocities.
+    pub matrix: Vec<Vec<f64>>,
+    /// Its eigenvalues, as real and imaginary part, the largest first.
+    pub multipliers: Vec<[f64; 2]>,
+    /// Growth rate, 1/s: the logarithm of the largest multiplier over the period; zero to
+    /// rounding where the motion is stable.
+    pub rate: Checked,
+}
+
+impl Floquet {
+    /// Returns the multipliers of small differences beside an in-phase motion.
+    ///
+    /// # Errors
+    ///
+    /// As [`Dop853::integrate`].
+    pub fn of_differences<P: Transverse<f64>>(
+        ode: &TransverseOde<P>,
+        orbit: &BrakeOrbit,
+        tolerance: f64,
+    ) -> Result<Self, GrowthError> {
+        let parts = if orbit.is_symmetric() { 2.0 } else { 1.0 };
+        let (place, links) = (differences(ode), ode.sector().links);
+        Self::checked(orbit.period / parts, tolerance, |method, period| {
+            let mut matrix = DMatrix::zeros(2 * links, 2 * links);
+            for column in 0..2 * links {
+                let mut angles = orbit.release.clone();
+                angles.resize(angles.len() + links, 0.0);
+                let mut start = State::at_rest(0.0, &angles);
+                let own = [place.angles.clone(), place.rates.clone()];
+                let places: Vec<usize> = own.into_iter().flatten().collect();
+                start.values[places[column]] = 1.0;
+                let end = method.integrate(ode, &start, period, |_| ControlFlow::Continue(()))?;
+                let end = end.state;
+                for (row, place) in places.iter().enumerate() {
+                    matrix[(row, column)] = end.values[*place];
+                }
+            }
+            Ok(matrix)
+        })
+    }
+
+    /// Returns the multipliers of deviations within a system that has the motion, as
+    /// [`linearised`](crate::analysis::variational::linearised) gives it. Two of a
+    /// conservative one are 1.
+    ///
+    /// # Errors
+    ///
+    /// As [`Dop853::integrate`].
+    pub fn of_motion<L: Linearised<f64>>(
+        system: &L,
+        orbit: &BrakeOrbit,
+        tolerance: f64,
+    ) -> Result<Self, GrowthError> {
+        let start = State::at_rest(0.0, &orbit.release);
+        Self::checked(orbit.period, tolerance, |method, period| {
+            let (_, columns) = flow_jacobian(method, system, &start, period)?;
+            let n = start.values.len();
+            Ok(DMatrix::from_column_slice(n, n, &columns))
+        })
+    }
+
+    fn checked(
+        period: f64,
+        tolerance: f64,
+        monodromy: impl Fn(&Dop853<f64>, f64) -> Result<DMatrix<f64>, GrowthError>,
+    ) -> Result<Self, GrowthError> {
+        let [coarse, fine] = [tolerance, FINER * tolerance].map(|tolerance| {
+            let matrix = monodromy(&Dop853::new(Options::with_tolerance(tolerance)), period)?;
+            let values = matrix.complex_eigenvalues();
+            let mut values: Vec<[f64; 2]> = values.iter().map(|v| [v.re, v.im]).collect();
+            values.sort_by(|a, b| size(b).total_cmp(&size(a)));
+            Ok::<_, GrowthError>((matrix, values))
+        });
+        let ((_, coarse), (matrix, multipliers)) = (coarse?, fine?);
+        let rate = |values: &[[f64; 2]]| values.first().map_or(f64::NAN, size).ln() / period;
+        Ok(Self {
+            period,
+            rate: Checked::of_rates(rate(&coarse), rate(&multipliers), period),
+            matrix: matrix
+                .row_iter()
+                .map(|row| row.iter().copied().collect())
+                .collect(),
+            multipliers,
+        })
+    }
+}
+
+fn size([re, im]: &[f64; 2]) -> f64 {
+    re.hypot(*im)
+}

@@ -1,0 +1,325 @@
+//! Growth of small differences between copies that move in phase: by how much and how
+//! fast, over many releases at a time ([`Growth`]), and along periodic motions
+//! ([`BrakeOrbit`], [`Floquet`]).
+//!
+//! Everything is computed at two tolerances, and each number says by how much the two
+//! differ ([`Checked`]): where motions are chaotic, growth over a long time is a number
+//! that no tolerance finds.
+
+mod brake_orbit;
+mod checked;
+mod error;
+mod floquet;
+mod record;
+mod rotation;
+
+use std::ops::Range;
+
+pub use self::brake_orbit::{BrakeOrbit, Continuation};
+pub use self::checked::Checked;
+pub use self::error::GrowthError;
+pub use self::floquet::Floquet;
+use self::record::Record;
+pub use self::rotation::turns_a_second;
+use super::variational::{Linearised, Variational};
+use crate::ensemble::Ensemble;
+use crate::integrate::{Dop853, Options};
+use crate::system::{Ode, State, Transverse, TransverseOde};
+
+/// Computation of the growth of differences.
+///
+/// # Examples
+///
+/// The paper's pendulum, released with vertical children:
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::analysis::growth::{Growth, GrowthError, frequency_at_rest};
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::TransverseOde;
+///
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+///         child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+///     ],
+///     in_phase(child),
+///     emit(transverse),
+/// )]
+/// struct InPhase;
+///
+/// let model = InPhase::new();
+/// let ode = TransverseOde::new(&model, 0).unwrap();
+/// // Angles of the parent and of both children, and the difference.
+/// let releases = [42.0_f64, 44.0].map(|degrees| {
+///     (ode, State::at_rest(0.0, &[degrees.to_radians(), 0.0, 1.0]))
+/// });
+/// let growth = Growth {
+///     frequency_hz: frequency_at_rest(&ode),
+///     horizons: vec![4.0, 10.0],
+///     tolerance: 1e-9,
+/// };
+/// let grown = growth.in_lanes(&Ensemble::new(), &releases);
+/// let grown = grown.into_iter().collect::<Result<Vec<_>, GrowthError>>()?;
+/// // Within 10 s.
+/// assert!(grown[0].factors[1].value < 10.0 && grown[1].factors[1].value > 16.0);
+/// assert!(grown[1].factors[1].is_determined());
+/// assert!((growth.frequency_hz - 1.2581).abs() < 1e-4);
+/// # Ok::<(), GrowthError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Growth {
+    /// Frequency of small differences at rest, in hertz ([`frequency_at_rest`]): by it
+    /// rates are compared with differences, and motions are looked at 32 times a period.
+    pub frequency_hz: f64,
+    /// Times after the start up to which growth is asked for, in seconds, ascending.
+    pub horizons: Vec<f64>,
+    /// Tolerance of the integration (absolute and relative). It is repeated with a
+    /// hundredth of it, whose result is what is returned.
+    pub tolerance: f64,
+}
+
+/// The growth of differences along one motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grown {
+    /// Growth factor up to each horizon: the largest size |δ| of the differences δ over
+    /// their amplitude √(|δ|² + |δ'|²/ω²) at the start; infinite beyond 1e308.
+    pub factors: Vec<Checked>,
+    /// Growth rate in 1/s over the last horizon T: ln(A₂/A₁)/(T/2) with the largest
+    /// amplitudes A₁ and A₂ in its two halves. Near zero where differences keep their
+    /// size, though they beat.
+    pub rate: Checked,
+    /// Turns a second of (δ, δ'/ω) about the origin, for the first of the differences:
+    /// the frequency of their motion, in hertz ([`turns_a_second`]).
+    pub frequency_hz: Checked,
+}
+
+/// Looks at a motion in one period of [`Growth::frequency_hz`].
+const LOOKS_A_PERIOD: f64 = 32.0;
+
+/// Looks after which differences are scaled back: they grow by less than e a look.
+const LOOKS_A_SCALE: usize = 256;
+
+/// Tolerance of the run that is believed over that of the other.
+const FINER: f64 = 0.01;
+
+/// Frequency of small differences of a sector beside the tree at rest with all angles
+/// zero, in hertz: of all its links turned as one, by Rayleigh's quotient, so that it is
+/// exact for one link. NaN where they do not oscillate.
+pub fn frequency_at_rest<P: Transverse<f64>>(ode: &TransverseOde<P>) -> f64 {
+    let mut angles = vec![0.0; P::LINKS];
+    angles.resize(P::LINKS + ode.sector().links, 1.0);
+    let state = State::at_rest(0.0, &angles);
+    let mut rates = vec![0.0; state.values.len()];
+    ode.rates(0.0, &state.values, &mut rates);
+    let place = differences(ode);
+    let sum: f64 = rates[place.rates].iter().sum();
+    (-sum / ode.sector().links as f64).sqrt() / std::f64::consts::TAU
+}
+
+/// Where differences stand in a state.
+#[derive(Clone, Debug)]
+struct Place {
+    angles: Range<usize>,
+    rates: Range<usize>,
+}
+
+fn differences<P: Transverse<f64>>(ode: &TransverseOde<P>) -> Place {
+    let (motion, all) = (P::LINKS, P::LINKS + ode.sector().links);
+    Place {
+        angles: motion..all,
+        rates: all + motion..2 * all,
+    }
+}
+
+/// A motion on its way, and what was seen of it.
+struct Run {
+    state: State<f64>,
+    place: Place,
+    record: Record,
+}
+
+impl Run {
+    fn look(&mut self, time: f64, state: &[f64]) {
+        let Place { angles, rates } = self.place.clone();
+        self.record.look(time, &state[angles], &state[rates]);
+    }
+
+    /// Divides the differences by their amplitude, so that they stay within numbers.
+    fn scale(&mut self) {
+        let factor = self.record.scale();
+        let Place { angles, rates } = self.place.clone();
+        for place in [angles, rates] {
+            for value in &mut self.state.values[place] {
+                *value /= factor;
+            }
+        }
+    }
+}
+
+impl Growth {
+    /// Returns the growth along motions from the given starts, on all cores and in the
+    /// lanes of vector registers. A start is a state of its [`TransverseOde`]: in-phase
+    /// angles, differences, in-phase velocities, rates of the differences; all start at
+    /// one time.
+    ///
+    /// The result of a start depends neither on the others nor on the number of threads.
+    ///
+    /// # Errors
+    ///
+    /// Each result of its own: [`GrowthError`].
+    pub fn in_lanes<P>(
+        &self,
+        ensemble: &Ensemble<'_>,
+        releases: &[(TransverseOde<P>, State<f64>)],
+    ) -> Vec<Result<Grown, GrowthError>>
+    where
+        P: Transverse<f64> + Sync,
+    {
+        let [coarse, fine] = self.tolerances().map(|tolerance| {
+            let method = Dop853::new(Options::with_tolerance(tolerance));
+            let runs = releases.iter().map(|(ode, start)| {
+                if start.time != releases[0].1.time {
+                    return Err(GrowthError::StartTime(start.time));
+                }
+                self.begin(start.clone(), differences(ode))
+            });
+            let mut runs: Vec<Result<Run, GrowthError>> = runs.collect();
+            let start = releases.first().map_or(0.0, |(_, start)| start.time);
+            for times in scales(&self.looks(start)) {
+                let both = runs.iter().zip(releases);
+                let moving = both.filter_map(|(run, (ode, _))| {
+                    let run = run.as_ref().ok()?;
+                    Some((ode, run.state.clone()))
+                });
+                let cases: Vec<_> = moving.collect();
+                let samples = ensemble.sample_models_in_lanes(&method, &cases, times);
+                let moving = runs.iter_mut().filter(|run| run.is_ok());
+                for (place, samples) in moving.zip(samples) {
+                    let Ok(run) = place else { continue };
+                    for (&time, state) in times.iter().zip(samples.states()).skip(1) {
+                        run.look(time, state);
+                    }
+                    match samples.end {
+                        Ok(end) => {
+                            run.state = end.state;
+                            run.scale();
+                        }
+                        Err(error) => *place = Err(error.into()),
+                    }
+                }
+            }
+            runs
+        });
+        let both = coarse.into_iter().zip(fine);
+        both.map(|(coarse, fine)| Ok(Grown::of(&coarse?.record, &fine?.record)))
+            .collect()
+    }
+
+    /// Returns the growth of a deviation along the motion of any system that knows its
+    /// linearisation, for models without transverse equations. `differences` are the
+    /// components of a state that count as angles of differences and as their rates, as
+    /// many of one as of the other.
+    ///
+    /// # Errors
+    ///
+    /// [`GrowthError`].
+    pub fn along<L: Linearised<f64>>(
+        &self,
+        system: &L,
+        start: &State<f64>,
+        deviation: &[f64],
+        differences: [Range<usize>; 2],
+    ) -> Result<Grown, GrowthError> {
+        let n = system.dimension();
+        let [angles, rates] = differences;
+        if start.values.len() != n || deviation.len() != n || rates.end.max(angles.end) > n {
+            return Err(GrowthError::Difference);
+        }
+        let place = Place {
+            angles: n + angles.start..n + angles.end,
+            rates: n + rates.start..n + rates.end,
+        };
+        let both = State::new(start.time, [&start.values, deviation].concat());
+        let all = Variational::new(system, 1);
+        let [coarse, fine] = self.tolerances().map(|tolerance| {
+            let method = Dop853::new(Options::with_tolerance(tolerance));
+            let mut run = self.begin(both.clone(), place.clone())?;
+            for times in scales(&self.looks(start.time)) {
+                let mut number = 0;
+                let begin = run.state.clone();
+                let end = method.sample(&all, &begin, times, |time, state| {
+                    if number > 0 {
+                        run.look(time, state);
+                    }
+                    number += 1;
+                })?;
+                run.state = end.state;
+                // All of the deviation: parts of it drive each other.
+                let factor = run.record.scale();
+                run.state.values[n..].iter_mut().for_each(|v| *v /= factor);
+            }
+            Ok::<Run, GrowthError>(run)
+        });
+        Ok(Grown::of(&coarse?.record, &fine?.record))
+    }
+
+    fn tolerances(&self) -> [f64; 2] {
+        [self.tolerance, FINER * self.tolerance]
+    }
+
+    fn begin(&self, start: State<f64>, place: Place) -> Result<Run, GrowthError> {
+        if !(self.frequency_hz.is_finite() && self.frequency_hz > 0.0) {
+            return Err(GrowthError::Frequency(self.frequency_hz));
+        }
+        let ascending = self.horizons.windows(2).all(|pair| pair[0] < pair[1]);
+        let valid = |first: &f64| *first > 0.0 && self.horizons.iter().all(|t| t.is_finite());
+        if !(ascending && self.horizons.first().is_some_and(valid)) {
+            return Err(GrowthError::Horizons);
+        }
+        let (angles, rates) = (place.angles.clone(), place.rates.clone());
+        let parts = start.values.get(angles).zip(start.values.get(rates));
+        let (angles, rates) = parts.ok_or(GrowthError::Difference)?;
+        let record = Record::new(self, start.time, angles, rates)?;
+        Ok(Run {
+            state: start,
+            place,
+            record,
+        })
+    }
+
+    /// Times of the looks: the start, equal steps to each horizon, and the horizons.
+    fn looks(&self, start: f64) -> Vec<f64> {
+        let interval = 1.0 / (LOOKS_A_PERIOD * self.frequency_hz);
+        let mut times = vec![start];
+        let mut before = 0.0;
+        for &horizon in &self.horizons {
+            let count = ((horizon - before) / interval).ceil().max(1.0);
+            let steps = (1..count as usize).map(|k| k as f64 / count);
+            times.extend(steps.map(|part| start + before + part * (horizon - before)));
+            times.push(start + horizon);
+            before = horizon;
+        }
+        times
+    }
+}
+
+/// The times in pieces between which differences are scaled back; each begins where the
+/// one before ends.
+fn scales(times: &[f64]) -> impl Iterator<Item = &[f64]> {
+    let starts = (0..times.len().saturating_sub(1)).step_by(LOOKS_A_SCALE);
+    starts.map(|start| &times[start..(start + LOOKS_A_SCALE + 1).min(times.len())])
+}
+
+impl Grown {
+    fn of(coarse: &Record, fine: &Record) -> Self {
+        let factors = coarse.factors().iter().zip(fine.factors());
+        Self {
+            factors: factors
+                .map(|(coarse, fine)| Checked::of_logarithms(*coarse, *fine))
+                .collect(),
+            rate: Checked::of_rates(coarse.rate(), fine.rate(), fine.span()),
+            frequency_hz: Checked::of_rates(coarse.turns(), fine.turns(), fine.span()),
+        }
+    }
+}

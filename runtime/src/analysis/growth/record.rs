@@ -1,0 +1,200 @@
+//! What is seen of differences along one motion.
+
+use std::f64::consts::TAU;
+
+use super::rotation::Turns;
+use super::{Growth, GrowthError};
+
+/// Largest sizes and amplitudes of differences as they are looked at, one look after the
+/// other. All are logarithms, so that no growth is too large.
+#[derive(Clone, Debug)]
+pub(super) struct Record {
+    frequency: f64,
+    start: f64,
+    horizons: Vec<f64>,
+    /// Logarithm of what differences were divided by.
+    scale: f64,
+    last: Look,
+    /// Amplitude at the start, from which growth is counted.
+    first: f64,
+    largest: f64,
+    factors: Vec<f64>,
+    /// Largest amplitudes in the two halves of the span.
+    halves: [f64; 2],
+    turns: Turns,
+}
+
+/// One look: |δ|² and its rate, and the square of the amplitude.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    time: f64,
+    square: f64,
+    rate: f64,
+    amplitude: f64,
+}
+
+impl Look {
+    fn new(time: f64, angles: &[f64], rates: &[f64], frequency: f64) -> Self {
+        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let square = dot(angles, angles);
+        Self {
+            time,
+            square,
+            rate: 2.0 * dot(angles, rates),
+            amplitude: square + dot(rates, rates) / (frequency * frequency),
+        }
+    }
+
+    /// Largest |δ|² from the look before to this one, by the cubic polynomial that has
+    /// both and their rates.
+    fn largest_since(&self, before: &Self) -> f64 {
+        let step = self.time - before.time;
+        let (from, to) = (step * before.rate, step * self.rate);
+        let rise = self.square - before.square;
+        let (b, c, d) = (from, 3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
+        let at = |x: f64| before.square + x * (b + x * (c + x * d));
+        // Zeros of b + 2 c x + 3 d x².
+        let q = -(c + c.signum() * (c * c - 3.0 * b * d).sqrt());
+        let inside = [q / (3.0 * d), b / q].into_iter();
+        let inside = inside.filter(|x| (0.0..=1.0).contains(x)).map(at);
+        inside.fold(self.square.max(before.square), f64::max)
+    }
+}
+
+impl Record {
+    pub(super) fn new(
+        growth: &Growth,
+        start: f64,
+        angles: &[f64],
+        rates: &[f64],
+    ) -> Result<Self, GrowthError> {
+        let frequency = TAU * growth.frequency_hz;
+        let last = Look::new(start, angles, rates, frequency);
+        let point = angles.first().zip(rates.first());
+        let (Some((&angle, &rate)), Some(&span)) = (point, growth.horizons.last()) else {
+            return Err(GrowthError::Difference);
+        };
+        let first = 0.5 * last.amplitude.ln();
+        if !first.is_finite() {
+            return Err(GrowthError::Difference);
+        }
+        Ok(Self {
+            frequency,
+            start,
+            horizons: growth.horizons.clone(),
+            scale: 0.0,
+            last,
+            first,
+            largest: 0.5 * last.square.ln(),
+            factors: Vec::new(),
+            halves: [first, f64::NEG_INFINITY],
+            turns: Turns::new(start, span, (angle, rate / frequency)),
+        })
+    }
+
+    pub(super) fn look(&mut self, time: f64, angles: &[f64], rates: &[f64]) {
+        let look = Look::new(time, angles, rates, self.frequency);
+        let largest = 0.5 * look.largest_since(&self.last).ln() + self.scale;
+        self.largest = self.largest.max(largest);
+        let half = &mut self.halves[usize::from(time - self.start > 0.5 * self.span())];
+        *half = half.max(0.5 * look.amplitude.ln() + self.scale);
+        self.turns
+            .look(time, (angles[0], rates[0] / self.frequency));
+        self.last = look;
+        let next = self.horizons.get(self.factors.len());
+        if next.is_some_and(|horizon| time >= self.start + horizon) {
+            self.factors.push(self.largest - self.first);
+        }
+    }
+
+    /// Returns the amplitude by which differences are divided from here on.
+    pub(super) fn scale(&mut self) -> f64 {
+        let factor = self.last.amplitude.sqrt();
+        let Look {
+            square,
+            rate,
+            amplitude,
+            ..
+        } = &mut self.last;
+        for value in [square, rate, amplitude] {
+            *value /= factor * factor;
+        }
+        self.scale += factor.ln();
+        factor
+    }
+
+    pub(super) fn span(&self) -> f64 {
+        self.horizons.last().copied().unwrap_or(f64::NAN)
+    }
+
+    /// Logarithms of the growth factors.
+    pub(super) fn factors(&self) -> &[f64] {
+        &self.factors
+    }
+
+    pub(super) fn rate(&self) -> f64 {
+        (self.halves[1] - self.halves[0]) / (0.5 * self.span())
+    }
+
+    pub(super) fn turns(&self) -> f64 {
+        self.turns.a_second()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Record;
+    use crate::analysis::growth::Growth;
+    use std::f64::consts::{E, TAU};
+
+    /// e^(0.3 t) cos(2 π t), scaled back on the way.
+    #[test]
+    fn a_growing_oscillation() {
+        let growth = Growth {
+            frequency_hz: 1.0,
+            horizons: vec![4.0, 10.0],
+            tolerance: 1e-9,
+        };
+        let times = growth.looks(2.0);
+        assert!(times.contains(&6.0) && times.ends_with(&[12.0]));
+        let state = |time: f64| {
+            let t = time - 2.0;
+            let size = (0.3 * t).exp();
+            let (sine, cosine) = (TAU * t).sin_cos();
+            (size * cosine, size * (0.3 * cosine - TAU * sine))
+        };
+        let mut record = Record::new(&growth, 2.0, &[1.0], &[0.0]).unwrap();
+        let mut scale = 1.0;
+        for (number, &time) in times.iter().enumerate().skip(1) {
+            let (angle, rate) = state(time);
+            record.look(time, &[angle / scale], &[rate / scale]);
+            if number % 50 == 0 {
+                scale *= record.scale();
+            }
+        }
+        let [short, long] = record.factors() else {
+            panic!()
+        };
+        assert!((short - 1.2).abs() < 1e-3 && (long - 3.0).abs() < 1e-3);
+        assert!((record.rate() - 0.3).abs() < 0.01, "{}", record.rate());
+        assert!((record.turns() - 1.0).abs() < 1e-6, "{}", record.turns());
+        assert!(long.exp() < E.powi(3) * 1.01);
+    }
+
+    /// The largest value between looks, where none is at the peak.
+    #[test]
+    fn peaks_between_looks() {
+        let growth = Growth {
+            frequency_hz: 1.0,
+            horizons: vec![3.0],
+            tolerance: 1e-9,
+        };
+        let mut record = Record::new(&growth, 0.0, &[0.0], &[TAU]).unwrap();
+        for time in growth.looks(0.0).into_iter().skip(1) {
+            let (sine, cosine) = (TAU * time).sin_cos();
+            record.look(time, &[sine], &[TAU * cosine]);
+        }
+        assert!(record.factors()[0].abs() < 1e-4, "{:?}", record.factors());
+        assert!(record.rate().abs() < 1e-6);
+    }
+}

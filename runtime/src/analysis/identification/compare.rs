@@ -1,0 +1,115 @@
+//! A fit against records: the one that was fitted, or others.
+
+use super::error::{IdentificationError, positive};
+use super::family::Family;
+use super::fit::{AngleErrors, Fit};
+use super::least_squares::{Effort, FitStage};
+use super::problem::{Identification, no_motion};
+use super::record::{AngleRecord, MeasuredLink};
+use super::task::split;
+use crate::integrate::{Dop853, Integrator, Options};
+use crate::system::State;
+
+impl<F: Family> Identification<F> {
+    /// Follows the motion of a fit from the record's start on: angles and velocities of all
+    /// links at these times, none of which may be before it.
+    ///
+    /// # Errors
+    ///
+    /// [`IdentificationError::Time`], [`IdentificationError::NoMotion`].
+    pub fn predict(
+        &self,
+        fit: &Fit,
+        times: &[f64],
+    ) -> Result<Vec<State<f64>>, IdentificationError> {
+        let Some(start) = fit.starts.first() else {
+            return Ok(Vec::new());
+        };
+        let late = |&(index, &time): &(usize, &f64)| {
+            !(time >= start.time && (index == 0 || time > times[index - 1]))
+        };
+        if let Some((index, &value)) = times.iter().enumerate().find(late) {
+            return Err(IdentificationError::Time { index, value });
+        }
+        let equations = self.family.equations(fit.parameters());
+        let method = Dop853::new(Options::with_tolerance(self.shooting.tolerance));
+        let motion = method.sample_to_vec(&equations, start, times);
+        motion.map_err(|_| IdentificationError::NoMotion { time: start.time })
+    }
+
+    /// Compares the motion of a fit, followed from its start on without any correction, with
+    /// a record: the one that was fitted, or what comes after it.
+    ///
+    /// # Errors
+    ///
+    /// As [`predict`](Self::predict), and for a record that makes no sense.
+    pub fn errors(
+        &self,
+        fit: &Fit,
+        record: &AngleRecord,
+    ) -> Result<AngleErrors, IdentificationError> {
+        let indices = record.check(&self.family.links())?;
+        let motion = self.predict(fit, record.times())?;
+        let row = |(sample, state): (usize, &State<f64>)| {
+            let links = record.links.iter().zip(&indices);
+            let error = |(link, &index): (&MeasuredLink, &usize)| {
+                let angle = link.angles[sample]?;
+                Some(state.values[index] + fit.offset(&link.name) - angle)
+            };
+            links.map(error).collect()
+        };
+        Ok(AngleErrors {
+            times: record.times().to_vec(),
+            links: record.links.iter().map(|link| link.name.clone()).collect(),
+            rows: motion.iter().enumerate().map(row).collect(),
+        })
+    }
+
+    /// Compares a fit with a record in windows of this length (s), the state at the start of
+    /// each being that which suits it best: what the model lacks, apart from what has added
+    /// up before.
+    ///
+    /// # Errors
+    ///
+    /// [`IdentificationError`].
+    pub fn window_errors(
+        &self,
+        fit: &Fit,
+        record: &AngleRecord,
+        length: f64,
+    ) -> Result<AngleErrors, IdentificationError> {
+        positive("length of windows", length)?;
+        let (mut task, _) = self.task(record)?;
+        task.values.clone_from(&fit.values);
+        let of_link = |link: &MeasuredLink| fit.offset(&link.name);
+        let mut globals: Vec<f64> = task
+            .unknown
+            .iter()
+            .map(|&index| fit.values[index])
+            .collect();
+        if self.offsets {
+            globals.extend(record.links.iter().map(of_link));
+        }
+        let segments = split(record.times(), length);
+        let starts = task.first_states(record, &globals, &segments)?;
+        let mut all = AngleErrors {
+            times: record.times().to_vec(),
+            links: record.links.iter().map(|link| link.name.clone()).collect(),
+            rows: Vec::new(),
+        };
+        for (samples, start) in segments.into_iter().zip(starts) {
+            let mut stage = FitStage {
+                segments: vec![samples],
+                starts: vec![start],
+                globals: globals.clone(),
+                free: Vec::new(),
+                junction: None,
+            };
+            let (residuals, _) = stage
+                .solve(&task, Effort::FULL)
+                .ok_or_else(|| no_motion(record))?;
+            all.rows.extend(task.errors(&stage, &residuals).rows);
+        }
+        Ok(all)
+    }
+}

@@ -1,0 +1,210 @@
+//! Levenberg–Marquardt iteration over a chain of segments.
+
+use std::ops::Range;
+
+use nalgebra::DMatrix;
+
+use super::elimination::{Damping, EliminatedChain, SegmentChain};
+use super::task::{FitTask, LinearSegment};
+
+/// Steps of one stage at most.
+const STEPS: usize = 100;
+/// Where to stop, and how exactly to look: early stages only lead to the next one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// Share of the sum of squares below which a change ends the iteration. Integration
+    /// makes it uncertain, so that a small loss is no reason to go on either.
+    pub(super) settled: f64,
+}
+
+impl Effort {
+    pub(super) const ROUGH: Self = Self { settled: 1e-3 };
+    pub(super) const FULL: Self = Self { settled: 2e-6 };
+}
+/// Root mean square of residuals, in deviations, at which nothing is left to be done.
+const NOTHING: f64 = 1e-8;
+/// Damping: its start, what it is multiplied and divided by, its bounds.
+const DAMPING: f64 = 1e-3;
+const MORE: f64 = 6.0;
+const LESS: f64 = 10.0;
+const DAMPING_RANGE: [f64; 2] = [1e-10, 1e10];
+
+/// Segments, with the estimate that belongs to them.
+#[derive(Clone, Debug)]
+pub(super) struct FitStage {
+    pub(super) segments: Vec<Range<usize>>,
+    pub(super) starts: Vec<Vec<f64>>,
+    pub(super) globals: Vec<f64>,
+    /// Globals that are fitted; the others stay as they are.
+    pub(super) free: Vec<usize>,
+    /// Weights of the jump from a segment to the next, if they are tied to each other.
+    pub(super) junction: Option<Vec<f64>>,
+}
+
+/// Residuals of a stage, in deviations: of angles, and the sum of squares of all.
+pub(super) struct Residuals {
+    pub(super) angles: Vec<Vec<f64>>,
+    pub(super) squares: f64,
+}
+
+/// A stage with derivatives.
+pub(super) struct LinearStage {
+    pub(super) segments: Vec<LinearSegment>,
+    prior: DMatrix<f64>,
+}
+
+impl FitStage {
+    /// Makes one of every two segments.
+    pub(super) fn merge(&mut self) {
+        let pairs = self.segments.chunks(2);
+        let merged = pairs.filter_map(|pair| Some(pair.first()?.start..pair.last()?.end));
+        self.segments = merged.collect();
+        let mut index = 0;
+        self.starts.retain(|_| {
+            index += 1;
+            index % 2 == 1
+        });
+    }
+
+    /// The residuals; none where there is no such model or motion.
+    pub(super) fn residuals(&self, task: &FitTask<'_>) -> Option<Residuals> {
+        let mut squares = sum_of_squares(&task.frequency_residuals(&self.globals)?);
+        let mut angles = Vec::with_capacity(self.segments.len());
+        for (index, samples) in self.segments.iter().enumerate() {
+            let (residuals, end) = task.shoot(&self.globals, &self.starts[index], samples)?;
+            squares += sum_of_squares(&residuals);
+            angles.push(residuals);
+            if let (Some(weights), Some(next)) = (&self.junction, self.starts.get(index + 1)) {
+                let jumps = end.iter().zip(next).zip(weights);
+                let jumps = jumps.map(|((end, next), weight)| weight * (end - next));
+                squares += jumps.map(|jump| jump * jump).sum::<f64>();
+            }
+        }
+        let is_finite = squares.is_finite();
+        is_finite.then_some(Residuals { angles, squares })
+    }
+
+    pub(super) fn linearise(&self, task: &FitTask<'_>) -> Option<LinearStage> {
+        let segments = self.segments.iter().zip(&self.starts);
+        let segments = segments
+            .map(|(samples, start)| task.linearise(&self.globals, &self.free, start, samples));
+        Some(LinearStage {
+            segments: segments.collect::<Option<_>>()?,
+            prior: task.frequency_rows(&self.globals, &self.free)?,
+        })
+    }
+
+    pub(super) fn eliminate(
+        &self,
+        linear: &LinearStage,
+        damping: Option<&Damping>,
+    ) -> EliminatedChain {
+        let chain = SegmentChain {
+            segments: &linear.segments,
+            junction: self.junction.as_deref(),
+            starts: &self.starts,
+            prior: linear.prior.clone(),
+        };
+        chain.eliminate(damping)
+    }
+
+    /// Iterates to the least sum of squares that is near. Returns the residuals there and
+    /// the number of steps; none where there is no motion to begin with.
+    pub(super) fn solve(
+        &mut self,
+        task: &FitTask<'_>,
+        effort: Effort,
+    ) -> Option<(Residuals, usize)> {
+        let mut best = self.residuals(task)?;
+        let count: usize = best.angles.iter().map(Vec::len).sum();
+        let nothing = (count + task.frequencies.len()) as f64 * NOTHING * NOTHING;
+        let mut lambda = DAMPING;
+        let mut linear = self.linearise(task)?;
+        for step in 0..STEPS {
+            if best.squares <= nothing || lambda > DAMPING_RANGE[1] {
+                return Some((best, step));
+            }
+            let Some((trial, residuals)) = self.step(task, &linear, lambda) else {
+                lambda *= MORE;
+                continue;
+            };
+            let gain = best.squares - residuals.squares;
+            let is_settled = gain.abs() <= effort.settled * best.squares;
+            if gain > 0.0 {
+                (*self, best) = (trial, residuals);
+                lambda = (lambda / LESS).max(DAMPING_RANGE[0]);
+            } else {
+                lambda *= MORE;
+            }
+            if is_settled {
+                return Some((best, step + 1));
+            }
+            if gain > 0.0 {
+                linear = self.linearise(task)?;
+            }
+        }
+        Some((best, STEPS))
+    }
+
+    /// One step, and the residuals after it.
+    fn step(
+        &self,
+        task: &FitTask<'_>,
+        linear: &LinearStage,
+        lambda: f64,
+    ) -> Option<(Self, Residuals)> {
+        let damping = linear.damping(lambda.sqrt());
+        let (globals, starts) = self.eliminate(linear, Some(&damping)).solve()?;
+        let mut trial = self.clone();
+        for (&global, step) in self.free.iter().zip(&globals) {
+            trial.globals[global] += step * task.scales[global];
+        }
+        for (start, step) in trial.starts.iter_mut().zip(&starts) {
+            for (value, step) in start.iter_mut().zip(step) {
+                *value += step;
+            }
+        }
+        let residuals = trial.residuals(task)?;
+        Some((trial, residuals))
+    }
+}
+
+impl LinearStage {
+    /// Rows on the globals alone.
+    pub(super) fn prior_rows(&self) -> &DMatrix<f64> {
+        &self.prior
+    }
+
+    /// Damping in units of the columns' own lengths, which makes it independent of units.
+    fn damping(&self, root: f64) -> Damping {
+        let columns = self.prior.ncols() - 1;
+        let mut globals: Vec<f64> = (0..columns)
+            .map(|column| self.prior.column(column).norm_squared())
+            .collect();
+        let mut starts = Vec::with_capacity(self.segments.len());
+        for LinearSegment { data, end } in &self.segments {
+            let n = end.nrows();
+            let length = |column: usize| data.column(column).norm_squared();
+            starts.push((0..n).map(|column| rooted(root, length(column))).collect());
+            for (global, square) in globals.iter_mut().enumerate() {
+                *square += length(n + global);
+            }
+        }
+        Damping {
+            starts,
+            globals: globals.iter().map(|&square| rooted(root, square)).collect(),
+        }
+    }
+}
+
+/// A column without length is damped as one of length one.
+fn rooted(root: f64, square: f64) -> f64 {
+    match square > 0.0 {
+        true => root * square.sqrt(),
+        false => root,
+    }
+}
+
+fn sum_of_squares(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum()
+}

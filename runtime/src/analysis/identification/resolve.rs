@@ -1,0 +1,143 @@
+//! From names to indices, with all that is wrong with a request.
+
+use std::ops::Range;
+
+use super::error::{IdentificationError, finite, positive};
+use super::family::Family;
+use super::frequencies::Frequency;
+use super::problem::{Identification, Shooting, StartValue};
+use super::record::AngleRecord;
+use super::task::{FitTask, LinkData};
+
+/// Change of an offset that matters, rad.
+const OFFSET: f64 = 0.01;
+
+impl<F: Family> Identification<F> {
+    /// The numerical problem, and its globals at the start.
+    pub(super) fn task<'a>(
+        &'a self,
+        record: &'a AngleRecord,
+    ) -> Result<(FitTask<'a>, Vec<f64>), IdentificationError> {
+        let (parameters, links) = (self.family.parameters(), self.family.links());
+        let measured = record.check(&links)?;
+        let Shooting {
+            first,
+            longest,
+            jump,
+            tolerance,
+            block,
+        } = self.shooting;
+        for (what, value) in [
+            ("length of the first segments", first),
+            ("length of the longest segments", longest),
+            ("jump between segments", jump),
+            ("tolerance", tolerance),
+            ("length of blocks", block.unwrap_or(1.0)),
+        ] {
+            positive(what, value)?;
+        }
+        let mut values = vec![None; parameters.len()];
+        let mut place = |name: &str, value: f64| {
+            let index = parameters.iter().position(|parameter| parameter == name);
+            let index = index.ok_or_else(|| IdentificationError::UnknownParameter {
+                name: name.to_owned(),
+                parameters: parameters.clone(),
+            })?;
+            finite(&format!("`{name}`"), value)?;
+            match values[index].replace(value) {
+                None => Ok(index),
+                Some(_) => Err(IdentificationError::Twice {
+                    name: name.to_owned(),
+                }),
+            }
+        };
+        for (name, value) in &self.known {
+            place(name, *value)?;
+        }
+        let mut unknown = Vec::new();
+        let mut scales = Vec::new();
+        for StartValue { name, value, scale } in &self.unknown {
+            unknown.push(place(name, *value)?);
+            positive(&format!("scale of `{name}`"), *scale)?;
+            scales.push(*scale);
+        }
+        let given = |(value, name): (Option<f64>, &String)| {
+            value.ok_or_else(|| IdentificationError::Missing { name: name.clone() })
+        };
+        let values = values.into_iter().zip(&parameters).map(given);
+        let values: Vec<f64> = values.collect::<Result<_, _>>()?;
+        self.family
+            .check(&values)
+            .map_err(IdentificationError::Start)?;
+        for Frequency {
+            mode,
+            hertz,
+            deviation,
+        } in &self.frequencies
+        {
+            positive(&format!("frequency of mode {mode}"), *hertz)?;
+            positive(
+                &format!("deviation of the frequency of mode {mode}"),
+                *deviation,
+            )?;
+        }
+        let mut globals: Vec<f64> = self.unknown.iter().map(|start| start.value).collect();
+        let mut names: Vec<String> = self
+            .unknown
+            .iter()
+            .map(|start| start.name.clone())
+            .collect();
+        let parameters = names.len();
+        let data = record.links.iter().zip(measured).enumerate();
+        let data = data.map(|(number, (link, component))| LinkData {
+            component,
+            angles: &link.angles,
+            weight: 1.0 / link.deviation,
+            offset: self.offsets.then_some(parameters + number),
+        });
+        let data = data.collect();
+        if self.offsets {
+            for link in &record.links {
+                names.push(format!("offset of {}", link.name));
+                scales.push(OFFSET);
+                globals.push(0.0);
+            }
+        }
+        let task = FitTask {
+            family: &self.family,
+            dimension: 2 * links.len(),
+            values,
+            unknown,
+            names,
+            scales,
+            times: record.times(),
+            links: data,
+            frequencies: self.frequencies.clone(),
+            tolerance,
+        };
+        Ok((task, globals))
+    }
+
+    pub(super) fn check_count(
+        &self,
+        task: &FitTask<'_>,
+        segments: &[Range<usize>],
+    ) -> Result<(), IdentificationError> {
+        let angles: usize = segments.iter().map(|samples| task.count(samples)).sum();
+        let found = angles + self.frequencies.len();
+        let states = if segments.is_empty() {
+            0
+        } else {
+            task.dimension
+        };
+        let needed = match found {
+            0 => 1,
+            _ if states == 0 => 0,
+            _ => task.names.len() + states,
+        };
+        match found >= needed {
+            true => Ok(()),
+            false => Err(IdentificationError::TooFew { found, needed }),
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! A fit as the numerics see it: names resolved to indices, checked.
+
+use std::ops::Range;
+
+use nalgebra::DMatrix;
+
+use super::family::AnyFamily;
+use super::frequencies::Frequency;
+use super::sensitivity::{MotionAlone, Sensitivities};
+use crate::integrate::{Dop853, Options, Tolerance};
+use crate::system::{Ode, State};
+
+/// Relative tolerance of the derivatives: they give directions and bars, not the fit.
+const TOLERANCE_OF_COLUMNS: f64 = 1e-8;
+
+/// Models, data and what is unknown. Unknown are *globals*, parameters and then offsets of
+/// angles, and the states at the starts of segments.
+pub(super) struct FitTask<'a> {
+    pub(super) family: &'a dyn AnyFamily,
+    /// Numbers of a state.
+    pub(super) dimension: usize,
+    /// Values of all parameters; those of unknown ones are starts.
+    pub(super) values: Vec<f64>,
+    /// Indices of unknown parameters.
+    pub(super) unknown: Vec<usize>,
+    /// Names of the globals: parameters first.
+    pub(super) names: Vec<String>,
+    /// Sizes of changes of globals that matter.
+    pub(super) scales: Vec<f64>,
+    pub(super) times: &'a [f64],
+    pub(super) links: Vec<LinkData<'a>>,
+    pub(super) frequencies: Vec<Frequency>,
+    /// Relative tolerance of the motion.
+    pub(super) tolerance: f64,
+}
+
+/// Measured angles of one link.
+pub(super) struct LinkData<'a> {
+    /// Index of its angle in the state.
+    pub(super) component: usize,
+    pub(super) angles: &'a [Option<f64>],
+    /// One over the deviation.
+    pub(super) weight: f64,
+    /// The global that is added to the angle.
+    pub(super) offset: Option<usize>,
+}
+
+/// Rows of the linear problem that belong to one segment, on columns of its start, of the
+/// globals (in units of their scales), and of what they have to make up for.
+pub(super) struct LinearSegment {
+    /// One row a datum.
+    pub(super) data: DMatrix<f64>,
+    /// One row a component of the state at the end; the last column is that component.
+    pub(super) end: DMatrix<f64>,
+}
+
+impl FitTask<'_> {
+    /// Values of all parameters, for these globals.
+    pub(super) fn parameters(&self, globals: &[f64]) -> Vec<f64> {
+        let mut values = self.values.clone();
+        for (&parameter, &global) in self.unknown.iter().zip(globals) {
+            values[parameter] = global;
+        }
+        values
+    }
+
+    /// Number of data from a sample on and before another.
+    pub(super) fn count(&self, samples: &Range<usize>) -> usize {
+        let angles = self.links.iter().map(|link| &link.angles[samples.clone()]);
+        angles.map(|angles| angles.iter().flatten().count()).sum()
+    }
+
+    /// Angles less data, in deviations, over a segment from this state on, and the state at
+    /// its end. None where the motion ends before.
+    pub(super) fn shoot(
+        &self,
+        globals: &[f64],
+        state: &[f64],
+        samples: &Range<usize>,
+    ) -> Option<(Vec<f64>, Vec<f64>)> {
+        let motion = MotionAlone::new(self.family, &self.parameters(globals));
+        let mut residuals = Vec::with_capacity(self.count(samples));
+        let options = Options {
+            absolute: Tolerance::Uniform(self.tolerance),
+            ..Options::with_tolerance(self.tolerance)
+        };
+        let end = self.follow(
+            &motion,
+            options,
+            state.to_vec(),
+            samples,
+            |sample, state| {
+                for link in &self.links {
+                    if let Some(residual) = link.residual(sample, state, globals) {
+                        residuals.push(residual);
+                    }
+                }
+            },
+        )?;
+        Some((residuals, end))
+    }
+
+    /// The same with derivatives: with respect to the state, and to these globals.
+    pub(super) fn linearise(
+        &self,
+        globals: &[f64],
+        free: &[usize],
+        state: &[f64],
+        samples: &Range<usize>,
+    ) -> Option<LinearSegment> {
+        let n = self.dimension;
+        let parameter = |&global: &usize| Some((*self.unknown.get(global)?, self.scales[global]));
+        let unknown: Vec<(usize, f64)> = free.iter().filter_map(parameter).collect();
+        let width = n + unknown.len();
+        let values = self.parameters(globals);
+        let system = Sensitivities::new(self.family, n, &values, &unknown);
+        let tolerances = |size: usize| {
+            let mut all = vec![TOLERANCE_OF_COLUMNS; size];
+            all[..n].fill(self.tolerance);
+            Tolerance::PerComponent(all)
+        };
+        let size = n * (1 + width);
+        let options = Options {
+            relative: tolerances(size),
+            absolute: tolerances(size),
+            ..Options::with_tolerance(self.tolerance)
+        };
+        let last = n + free.len();
+        let mut data = DMatrix::zeros(self.count(samples), last + 1);
+        let mut row = 0;
+        let start = system.start(state);
+        let end = self.follow(&system, options, start, samples, |sample, state| {
+            for link in &self.links {
+                let Some(residual) = link.residual(sample, state, globals) else {
+                    continue;
+                };
+                for column in 0..width {
+                    let slope = state[n * (1 + column) + link.component];
+                    data[(row, column)] = link.weight * slope;
+                }
+                let offset = free.iter().position(|&global| Some(global) == link.offset);
+                if let Some((column, offset)) = offset.zip(link.offset) {
+                    data[(row, n + column)] = link.weight * self.scales[offset];
+                }
+                data[(row, last)] = -residual;
+                row += 1;
+            }
+        })?;
+        let end = DMatrix::from_fn(n, last + 1, |component, column| match column {
+            column if column < width => end[n * (1 + column) + component],
+            column if column < last => 0.0,
+            _ => end[component],
+        });
+        let is_finite = data.iter().chain(end.iter()).all(|value| value.is_finite());
+        is_finite.then_some(LinearSegment { data, end })
+    }
+
+    /// Integrates over a segment, up to the start of the next one where there is one.
+    fn follow<O: Ode<f64>>(
+        &self,
+        system: &O,
+        options: Options<f64>,
+        start: Vec<f64>,
+        samples: &Range<usize>,
+        mut visit: impl FnMut(usize, &[f64]),
+    ) -> Option<Vec<f64>> {
+        let times = &self.times[samples.start..(samples.end + 1).min(self.times.len())];
+        let start = State::new(*times.first()?, start);
+        let mut sample = samples.start;
+        let mut end = Vec::new();
+        let run = Dop853::new(options).sample(system, &start, times, |_, state| {
+            if sample < samples.end {
+                visit(sample, state);
+            }
+            sample += 1;
+            end.clear();
+            end.extend_from_slice(state);
+        });
+        let is_whole = run.is_ok() && sample == samples.start + times.len();
+        is_whole.then_some(end)
+    }
+}
+
+impl LinkData<'_> {
+    fn residual(&self, sample: usize, state: &[f64], globals: &[f64]) -> Option<f64> {
+        let angle = self.angles.get(sample).copied().flatten()?;
+        let offset = self.offset.map_or(0.0, |offset| globals[offset]);
+        Some(self.weight * (state[self.component] + offset - angle))
+    }
+}
+
+/// Segments of about this length (s), as ranges of samples. A rest of less than half of it
+/// belongs to the last.
+pub(super) fn split(times: &[f64], length: f64) -> Vec<Range<usize>> {
+    let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
+        return Vec::new();
+    };
+    let count = ((last - first) / length).round().max(1.0) as usize;
+    let count = count.min(times.len() / 2).max(1);
+    let from = |segment: usize| match segment {
+        _ if segment == count => times.len(),
+        _ => times.partition_point(|&time| time < first + segment as f64 * length),
+    };
+    let ranges = (0..count).map(|segment| from(segment)..from(segment + 1));
+    ranges.filter(|range| range.len() > 1).collect()
+}

@@ -1,0 +1,25 @@
+//! Spectra of evenly sampled series: amplitudes against frequency, and the lines of which a
+//! motion is made.
+//!
+//! - [`Spectrum`]: amplitudes at the Fourier frequencies or at any others,
+//! - [`LineSearch`]: frequencies far closer than the grid of a spectrum tells them, with
+//!   their errors: the lines of a quasi-periodic motion out of a short record,
+//! - [`Combination`]: names of lines, as 2f_+ − f_−,
+//! - [`Passages`]: both of them in one stretch of time after the other, for lines that
+//!   friction moves.
+
+mod amplitudes;
+mod combination;
+mod error;
+mod fit;
+mod lines;
+mod passages;
+mod transform;
+mod window;
+
+pub use amplitudes::{Spectrum, SpectrumOptions};
+pub use combination::Combination;
+pub use error::SpectrumError;
+pub use lines::{Line, LineSearch, Lines};
+pub use passages::{Passage, Passages};
+pub use window::Window;

@@ -1,0 +1,46 @@
+//! Models by the names of their parameters.
+
+use super::Cast;
+use crate::model::ParameterError;
+use crate::scalar::Scalar;
+
+/// A pendulum with named parameters. Emitted code implements it where a description has
+/// some; [`identification`](crate::analysis::identification) fits them to measurements.
+///
+/// # Examples
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::Parametric;
+/// use branched_pendulum::prelude::*;
+///
+/// #[branched_pendulum(gravity = 9.80665, rod: rod(mass = 0.1, length = length, friction = friction))]
+/// struct Swing;
+///
+/// // Both numbers are f64 here; a dual number gives derivatives with respect to it.
+/// let values = [0.3, 1e-4];
+/// assert_eq!(<Swing as Parametric<f64>>::PARAMETERS, ["length", "friction"]);
+/// Swing::<f64>::check_parameters(|index| values[index])?;
+/// let swing = Swing::<f64>::with_parameters(|index| values[index]);
+/// assert_eq!(swing, Swing::new(SwingParameters { length: 0.3, friction: 1e-4 })?);
+/// # Ok::<(), branched_pendulum::ParameterError>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no named parameters",
+    note = "write a name in place of a number in its attribute: `mass = bob_mass`"
+)]
+pub trait Parametric<T: Scalar>: Cast<T> {
+    /// Names of the parameters, in their order.
+    const PARAMETERS: &'static [&'static str];
+
+    /// Makes the model for which parameter `index` is `values(index)`, taken as it is: in
+    /// any scalar, with derivatives or without.
+    fn with_parameters<S: Scalar>(values: impl Fn(usize) -> S) -> Self::Of<S>;
+
+    /// Refuses what the model's constructor refuses.
+    ///
+    /// # Errors
+    ///
+    /// A parameter that no pendulum can have.
+    fn check_parameters(values: impl Fn(usize) -> f64) -> Result<(), ParameterError>;
+}

@@ -1,0 +1,208 @@
+//! Small differences that act back on the motion that they are beside.
+
+use super::by_reference::by_reference;
+use super::{LaneOde, Ode, Transverse, TransverseSector};
+use crate::scalar::Scalar;
+
+/// A model of copies in phase whose small differences act back on the motion: `in_phase(…)`
+/// with `emit(small)`, or `emit(small(child, …))` for some sectors.
+///
+/// The equations are those of the Lagrangian of the whole tree through second order in
+/// the differences δ of the sectors (physics (12.4)): linear in δ, quadratic in what δ does to
+/// the angles in phase, and with an energy of their own that friction and drives alone
+/// change. Without differences the motion is the one in phase, and tiny differences
+/// follow [`Transverse`].
+///
+/// Copies have the angles θ + e δ as in [`Transverse`]; δ belongs to the copies under one
+/// holder, or to those of all holders with squares of e that add up to the number of
+/// copies under one. For pairs the error of δ̈ is of third order in δ, and that of θ̈ of
+/// fourth; for more copies one order less.
+///
+/// Values are NaN for slices of other lengths.
+pub trait SmallDifferences<T: Scalar>: Transverse<T> {
+    /// The sectors that act back, by their index in
+    /// [`TRANSVERSE`](Transverse::TRANSVERSE): differences stand in this order.
+    const SMALL: &'static [usize];
+
+    /// Writes the second time derivatives (in rad/s²) of the angles in phase and, behind
+    /// them, of the differences.
+    fn small_accelerations_into(
+        &self,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        difference: &[T],
+        difference_rate: &[T],
+        accelerations: &mut [T],
+    );
+
+    /// Writes those of this model on other scalars, in their arithmetic: of as many
+    /// motions at a time as a vector register holds.
+    ///
+    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
+    /// compiled for.
+    fn small_accelerations_of<S: Scalar>(
+        model: &Self::Of<S>,
+        time: S,
+        theta: &[S],
+        omega: &[S],
+        difference: &[S],
+        difference_rate: &[S],
+        accelerations: &mut [S],
+    );
+
+    /// Returns the energy (in J) of the whole tree through second order in the
+    /// differences, kinetic and potential.
+    fn small_energy_of(
+        &self,
+        theta: &[T],
+        omega: &[T],
+        difference: &[T],
+        difference_rate: &[T],
+    ) -> T;
+}
+
+/// Returns the number of differences that act back in a model of these sectors.
+pub(super) const fn differences(sectors: &[TransverseSector], small: &[usize]) -> usize {
+    let (mut count, mut index) = (0, 0);
+    while index < small.len() {
+        count += sectors[small[index]].links;
+        index += 1;
+    }
+    count
+}
+
+/// The angles in phase and the small differences that act back on them as a first-order
+/// system: the state is the angles, the differences of all sectors in the order of
+/// [`SMALL`](SmallDifferences::SMALL), the angular velocities and the rates of the
+/// differences.
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// use branched_pendulum::SmallDifferences;
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum::system::SmallOde;
+///
+/// /// The paper's pendulum.
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+///         child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+///     ],
+///     in_phase(child),
+///     emit(small),
+/// )]
+/// struct NearlyInPhase;
+///
+/// // Antiphase motion of the children swings the parent, by terms of second order.
+/// let model = NearlyInPhase::new();
+/// let parent = |difference: f64| {
+///     let start = State::at_rest(0.0, &[0.0, 0.2, difference]);
+///     let method = Dop853::new(Options::with_tolerance(1e-12));
+///     let end = method.integrate(&SmallOde(&model), &start, 1.0, |_| ControlFlow::Continue(()));
+///     end.unwrap().state.values[0]
+/// };
+/// let reaction = |difference: f64| (parent(difference) - parent(0.0)) / difference.powi(2);
+/// assert!((reaction(0.02) / reaction(0.01) - 1.0).abs() < 1e-3);
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SmallOde<P>(pub P);
+
+impl<P> SmallOde<P> {
+    /// Returns the energy (in J) of a state; NaN for one of another length.
+    pub fn energy<T: Scalar>(&self, state: &[T]) -> T
+    where
+        P: SmallDifferences<T>,
+    {
+        let half = P::LINKS + differences(P::TRANSVERSE, P::SMALL);
+        if state.len() != 2 * half {
+            return T::from_f64(f64::NAN);
+        }
+        let (angles, velocities) = state.split_at(half);
+        let (theta, difference) = angles.split_at(P::LINKS);
+        let (omega, difference_rate) = velocities.split_at(P::LINKS);
+        let Self(model) = self;
+        model.small_energy_of(theta, omega, difference, difference_rate)
+    }
+}
+
+impl<T: Scalar, P: SmallDifferences<T>> Ode<T> for SmallOde<P> {
+    fn dimension(&self) -> usize {
+        2 * (P::LINKS + differences(P::TRANSVERSE, P::SMALL))
+    }
+
+    #[inline]
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        let Self(model) = self;
+        let differences = differences(P::TRANSVERSE, P::SMALL);
+        fill(
+            (P::LINKS, differences),
+            (state, rates),
+            |[theta, omega, difference, rate], second| {
+                model.small_accelerations_into(time, theta, omega, difference, rate, second);
+            },
+        );
+    }
+}
+
+impl<T: Scalar, P: SmallDifferences<T>> LaneOde<T> for SmallOde<P> {
+    type Of<S: Scalar> = SmallOde<P::Of<S>>;
+
+    const DIMENSION: Option<usize> = Some(2 * (P::LINKS + differences(P::TRANSVERSE, P::SMALL)));
+
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
+        let Self(model) = self;
+        SmallOde(model.cast(convert))
+    }
+
+    #[inline(always)]
+    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
+        let SmallOde(model) = system;
+        let differences = differences(P::TRANSVERSE, P::SMALL);
+        fill(
+            (P::LINKS, differences),
+            (state, rates),
+            |[theta, omega, difference, rate], second| {
+                P::small_accelerations_of(model, time, theta, omega, difference, rate, second);
+            },
+        );
+    }
+}
+
+/// Writes the rates of a state of so many links and so many differences.
+#[inline(always)]
+fn fill<T: Scalar>(
+    (links, differences): (usize, usize),
+    (state, rates): (&[T], &mut [T]),
+    accelerate: impl FnOnce([&[T]; 4], &mut [T]),
+) {
+    let half = links + differences;
+    if state.len() != 2 * half || rates.len() != 2 * half {
+        rates.fill(T::from_f64(f64::NAN));
+        return;
+    }
+    let (angles, velocities) = state.split_at(half);
+    let (angle_rates, accelerations) = rates.split_at_mut(half);
+    angle_rates.copy_from_slice(velocities);
+    let (theta, difference) = angles.split_at(links);
+    let (omega, difference_rate) = velocities.split_at(links);
+    accelerate([theta, omega, difference, difference_rate], accelerations);
+}
+
+by_reference! {
+    impl<T: Scalar> SmallDifferences<T> for &P {
+        const SMALL: &'static [usize];
+        for fn small_accelerations_of<S: Scalar>(
+            model: &Self::Of<S>, time: S, theta: &[S], omega: &[S], difference: &[S],
+            difference_rate: &[S], accelerations: &mut [S]
+        );
+        fn small_accelerations_into(
+            &self, time: T, theta: &[T], omega: &[T], difference: &[T],
+            difference_rate: &[T], accelerations: &mut [T]
+        );
+        fn small_energy_of(
+            &self, theta: &[T], omega: &[T], difference: &[T], difference_rate: &[T]
+        ) -> T;
+    }
+}

@@ -1,0 +1,252 @@
+//! Energies by scale and the transfers between scales (`docs/physics.md`, section 16).
+//!
+//! Parts of all quantities in all scales come from fast means; the flow of a scale's
+//! energy is one solve with the mass matrix, whose factors all scales share. All of it
+//! is sums along the tree, for registers of neighbours: O(n) for each scale.
+
+mod columns;
+mod energies;
+mod equations;
+mod flows;
+mod motion;
+mod pairs;
+mod parts;
+mod sectors;
+mod shape;
+
+use core::marker::PhantomData;
+
+pub use equations::ScaleEquations;
+
+use super::Tree;
+use super::equations::Row;
+use super::memory::take;
+use super::skeleton::Skeleton;
+use crate::scalar::Scalar;
+use crate::sectors::ScaleBudget;
+use crate::simd::dispatch::in_widest;
+use crate::simd::{Kernel, Simd};
+use crate::system::Workspace;
+use columns::{FLOW, ScaleColumns};
+use shape::ScaleShape;
+
+/// Quantities whose parts are formed.
+mod field {
+    pub(super) const VELOCITY: usize = 0;
+    pub(super) const OMEGA: usize = 2;
+    pub(super) const RISE: usize = 3;
+    pub(super) const SIDE: usize = 4;
+    pub(super) const STRAIN: usize = 5;
+    pub(super) const MOMENT: usize = 6;
+    pub(super) const SPRING: usize = 8;
+    pub(super) const ALL: usize = 9;
+}
+
+impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
+    /// Computes the energies, as
+    /// [`Scales::energies_by_scale`](crate::Scales::energies_by_scale).
+    pub fn energies_by_scale(
+        &self,
+        workspace: &mut Workspace<T>,
+        theta: &[T],
+        omega: &[T],
+        budget: &mut ScaleBudget<T>,
+    ) {
+        let wanted = Wanted::Energies(budget);
+        self.by_scale(workspace, None, [theta, omega, &[]], wanted);
+    }
+
+    /// Computes the energies of sectors, as
+    /// [`Scales::energies_by_sector`](crate::Scales::energies_by_sector).
+    pub fn energies_by_sector(
+        &self,
+        workspace: &mut Workspace<T>,
+        theta: &[T],
+        omega: &[T],
+        energies: &mut [T],
+    ) {
+        let wanted = Wanted::Sectors(energies);
+        self.by_scale(workspace, None, [theta, omega, &[]], wanted);
+    }
+
+    /// Computes all of the budget, as
+    /// [`Scales::budget_by_scale`](crate::Scales::budget_by_scale): of angles and angular
+    /// velocities (the third slice is empty), with the acceleration of the root's pivot
+    /// and the torque on the root.
+    pub fn budget_by_scale(
+        &self,
+        workspace: &mut Workspace<T>,
+        drive: Option<[T; 3]>,
+        given: [&[T]; 3],
+        budget: &mut ScaleBudget<T>,
+    ) {
+        self.by_scale(workspace, drive, given, Wanted::Budget(budget));
+    }
+
+    /// Computes all of the budget under torques from outside, the third slice.
+    pub fn budget_by_scale_under(
+        &self,
+        workspace: &mut Workspace<T>,
+        drive: Option<[T; 3]>,
+        given: [&[T]; 3],
+        budget: &mut ScaleBudget<T>,
+    ) {
+        let given = match given[2].len() == self.skeleton.plan.links() {
+            true => given,
+            false => [[].as_slice(); 3],
+        };
+        self.by_scale(workspace, drive, given, Wanted::Budget(budget));
+    }
+
+    fn by_scale(
+        &self,
+        workspace: &mut Workspace<T>,
+        drive: Option<[T; 3]>,
+        [theta, omega, torques]: [&[T]; 3],
+        mut wanted: Wanted<'_, T>,
+    ) {
+        let shape = ScaleShape::new(E::COPIES);
+        let shape = shape.filter(|shape| [theta.len(), omega.len()] == [shape.links; 2]);
+        wanted.start(
+            E::COPIES.len(),
+            match shape {
+                Some(_) => T::from_f64(0.0),
+                None => T::from_f64(f64::NAN),
+            },
+        );
+        let Some(shape) = shape else { return };
+        let columns = match wanted {
+            Wanted::Budget(_) => FLOW + 2 * shape.count(),
+            _ => FLOW,
+        };
+        let columns = columns * shape.column;
+        let mut numbers = workspace.numbers(columns + field::ALL * shape.parts);
+        let own = take(&mut numbers, columns);
+        in_widest::<T, _>(ByScale::<E, T> {
+            skeleton: &self.skeleton,
+            columns: ScaleColumns {
+                numbers: own,
+                length: shape.column,
+            },
+            parts: numbers,
+            shape,
+            drive,
+            theta,
+            omega,
+            torques,
+            wanted,
+            equations: PhantomData,
+        });
+    }
+}
+
+/// What is to be computed, and where it goes.
+enum Wanted<'a, T> {
+    Energies(&'a mut ScaleBudget<T>),
+    Sectors(&'a mut [T]),
+    Budget(&'a mut ScaleBudget<T>),
+}
+
+impl<T: Scalar> Wanted<'_, T> {
+    /// Writes one number everywhere.
+    fn start(&mut self, scales: usize, value: T) {
+        match self {
+            Self::Energies(budget) | Self::Budget(budget) => budget.fill(scales, value),
+            Self::Sectors(energies) => energies.fill(value),
+        }
+    }
+}
+
+/// One computation.
+struct ByScale<'a, E, T: 'static> {
+    skeleton: &'a Skeleton<T>,
+    shape: ScaleShape,
+    columns: ScaleColumns<'a, T>,
+    /// Columns of parts.
+    parts: &'a mut [T],
+    drive: Option<[T; 3]>,
+    theta: &'a [T],
+    omega: &'a [T],
+    torques: &'a [T],
+    wanted: Wanted<'a, T>,
+    equations: PhantomData<E>,
+}
+
+impl<E: ScaleEquations, T: Scalar> Kernel<T> for ByScale<'_, E, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Simd<T>>(mut self) {
+        self.motions::<V>();
+        self.velocities::<V>();
+        match self.wanted {
+            Wanted::Energies(_) => {
+                self.split_all::<V>(false);
+                self.energies::<V>();
+            }
+            Wanted::Sectors(_) => {
+                self.split_all::<V>(false);
+                self.sectors();
+            }
+            Wanted::Budget(_) => {
+                self.torques_of_drive::<V>();
+                self.moments::<V>();
+                self.split_all::<V>(true);
+                self.energies::<V>();
+                self.factors::<V>();
+                for scale in 0..self.shape.count() {
+                    self.eliminate::<V>(scale);
+                    self.flow::<V>(scale);
+                    self.slopes::<V>(scale);
+                }
+                self.transfers::<V>();
+                self.powers::<V>();
+            }
+        }
+    }
+}
+
+impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
+    /// The constants of a generation.
+    #[inline(always)]
+    fn constants<V: Simd<T>>(&self, generation: usize) -> E::Constants<V> {
+        let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
+        let length = <E::Constants<V> as Row<V>>::LENGTH;
+        let numbers = self.skeleton.constants.get(generation * length..);
+        for (place, &number) in row.as_mut().iter_mut().zip(numbers.unwrap_or_default()) {
+            *place = V::splat(number);
+        }
+        row
+    }
+
+    /// Parts of consecutive fields of links of a generation, from the place behind a
+    /// period on: zero in scales that the generation has no part in.
+    #[inline(always)]
+    fn part<V: Simd<T>, const N: usize>(
+        &self,
+        first: usize,
+        start: Option<usize>,
+        place: usize,
+    ) -> [V; N] {
+        let mut row = [V::from_f64(0.0); N];
+        let Some(start) = start else { return row };
+        for (index, number) in row.iter_mut().enumerate() {
+            let column = (first + index) * self.shape.parts;
+            *number = parts::at(self.parts, column + start + place);
+        }
+        row
+    }
+
+    /// Where parts of a generation in a scale start, and their period; none where there
+    /// are none.
+    #[inline(always)]
+    fn part_start(&self, scale: usize, generation: usize) -> (Option<usize>, usize) {
+        match scale <= generation {
+            true => (
+                Some(self.shape.part(scale, generation)),
+                self.shape.period(scale, generation),
+            ),
+            false => (None, self.shape.at(generation).count),
+        }
+    }
+}

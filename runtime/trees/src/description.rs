@@ -1,0 +1,91 @@
+//! Descriptions: trees whose parameters have no values yet.
+
+use std::sync::Arc;
+
+use branched_pendulum::scalar::{Double, Scalar};
+use branched_pendulum_codegen::scene::Scene;
+
+use crate::error::{DescriptionError, TreeError};
+use crate::text;
+use crate::tree::PendulumTree;
+
+/// A description, read and checked.
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum_trees::TreeDescription;
+///
+/// let rod = TreeDescription::parse("gravity = g, rod: rod(mass = 0.2, length = l)")?;
+/// assert_eq!(rod.parameters().collect::<Vec<_>>(), ["g", "l"]);
+/// let rod = rod.tree::<f64>(&[("g", 9.81), ("l", 1.0)])?;
+/// let alpha = rod.accelerations(0.0, &[0.1], &[0.0]);
+/// assert!((alpha[0] + 1.5 * 9.81 * 0.1_f64.sin()).abs() < 1e-14);
+/// # Ok::<(), branched_pendulum_trees::TreeError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct TreeDescription {
+    pub(crate) scene: Arc<Scene>,
+}
+
+impl TreeDescription {
+    /// Reads what stands between the parentheses of the attribute `branched_pendulum`.
+    ///
+    /// # Errors
+    /// All mistakes, with their places in the text. Anything that is derived for one tree
+    /// alone is one: transfers, budgets, symmetric coordinates, observables.
+    pub fn parse(text: &str) -> Result<Self, DescriptionError> {
+        let scene = Arc::new(text::scene(text)?);
+        Ok(Self { scene })
+    }
+
+    /// Returns the names of the parameters, in the order of the description.
+    pub fn parameters(&self) -> impl Iterator<Item = &str> {
+        let parameters = self.scene.parameters.iter();
+        parameters.map(|parameter| parameter.name.as_str())
+    }
+
+    /// Returns what a parameter is used for, in words and with its unit.
+    pub fn parameter_use(&self, name: &str) -> Option<&str> {
+        let mut parameters = self.scene.parameters.iter();
+        let found = parameters.find(|parameter| parameter.name == name)?;
+        Some(&found.doc)
+    }
+
+    /// Returns the tree with values for its parameters, in SI units.
+    ///
+    /// # Errors
+    /// A name that is no parameter, a parameter without a value, and values that no
+    /// pendulum can have.
+    pub fn tree<T: Scalar>(&self, values: &[(&str, f64)]) -> Result<PendulumTree<T>, TreeError> {
+        let mut own = vec![None; self.scene.parameters.len()];
+        for &(name, value) in values {
+            let place = self.place(name)?;
+            if let Some(own) = own.get_mut(place) {
+                *own = Some(value);
+            }
+        }
+        let known: Vec<f64> = own.iter().copied().flatten().collect();
+        if known.len() < own.len() {
+            let names = self.parameters().zip(&own);
+            let names = names.filter(|(_, value)| value.is_none());
+            let names = names.map(|(name, _)| name.to_owned()).collect();
+            return Err(TreeError::MissingValues { names });
+        }
+        PendulumTree::of(self.clone(), known)
+    }
+
+    /// Returns the index of a parameter.
+    pub(crate) fn place(&self, name: &str) -> Result<usize, TreeError> {
+        let found = self.parameters().position(|parameter| parameter == name);
+        found.ok_or_else(|| TreeError::UnknownParameter {
+            name: name.to_owned(),
+            parameters: self.parameters().map(str::to_owned).collect(),
+        })
+    }
+}
+
+/// Values of parameters as numbers of many digits.
+pub(crate) fn wide(values: &[f64]) -> Vec<Double> {
+    values.iter().copied().map(Double::from_f64).collect()
+}

@@ -1,0 +1,193 @@
+//! Energies, powers, momenta and linear modes.
+
+use branched_pendulum::analysis::{Modes, ModesError};
+use branched_pendulum::scalar::{Dual, Scalar};
+use branched_pendulum::system::{FirstIntegral, Workspace};
+use branched_pendulum::tree::Bodies;
+
+use crate::tree::PendulumTree;
+
+/// Derivatives that are formed at once.
+const WIDTH: usize = 8;
+
+impl<T: Scalar> PendulumTree<T> {
+    /// Returns the kinetic energy (J) at angles `theta` (rad) and angular velocities `omega`
+    /// (rad/s), in the frame of reference that moves with the root's pivot. NaN for slices
+    /// of another length than there are links, here and below.
+    #[must_use]
+    pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
+        self.bodies
+            .kinetic_energy(&mut Workspace::new(), theta, omega)
+    }
+
+    /// Returns the potential energy (J) at angles `theta` (rad), that of springs among it;
+    /// zero where every link hangs straight down with its spring at rest.
+    #[must_use]
+    pub fn potential_energy(&self, theta: &[T]) -> T {
+        self.bodies.potential_energy(&mut Workspace::new(), theta)
+    }
+
+    /// Returns the energy K + U (J).
+    #[must_use]
+    pub fn energy(&self, theta: &[T], omega: &[T]) -> T {
+        self.kinetic_energy(theta, omega) + self.potential_energy(theta)
+    }
+
+    /// Returns the power (W) of friction and drag, never positive.
+    #[must_use]
+    pub fn friction_power(&self, omega: &[T]) -> T {
+        self.bodies.friction_power(omega)
+    }
+
+    /// Returns the power (W) of torques from outside.
+    #[must_use]
+    pub fn outside_power(&self, omega: &[T], torques: &[T]) -> T {
+        self.bodies.outside_power(omega, torques)
+    }
+
+    /// Returns the power (W) of the drive, zero without one: dE/dt of the energy is this
+    /// and the powers of friction and of torques from outside.
+    #[must_use]
+    pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
+        let zero = T::from_f64(0.0);
+        let drive = match &self.drive {
+            Some(drive) => drive.at(time),
+            None => [zero; 3],
+        };
+        let workspace = &mut Workspace::new();
+        self.bodies.drive_power(workspace, drive, theta, omega)
+    }
+
+    /// Returns the acceleration x, y (m/s²) of the root's pivot and the torque (N m) on the
+    /// root at a time (s) of the drive, if there is one.
+    #[must_use]
+    pub fn drive(&self, time: T) -> Option<[T; 3]> {
+        self.drive.as_ref().map(|drive| drive.at(time))
+    }
+
+    /// Returns the generalized momenta ∂K/∂ω (kg m²/s). O(links²).
+    #[must_use]
+    pub fn momenta(&self, theta: &[T], omega: &[T]) -> Vec<T> {
+        let bodies = self.bodies.cast(Dual::<T, WIDTH>::constant);
+        self.momenta_of(&bodies, theta, omega)
+    }
+
+    fn momenta_of(&self, bodies: &Bodies<Dual<T, WIDTH>>, theta: &[T], omega: &[T]) -> Vec<T> {
+        let theta: Vec<Dual<T, WIDTH>> = theta.iter().copied().map(Dual::constant).collect();
+        gradient(self.links(), omega, |omega, workspace| {
+            bodies.kinetic_energy(workspace, &theta, omega)
+        })
+    }
+
+    /// Returns the mass matrix (kg m²) at angles `theta`, a row for each link: the momenta
+    /// of unit velocities. O(links³).
+    #[must_use]
+    pub fn mass_matrix(&self, theta: &[T]) -> Vec<Vec<T>> {
+        let bodies = self.bodies.cast(Dual::<T, WIDTH>::constant);
+        let row = |link: usize| {
+            let mut omega = vec![T::from_f64(0.0); self.links()];
+            if let Some(own) = omega.get_mut(link) {
+                *own = T::from_f64(1.0);
+            }
+            self.momenta_of(&bodies, theta, &omega)
+        };
+        (0..self.links()).map(row).collect()
+    }
+
+    /// Returns the second derivatives (N m/rad) of the potential energy at angles `theta`, a
+    /// row for each link. O(links³).
+    #[must_use]
+    pub fn stiffness_matrix(&self, theta: &[T]) -> Vec<Vec<T>> {
+        type Twice<T> = Dual<Dual<T, 1>, WIDTH>;
+        let lift = |value: T| Twice::<T>::constant(Dual::constant(value));
+        let bodies = self.bodies.cast(lift);
+        let row = |link: usize| {
+            let mut point: Vec<Dual<T, 1>> = theta.iter().copied().map(Dual::constant).collect();
+            if let Some(own) = point.get_mut(link) {
+                *own = Dual::variable(own.value, 0);
+            }
+            let slopes = gradient(self.links(), &point, |theta, workspace| {
+                bodies.potential_energy(workspace, theta)
+            });
+            slopes.into_iter().map(|slope| slope.tangents[0]).collect()
+        };
+        (0..self.links()).map(row).collect()
+    }
+}
+
+impl PendulumTree<f64> {
+    /// Returns the linear modes about angles `theta` (rad) at which the tree stays at rest:
+    /// zeros, unless springs or lateral offsets hold it elsewhere. Friction and drive are
+    /// left out.
+    ///
+    /// # Errors
+    /// [`ModesError`] for angles of another number than there are links, and for an unstable
+    /// equilibrium.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use branched_pendulum_trees::PendulumTree;
+    ///
+    /// let rod = PendulumTree::parse("gravity = 9.81, rod: rod(mass = 2, length = 0.5)")?;
+    /// let modes = rod.modes(&[0.0])?;
+    /// let expected = (1.5 * 9.81 / 0.5_f64).sqrt() / std::f64::consts::TAU;
+    /// assert!((modes.frequencies_hz[0] - expected).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn modes(&self, theta: &[f64]) -> Result<Modes, ModesError> {
+        Modes::new(&self.mass_matrix(theta), &self.stiffness_matrix(theta))
+    }
+}
+
+/// The energy, with its derivatives by angles and angular velocities.
+impl<T: Scalar> FirstIntegral<T> for PendulumTree<T> {
+    fn evaluate(&self, state: &[T], slopes: &mut [T]) -> T {
+        let n = self.links();
+        if [state.len(), slopes.len()] != [2 * n; 2] {
+            slopes.fill(T::from_f64(f64::NAN));
+            return T::from_f64(f64::NAN);
+        }
+        let bodies = self.bodies.cast(Dual::<T, WIDTH>::constant);
+        let all = gradient(2 * n, state, |state, workspace| {
+            let (theta, omega) = state.split_at(n);
+            let kinetic = bodies.kinetic_energy(workspace, theta, omega);
+            kinetic + bodies.potential_energy(workspace, theta)
+        });
+        slopes.copy_from_slice(&all);
+        let (theta, omega) = state.split_at(n);
+        self.energy(theta, omega)
+    }
+}
+
+/// Derivatives of a function by its variables, some at once. NaN for another number of
+/// values than `n`.
+fn gradient<T: Scalar>(
+    n: usize,
+    values: &[T],
+    function: impl Fn(&[Dual<T, WIDTH>], &mut Workspace<Dual<T, WIDTH>>) -> Dual<T, WIDTH>,
+) -> Vec<T> {
+    let mut slopes = vec![T::from_f64(f64::NAN); n];
+    if values.len() != n {
+        return slopes;
+    }
+    let mut workspace = Workspace::new();
+    let mut point: Vec<Dual<T, WIDTH>> = values.iter().copied().map(Dual::constant).collect();
+    for (part, slopes) in slopes.chunks_mut(WIDTH).enumerate() {
+        let own = |point: &mut Vec<Dual<T, WIDTH>>, change: fn((usize, &mut Dual<T, WIDTH>))| {
+            let own = point.iter_mut().skip(part * WIDTH).take(WIDTH);
+            own.enumerate().for_each(change);
+        };
+        own(&mut point, |(direction, value)| {
+            *value = Dual::variable(value.value, direction)
+        });
+        let result = function(&point, &mut workspace);
+        for (slope, tangent) in slopes.iter_mut().zip(result.tangents) {
+            *slope = tangent;
+        }
+        own(&mut point, |(_, value)| {
+            *value = Dual::constant(value.value)
+        });
+    }
+    slopes
+}

@@ -1,0 +1,16 @@
+//! The equations of one link, as the compiler derived and wrote them for links whose
+//! every property is a parameter (`equations/` beside `src/`): SI units, a row of
+//! constants for each link.
+//!
+//! `branched-pendulum --output src/equations/general.rs equations/general.rs` writes them
+//! anew, and a test tells when that is due.
+
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub)]
+mod general;
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub)]
+mod straight;
+
+pub(crate) use general::GeneralEquations;
+pub(crate) use straight::StraightEquations;

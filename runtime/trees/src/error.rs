@@ -1,0 +1,126 @@
+//! Errors of descriptions and of values.
+
+use std::fmt;
+
+use branched_pendulum_codegen::report::{Problem, Report};
+use thiserror::Error;
+
+use crate::text::LONGEST;
+
+/// A tree that cannot be.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TreeError {
+    /// The text is no description of a tree that can be computed.
+    #[error("{0}")]
+    Description(#[from] DescriptionError),
+    /// Parameters without a value.
+    #[error("no value for {}", quoted(.names))]
+    MissingValues {
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// A value for a name that is no parameter.
+    #[error("no parameter `{name}`: {}", known(.parameters))]
+    UnknownParameter {
+        /// The name.
+        name: String,
+        /// Names of all parameters.
+        parameters: Vec<String>,
+    },
+    /// A value that no pendulum can have.
+    #[error("{what} is {value}, must be {requirement}")]
+    Value {
+        /// The quantity, as in "mass of `child`".
+        what: String,
+        /// Its value, in SI units.
+        value: f64,
+        /// The condition on it, as in "positive".
+        requirement: &'static str,
+    },
+}
+
+fn quoted(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+fn known(parameters: &[String]) -> String {
+    match parameters {
+        [] => "the description has none".to_owned(),
+        names => format!("there are {}", quoted(names)),
+    }
+}
+
+/// All mistakes in a text. Shown as the compiler shows those of an attribute: message,
+/// line and column, the line with the wrong place marked, and what to write instead.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DescriptionError {
+    mistakes: Vec<Mistake>,
+    text: String,
+}
+
+/// A mistake in a text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// Statement of the mistake.
+    pub message: String,
+    /// Remark on the marked place.
+    pub label: String,
+    /// Correction to write instead.
+    pub help: String,
+}
+
+impl DescriptionError {
+    pub(crate) fn of(report: &Report, source: &str) -> Self {
+        let mistakes = report.diagnostics().iter().map(|diagnostic| {
+            let start = diagnostic.span.start();
+            let Problem { text, label, hint } = diagnostic.message.problem();
+            Mistake {
+                line: start.line,
+                column: start.column + 1,
+                message: text,
+                label,
+                help: hint,
+            }
+        });
+        let mut mistakes: Vec<Mistake> = mistakes.collect();
+        mistakes.sort_by_key(|mistake| (mistake.line, mistake.column));
+        Self {
+            mistakes,
+            text: report.render(source),
+        }
+    }
+
+    pub(crate) fn too_long() -> Self {
+        let mistake = Mistake {
+            line: 1,
+            column: 1,
+            message: format!("a description of more than {LONGEST} bytes"),
+            label: "too long".to_owned(),
+            help: "write equal subtrees once, with `* 2` or `generations(...)`".to_owned(),
+        };
+        let text = format!("error: {}\nhelp: {}\n", mistake.message, mistake.help);
+        Self {
+            mistakes: vec![mistake],
+            text,
+        }
+    }
+
+    /// Returns the mistakes in the order of the text, one or more.
+    pub fn mistakes(&self) -> &[Mistake] {
+        &self.mistakes
+    }
+}
+
+impl fmt::Display for DescriptionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.text.trim_end())
+    }
+}
+
+impl std::error::Error for DescriptionError {}

@@ -1,0 +1,30 @@
+//! Pendulum trees that are described while a program runs.
+//!
+//! The attribute `branched_pendulum` derives the equations of one tree when a program is
+//! compiled. Here a text in the attribute's own grammar becomes a tree at once, without a
+//! compiler and without Symbolica: [`PendulumTree::parse`]. Its equations are those that
+//! the compiler derived and wrote for one link with all its properties left open; they are
+//! part of this crate, and the runtime takes them through any tree.
+//!
+//! Accelerations, energies, momenta, linear modes, positions, forces, drives, every
+//! integrator and ensembles in lanes are there. Energy transfers, budgets, symmetric
+//! coordinates, observables and Taylor series are derived for one tree and stay with
+//! compiled models, as does the speed of code that is written out: `docs/run-time-trees.md`.
+
+mod description;
+mod drive;
+mod energies;
+mod equations;
+mod error;
+mod forms;
+mod numbers;
+mod ode;
+mod positions;
+mod rows;
+mod text;
+mod tree;
+
+pub use description::TreeDescription;
+pub use error::{DescriptionError, Mistake, TreeError};
+pub use ode::TreeUnderTorques;
+pub use tree::PendulumTree;

@@ -1,0 +1,233 @@
+//! Links in numbers: the quantities of a description at values of its parameters, in some
+//! 106 bits, so that what is formed of them is rounded once.
+
+use branched_pendulum::emitted::{LinkBody, free_link};
+use branched_pendulum::scalar::{Double, Scalar};
+use branched_pendulum_codegen::scene::{Layout, Link, LinkId, Offset, Quantity, Scene, Sign};
+
+use crate::error::TreeError;
+
+/// A link. SI units; places are along the link and across it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LinkNumbers {
+    pub(crate) parent: Option<usize>,
+    pub(crate) mass: Double,
+    pub(crate) inertia: Double,
+    pub(crate) com: [Double; 2],
+    pub(crate) pivot: [Double; 2],
+    pub(crate) end: [Double; 2],
+    pub(crate) friction: Double,
+    pub(crate) drag: Double,
+    pub(crate) spring: Double,
+    pub(crate) rest: Double,
+}
+
+/// The value of a quantity.
+pub(crate) fn value(quantity: &Quantity, parameters: &[Double]) -> Double {
+    let number = |value: f64| Double::from_f64(value);
+    let at = |quantity: &Quantity| value(quantity, parameters);
+    match quantity {
+        Quantity::Exact(exact) => {
+            let (high, low) = exact.to_parts();
+            Double::from_parts(high, low)
+        }
+        Quantity::Parameter(id) => match parameters.get(id.0) {
+            Some(&value) => value,
+            None => number(f64::NAN),
+        },
+        Quantity::Sum(parts) => parts.iter().fold(number(0.0), |sum, part| sum + at(part)),
+        Quantity::Product(parts) => parts.iter().fold(number(1.0), |all, part| all * at(part)),
+        Quantity::Quotient(above, below) => at(above) / at(below),
+        Quantity::Power(base, exponent) => power(at(base), *exponent),
+        Quantity::Negative(value) => -at(value),
+    }
+}
+
+fn power(base: Double, exponent: i32) -> Double {
+    let one = Double::from_f64(1.0);
+    let (mut result, mut square, mut rest) = (one, base, exponent.unsigned_abs());
+    while rest > 0 {
+        if rest % 2 == 1 {
+            result = result * square;
+        }
+        square = square * square;
+        rest /= 2;
+    }
+    match exponent < 0 {
+        true => one / result,
+        false => result,
+    }
+}
+
+/// Checks what a description requires of its parameters.
+pub(crate) fn check(scene: &Scene, parameters: &[Double]) -> Result<(), TreeError> {
+    for (parameter, value) in scene.parameters.iter().zip(parameters) {
+        let what = || format!("parameter `{}`", parameter.name);
+        require(what, value.high(), Sign::Any)?;
+    }
+    for requirement in &scene.requirements {
+        let value = value(&requirement.quantity, parameters).high();
+        require(|| requirement.what.clone(), value, requirement.sign)?;
+    }
+    require(
+        || "gravity".to_owned(),
+        value(&scene.gravity, parameters).high(),
+        Sign::Any,
+    )
+}
+
+fn require(what: impl Fn() -> String, value: f64, sign: Sign) -> Result<(), TreeError> {
+    let (requirement, met) = match sign {
+        Sign::Any => ("finite", true),
+        Sign::NonNegative => ("zero or positive", value >= 0.0),
+        Sign::Positive => ("positive", value > 0.0),
+    };
+    match met && value.is_finite() {
+        true => Ok(()),
+        false => Err(TreeError::Value {
+            what: what(),
+            value,
+            requirement,
+        }),
+    }
+}
+
+/// The links of a scene, parents before children; in generations those of the whole tree.
+///
+/// # Errors
+/// A number that is not finite, and a link that can turn without kinetic energy.
+pub(crate) fn links(scene: &Scene, parameters: &[Double]) -> Result<Vec<LinkNumbers>, TreeError> {
+    let own: Vec<LinkNumbers> = scene
+        .links
+        .iter()
+        .map(|link| numbers(link, parameters))
+        .collect();
+    for (link, numbers) in scene.links.iter().zip(&own) {
+        for (name, value) in named(numbers) {
+            require(|| format!("{name} of `{}`", link.name), value, Sign::Any)?;
+        }
+    }
+    let bodies: Vec<LinkBody> = own.iter().map(body).collect();
+    if let Some(link) = free_link(&bodies).and_then(|index| scene.links.get(index)) {
+        return Err(TreeError::Value {
+            what: format!(
+                "moment of inertia of `{}` about its pivot, in some configuration,",
+                link.name
+            ),
+            value: 0.0,
+            requirement: "positive",
+        });
+    }
+    Ok(match scene.layout {
+        Layout::Generations { branching, .. } => in_generations(&own, branching),
+        _ => own,
+    })
+}
+
+/// Copies of one link of each generation, in the order of trees by rule: copy c under link
+/// i of a generation of n links is number c n + i of the next one.
+fn in_generations(own: &[LinkNumbers], branching: usize) -> Vec<LinkNumbers> {
+    let mut links = Vec::new();
+    let (mut above, mut count) = (0, 1);
+    for (generation, numbers) in own.iter().enumerate() {
+        let start = links.len();
+        let copies = if generation == 0 { 1 } else { branching };
+        for index in 0..copies * count {
+            let parent = (generation > 0).then_some(above + index % count);
+            links.push(LinkNumbers { parent, ..*numbers });
+        }
+        (above, count) = (start, copies * count);
+    }
+    links
+}
+
+/// Names of the links, in the same order.
+pub(crate) fn names(scene: &Scene) -> Vec<String> {
+    let Layout::Generations { branching, .. } = scene.layout else {
+        return scene.links.iter().map(|link| link.name.clone()).collect();
+    };
+    let mut names: Vec<String> = Vec::new();
+    let (mut above, mut count) = (0, 1);
+    for (generation, link) in scene.links.iter().enumerate() {
+        let start = names.len();
+        let copies = if generation == 0 { 1 } else { branching };
+        for index in 0..copies * count {
+            // The numbers of the copies that it hangs in, behind the name of the generation
+            // above.
+            let stem = scene.links.get(generation.wrapping_sub(1));
+            let suffix = stem.and_then(|stem| {
+                let parent: &String = names.get(above + index % count)?;
+                parent.get(stem.name.len()..)
+            });
+            let own = match copies > 1 {
+                true => format!("_{}", index / count + 1),
+                false => String::new(),
+            };
+            names.push(format!("{}{}{own}", link.name, suffix.unwrap_or_default()));
+        }
+        (above, count) = (start, copies * count);
+    }
+    names
+}
+
+fn numbers(link: &Link, parameters: &[Double]) -> LinkNumbers {
+    let at = |quantity: &Quantity| value(quantity, parameters);
+    let point = |offset: &Offset| [at(&offset.along), at(&offset.lateral)];
+    let optional = |quantity: &Option<Quantity>| match quantity {
+        Some(quantity) => at(quantity),
+        None => Double::from_f64(0.0),
+    };
+    LinkNumbers {
+        parent: link.parent.map(|LinkId(parent)| parent),
+        mass: at(&link.mass),
+        inertia: at(&link.inertia),
+        com: point(&link.com),
+        pivot: point(&link.pivot),
+        end: point(&link.end),
+        friction: optional(&link.friction),
+        drag: optional(&link.drag),
+        spring: optional(&link.spring),
+        rest: optional(&link.rest),
+    }
+}
+
+fn named(link: &LinkNumbers) -> [(&'static str, f64); 12] {
+    let LinkNumbers {
+        parent: _,
+        mass,
+        inertia,
+        com,
+        pivot,
+        end,
+        friction,
+        drag,
+        spring,
+        rest,
+    } = link;
+    [
+        ("mass", mass),
+        ("inertia", inertia),
+        ("centre of mass", &com[0]),
+        ("centre of mass", &com[1]),
+        ("pivot", &pivot[0]),
+        ("pivot", &pivot[1]),
+        ("end", &end[0]),
+        ("end", &end[1]),
+        ("friction", friction),
+        ("drag", drag),
+        ("spring", spring),
+        ("rest", rest),
+    ]
+    .map(|(name, value)| (name, value.high()))
+}
+
+fn body(link: &LinkNumbers) -> LinkBody {
+    LinkBody {
+        what: "",
+        parent: link.parent,
+        mass: link.mass.high(),
+        inertia: link.inertia.high(),
+        com: link.com.map(Double::high),
+        pivot: link.pivot.map(Double::high),
+    }
+}

@@ -1,0 +1,251 @@
+//! A tree that is described while the program runs.
+
+use std::fmt;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::Arc;
+
+use branched_pendulum::scalar::{Double, Scalar};
+use branched_pendulum::system::Workspace;
+use branched_pendulum::tree::{Bodies, PropertyTable, Shape};
+
+use crate::description::{TreeDescription, wide};
+use crate::drive::Courses;
+use crate::error::TreeError;
+use crate::forms::{Acting, Equations};
+use crate::numbers::{self, LinkNumbers};
+use crate::rows;
+
+/// A pendulum tree of any shape, as a description in text states it, in numbers `T`.
+///
+/// As a system of first-order equations ([`Ode`](branched_pendulum::system::Ode)) its
+/// state is the angles followed by the angular velocities, as that of
+/// [`AbsoluteAngles`](branched_pendulum::system::AbsoluteAngles): every method integrates
+/// it, and ensembles take it into lanes.
+///
+/// The equations are those of one link, derived and written by the compiler; a tree holds
+/// their constants. Links stand as those of a model that is compiled from the text do.
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum_trees::PendulumTree;
+///
+/// let tree = PendulumTree::parse(
+///     "gravity = 9.80665,
+///      parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+///          child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+///      ]",
+/// )?;
+/// assert_eq!(tree.names(), ["parent", "child_1", "child_2"]);
+/// let start = State::at_rest(0.0, &[0.8, 0.1, -0.1]);
+/// let method = Dop853::new(Options::with_tolerance(1e-12));
+/// let end = method.integrate(&tree, &start, 10.0, |_| ControlFlow::Continue(()))?.state;
+/// let energy = |state: &State<f64>| tree.energy(state.positions(), state.velocities());
+/// assert!((energy(&end) - energy(&start)).abs() < 1e-10 * energy(&start));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Mistakes are shown as the compiler shows those of an attribute:
+///
+/// ```
+/// use branched_pendulum_trees::PendulumTree;
+///
+/// let error = PendulumTree::parse("gravity = 9.81, rod(mas = 0.2, com = 0.3, inertia = 0)");
+/// let text = error.unwrap_err().to_string();
+/// assert!(text.contains("--> 1:21"), "{text}");
+/// assert!(text.contains("did you mean `mass`?"), "{text}");
+/// ```
+#[derive(Clone, Debug)]
+pub struct PendulumTree<T = f64> {
+    pub(crate) described: Arc<Described>,
+    pub(crate) equations: Equations<T>,
+    pub(crate) bodies: Bodies<T>,
+    pub(crate) properties: PropertyTable<T>,
+    pub(crate) drive: Option<Courses<T>>,
+}
+
+/// What is the same for trees on all scalars.
+pub(crate) struct Described {
+    description: TreeDescription,
+    values: Vec<f64>,
+    names: Vec<String>,
+    /// Number by which trees of other shapes differ.
+    pub(crate) shape: usize,
+}
+
+impl fmt::Debug for Described {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            description: _,
+            values,
+            names,
+            shape: _,
+        } = self;
+        f.debug_struct("Described")
+            .field("values", values)
+            .field("names", names)
+            .finish_non_exhaustive()
+    }
+}
+
+impl PendulumTree<f64> {
+    /// Returns the tree of a description without parameters: of what stands between the
+    /// parentheses of the attribute `branched_pendulum`. For one with parameters see
+    /// [`TreeDescription`].
+    ///
+    /// # Errors
+    /// [`TreeError::Description`] with all mistakes, [`TreeError::MissingValues`] where it
+    /// names parameters, [`TreeError::Value`] where no pendulum can have its values.
+    pub fn parse(text: &str) -> Result<Self, TreeError> {
+        TreeDescription::parse(text)?.tree(&[])
+    }
+}
+
+impl<T: Scalar> PendulumTree<T> {
+    pub(crate) fn of(description: TreeDescription, values: Vec<f64>) -> Result<Self, TreeError> {
+        let scene = &description.scene;
+        let parameters = wide(&values);
+        numbers::check(scene, &parameters)?;
+        let links = numbers::links(scene, &parameters)?;
+        let gravity = numbers::value(&scene.gravity, &parameters);
+        let (parents, carries) = rows::parents(&links);
+        let drive = scene.drive.as_ref();
+        let equations = match rows::straight(&links, &carries) {
+            Some(rows) if drive.is_none() => {
+                Equations::straight(&parents, in_numbers(&rows), constant(-gravity))
+            }
+            _ => {
+                let rows = rows::general(&links, &carries);
+                Equations::general(&parents, in_numbers(&rows), constant(-gravity))
+            }
+        };
+        let mut hasher = DefaultHasher::new();
+        (&parents, equations.is_general()).hash(&mut hasher);
+        let shape = Shape::Shared(parents.into());
+        let described = Described {
+            names: numbers::names(scene),
+            shape: hasher.finish() as usize,
+            description: description.clone(),
+            values,
+        };
+        Ok(Self {
+            described: Arc::new(described),
+            equations,
+            bodies: bodies(&links, gravity, &shape),
+            properties: PropertyTable::new(shape, in_numbers(&rows::properties(&links))),
+            drive: drive.map(|drive| Courses::of(drive, &parameters)),
+        })
+    }
+
+    /// Returns the tree with another value of a parameter.
+    ///
+    /// # Errors
+    /// A name that is no parameter, and a value that no pendulum can have.
+    pub fn with(&self, name: &str, value: f64) -> Result<Self, TreeError> {
+        let description = self.described.description.clone();
+        let place = description.place(name)?;
+        let mut values = self.described.values.clone();
+        if let Some(own) = values.get_mut(place) {
+            *own = value;
+        }
+        Self::of(description, values)
+    }
+
+    /// Returns the description.
+    pub fn description(&self) -> &TreeDescription {
+        &self.described.description
+    }
+
+    /// Returns the value of a parameter, in SI units.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        let place = self.described.description.place(name).ok()?;
+        self.described.values.get(place).copied()
+    }
+
+    /// Returns the number of links, each with one angle.
+    pub fn links(&self) -> usize {
+        self.described.names.len()
+    }
+
+    /// Returns the names of the links, in the order of the angles.
+    pub fn names(&self) -> &[String] {
+        &self.described.names
+    }
+
+    /// Returns the tree on other scalars: `convert` should change the type of its
+    /// constants and not their value.
+    #[must_use]
+    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
+        PendulumTree {
+            described: Arc::clone(&self.described),
+            equations: self.equations.cast(&convert),
+            bodies: self.bodies.cast(&convert),
+            properties: self.properties.cast(&convert),
+            drive: self.drive.as_ref().map(|drive| drive.cast(&convert)),
+        }
+    }
+
+    /// Returns the angular accelerations (rad/s²) at a time of the drive (s, of no account
+    /// without one), angles `theta` (rad) and angular velocities `omega` (rad/s). NaN for
+    /// slices of another length than there are links.
+    #[must_use]
+    pub fn accelerations(&self, time: T, theta: &[T], omega: &[T]) -> Vec<T> {
+        let mut alpha = vec![T::from_f64(0.0); self.links()];
+        self.accelerations_with(&mut Workspace::new(), time, theta, omega, &mut alpha);
+        alpha
+    }
+
+    /// Writes the angular accelerations, in memory that the caller keeps.
+    pub fn accelerations_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        theta: &[T],
+        omega: &[T],
+        alpha: &mut [T],
+    ) {
+        let acting = self.acting(time, None);
+        let given = [theta, omega];
+        self.equations.accelerate(workspace, acting, given, alpha);
+    }
+
+    /// Writes the angular accelerations under torques (N m) from outside on the links,
+    /// likewise; the torques of forces are those that
+    /// [`point_torques`](Self::point_torques) tells.
+    pub fn accelerations_under_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        time: T,
+        [theta, omega, torques]: [&[T]; 3],
+        alpha: &mut [T],
+    ) {
+        let acting = self.acting(time, Some(torques));
+        let given = [theta, omega];
+        self.equations.accelerate(workspace, acting, given, alpha);
+    }
+
+    #[inline(always)]
+    pub(crate) fn acting<'a>(&self, time: T, torques: Option<&'a [T]>) -> Acting<'a, T> {
+        let drive = self.drive.as_ref().map(|drive| drive.root(time));
+        Acting { drive, torques }
+    }
+}
+
+fn bodies<T: Scalar>(links: &[LinkNumbers], gravity: Double, shape: &Shape) -> Bodies<T> {
+    let bodies = Bodies::new(shape.clone(), in_numbers(&rows::bodies(links, gravity)));
+    let rests: Vec<Double> = links.iter().map(|link| link.rest).collect();
+    match rests.iter().all(|rest| rest.high() == 0.0) {
+        true => bodies,
+        false => bodies.with_rests(rests.into_iter().map(constant).collect()),
+    }
+}
+
+/// A constant in the numbers of a tree.
+fn constant<T: Scalar>(value: Double) -> T {
+    T::from_parts(value.high(), value.low())
+}
+
+fn in_numbers<T: Scalar, const N: usize>(rows: &[[Double; N]]) -> Vec<T> {
+    rows.as_flattened().iter().copied().map(constant).collect()
+}

@@ -1,0 +1,5 @@
+//! Trees that are described at run time: what can be told without the compiler.
+
+mod costs;
+mod mechanics;
+mod text;

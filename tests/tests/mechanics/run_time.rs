@@ -1,0 +1,92 @@
+//! Trees that are described at run time, against the interpreted program that the compiler
+//! derives for each, and against bodies with Cartesian velocities.
+
+use std::f64::consts::PI;
+
+use branched_pendulum_tests::oracle::cartesian::Motion;
+use branched_pendulum_tests::oracle::generator::{Recipe, sample};
+use branched_pendulum_tests::random::Random;
+use branched_pendulum_trees::PendulumTree;
+
+use crate::support::{Worst, compile};
+
+const TREES: u64 = 200;
+const STATES: usize = 20;
+
+/// Relative to the problem's conditioning, as in `random_trees`.
+#[test]
+fn random_trees_agree_with_their_programs() {
+    let (mut accelerations, mut energies) = (Worst::default(), Worst::default());
+    let mut bodies = Worst::default();
+    for seed in 0..TREES {
+        let recipe = Recipe {
+            links: 1 + seed as usize % 8,
+            copies: &[1, 1, 1, 2, 3],
+            nested: true,
+            requests: "energies, momenta",
+        };
+        let sample = sample(&recipe, 7000 + seed);
+        let compiled = compile(&sample.text);
+        let tree = PendulumTree::parse(&sample.text).expect("the compiler takes it");
+        let names: Vec<&String> = compiled.scene.links.iter().map(|link| &link.name).collect();
+        assert!(tree.names().iter().eq(names), "{}", sample.text);
+        let n = tree.links();
+        let mut random = Random::new(seed);
+        for count in 0..STATES {
+            let theta = random.around_zero(n, PI);
+            let omega = random.around_zero(n, 10.0);
+            let motion = Motion::new(&sample.tree, &theta, &omega);
+            let right = motion.accelerations();
+            let bound = motion.sensitivity(&right);
+            let own = tree.accelerations(0.0, &theta, &omega);
+            let interpreted = compiled.evaluate("accelerations", &[&theta, &omega]);
+            for link in 0..n {
+                let place = || format!("tree {seed}, state {count}, link {link}");
+                accelerations.note(own[link] - interpreted[link], bound[link], place);
+                bodies.note(own[link] - right[link], bound[link], place);
+            }
+            let place = || format!("tree {seed}, state {count}");
+            let kinetic = compiled.evaluate("kinetic_energy", &[&theta, &omega])[0];
+            let error = tree.kinetic_energy(&theta, &omega) - kinetic;
+            energies.note(error, motion.kinetic_terms, place);
+            let potential = compiled.evaluate("potential_energy", &[&theta])[0];
+            let error = tree.potential_energy(&theta) - potential;
+            energies.note(error, motion.potential_terms, place);
+            let momenta = compiled.evaluate("momenta", &[&theta, &omega]);
+            for (link, (own, other)) in tree.momenta(&theta, &omega).iter().zip(momenta).enumerate()
+            {
+                let row = motion.mass_terms.row(link);
+                let size: f64 = row.iter().zip(&omega).map(|(m, w)| m * w.abs()).sum();
+                energies.note(own - other, size, place);
+            }
+        }
+    }
+    accelerations.assert_below(1e-13, "accelerations");
+    bodies.assert_below(1e-12, "accelerations of bodies");
+    energies.assert_below(1e-14, "energies and momenta");
+}
+
+#[test]
+fn linear_modes_agree_with_the_derived_matrices() {
+    let text = "gravity = 9.80665,
+        limb(mass = 0.4, com = 0.2, inertia = 2e-3, joint = 0.5, spring = 0.3) [
+            twig: rod(mass = 0.1, length = 0.3, at = (0.4, 0.05), friction = 1e-3) * 2
+        ]";
+    let compiled = compile(&format!("{text}, emit(modes)"));
+    let tree = PendulumTree::parse(text).expect("it is right");
+    let theta = [0.3, -0.2, 0.5];
+    let pairs = [
+        ("mass_matrix", tree.mass_matrix(&theta)),
+        ("stiffness_matrix", tree.stiffness_matrix(&theta)),
+    ];
+    for (entry, own) in pairs {
+        let derived = compiled.evaluate(entry, &[&theta]);
+        let size = derived.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+        for (own, derived) in own.iter().flatten().zip(derived) {
+            assert!(
+                (own - derived).abs() < 1e-14 * size,
+                "{entry}: {own} {derived}"
+            );
+        }
+    }
+}

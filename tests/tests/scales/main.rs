@@ -1,0 +1,67 @@
+//! Budgets by scale of trees in loops: against budgets by sector that are written out,
+//! against rates of the energies along the motion, and against each other.
+
+mod rates;
+mod written_out;
+
+use branched_pendulum::prelude::*;
+use branched_pendulum::sectors::{ScaleBudget, Scales};
+use branched_pendulum::system::Workspace;
+use branched_pendulum_tests::random::Random;
+
+/// A tree in loops and its description.
+macro_rules! tree {
+    ($name:ident, $text:ident: $($tree:tt)*) => {
+        #[branched_pendulum(
+            gravity = 9.80665, emit(energies, forces, budget(parseval, scales)), $($tree)*
+        )]
+        struct $name;
+
+        /// Its description without what is asked for.
+        const $text: &str = stringify!($($tree)*);
+    };
+}
+
+tree!(Seven, SEVEN: tree: generations(count = 3, branching = 2, shape = rod, mass = 0.12,
+    length = 0.3, mass_ratio = 0.5, length_ratio = 0.7));
+tree!(Fifteen, FIFTEEN: tree: generations(count = 4, branching = 2, mass = 0.12,
+    com = (0.14, 0.02), inertia = 1e-3, joint = (0.3, 0.05), mass_ratio = 0.5,
+    length_ratio = 0.7, friction = 1e-3, drag = 4e-4, spring = 0.02),
+    drive(torque = 0.4 * cos(3 * t), x = 0.02 * sin(5 * t), y = 0.01 * cos(4 * t)));
+tree!(ThirtyOne, THIRTY_ONE: tree: generations(count = 5, branching = 2, shape = rod,
+    mass = 0.2, length = 0.3, mass_ratio = 0.6, length_ratio = 0.8, friction = 1e-4),
+    drive(torque = 0.2 * cos(4 * t)));
+tree!(Thirteen, THIRTEEN: tree: generations(count = 3, branching = 3, shape = rod, mass = 0.12,
+    length = 0.3, mass_ratio = 0.4, length_ratio = 0.7, drag = 1e-3));
+
+/// A state at a time, with torques from outside.
+struct Sample {
+    time: f64,
+    theta: Vec<f64>,
+    omega: Vec<f64>,
+    torques: Vec<f64>,
+}
+
+fn samples(links: usize, count: usize) -> Vec<Sample> {
+    let mut random = Random::new(11);
+    (0..count)
+        .map(|_| Sample {
+            time: random.between(-3.0, 3.0),
+            theta: random.around_zero(links, 3.0),
+            omega: random.around_zero(links, 9.0),
+            torques: random.around_zero(links, 0.1),
+        })
+        .collect()
+}
+
+fn budget<M: Scales<f64>>(model: &M, sample: &Sample) -> ScaleBudget<f64> {
+    let (mut workspace, mut budget) = (Workspace::new(), ScaleBudget::new());
+    let Sample {
+        time,
+        theta,
+        omega,
+        torques,
+    } = sample;
+    model.budget_by_scale_under(&mut workspace, *time, theta, omega, torques, &mut budget);
+    budget
+}
