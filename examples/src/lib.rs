@@ -11,6 +11,7 @@ pub mod cascade;
 pub mod critical_angle;
 pub mod failure;
 pub mod film;
+pub mod identify;
 pub mod integration_speed;
 pub mod program;
 pub mod quadrature;

@@ -15,7 +15,7 @@ use branched_pendulum_examples::critical_angle::scene::{InPhase, InPhaseParamete
 use branched_pendulum_examples::critical_angle::{self, Friction};
 use branched_pendulum_examples::program::Job;
 use branched_pendulum_examples::program::command_line::parse_line;
-use branched_pendulum_examples::release_map::blades::Ridge;
+use branched_pendulum_examples::release_map::tongues::Ridge;
 use branched_pendulum_examples::release_map::{self, normal_modes};
 
 /// The whole pendulum of the paper.

@@ -53,6 +53,12 @@ pub struct Arguments {
         value_parser = numbers(1.0..=1e6, "")
     )]
     pub quality: ::std::vec::Vec<f64>,
+    /// looks at trees by rule instead: the smallest of the angles from which
+    /// differences of their first branching grow by the first of the levels within
+    /// 12.58 periods, for 2 to 6 generations, two and three copies, and some ratios
+    /// of masses and lengths
+    #[arg(verbatim_doc_comment, long)]
+    pub trees: bool,
     /// relative error of one integration step, 1e-12 to 1e-3; all is repeated with a
     /// hundredth of it, whose values are told
     #[arg(

@@ -3,13 +3,15 @@
 //!
 //! - [`arguments`]: the command line, [`scene`]: the pendulum in phase,
 //! - [`scan`]: growth at every angle, [`windows`]: where it is large,
-//! - [`report`]: words and table, [`charts`]: charts.
+//! - [`report`]: words and table, [`charts`]: charts,
+//! - [`trees`]: the threshold of trees by rule.
 
 pub mod arguments;
 pub mod charts;
 pub mod report;
 pub mod scan;
 pub mod scene;
+pub mod trees;
 pub mod windows;
 
 pub use arguments::Arguments;
@@ -24,9 +26,12 @@ use crate::program::Job;
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    job.take_interruption();
+    if arguments.trees {
+        return trees::run(arguments, job);
+    }
     let frictions = Friction::all(arguments);
     let progress = job.progress(frictions.len());
-    job.take_interruption();
     let mut scans = Vec::new();
     for friction in frictions {
         if job.is_interrupted() {

@@ -42,15 +42,18 @@ fn windows_of(arguments: &Arguments, scan: &Scan) -> String {
             scan.friction, scan.constant
         ),
     };
-    let end = scan.angles_deg.last().copied().unwrap_or(f64::NAN);
-    let told = |windows: Vec<[f64; 2]>| match windows.len().checked_sub(MOST_WINDOWS) {
-        None | Some(0) => words(&windows, end),
-        Some(more) => format!("{}, and {more} more", words(&windows[..MOST_WINDOWS], end)),
+    let angles = &scan.angles_deg;
+    let told = |windows: Vec<[usize; 2]>| match windows.len().checked_sub(MOST_WINDOWS) {
+        None | Some(0) => words(&windows, angles),
+        Some(more) => format!(
+            "{}, and {more} more",
+            words(&windows[..MOST_WINDOWS], angles)
+        ),
     };
     for (number, horizon) in arguments.horizons.iter().enumerate() {
         let factor = |index: usize| scan.grown[index].factors[number];
         for level in &arguments.levels {
-            let inside = windows(&scan.angles_deg, |index| factor(index).value >= *level);
+            let inside = windows(angles.len(), |index| factor(index).value >= *level);
             let from = format!("G({horizon} s) ≥ {level}");
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  {from:20} {}", told(inside));
@@ -58,7 +61,7 @@ fn windows_of(arguments: &Arguments, scan: &Scan) -> String {
         let open = |index: usize| !factor(index).is_determined();
         let count = (0..scan.grown.len()).filter(|index| open(*index)).count();
         if count > 0 {
-            let all = told(windows(&scan.angles_deg, open));
+            let all = told(windows(angles.len(), open));
             let _ = writeln!(
                 text,
                 "  G({horizon} s) is not determined at {count} angles: {all}"

@@ -3,16 +3,16 @@
 //!
 //! - [`arguments`]: the command line, [`scenes`]: the trees in phase,
 //! - [`map`]: growth at every point of a plane,
-//! - [`normal_modes`]: the nonlinear normal modes through it, [`blades`]: the tongues of
-//!   instability between them, and their frequencies,
+//! - [`normal_modes`]: the nonlinear normal modes through it, [`tongues`]: tongues of
+//!   instability, and their frequencies,
 //! - [`output`]: words, table and chart.
 
 pub mod arguments;
-pub mod blades;
 pub mod map;
 pub mod normal_modes;
 pub mod output;
 pub mod scenes;
+pub mod tongues;
 
 pub use arguments::{Arguments, Plane, Scene};
 pub use map::Map;
@@ -42,11 +42,13 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
                 return Ok(());
             }
             let modes = normal_modes::of(&model, map.largest())?;
-            let blades = match job.is_interrupted() {
-                true => Vec::new(),
-                false => blades::find(arguments, &model, &modes)?,
-            };
-            output::releases(arguments, job, &map, &modes, &blades)
+            let mut tongues = Vec::new();
+            for line in tongues::lines(arguments) {
+                if !job.is_interrupted() {
+                    tongues.extend(tongues::along(&line, arguments, &model, &modes)?);
+                }
+            }
+            output::releases(arguments, job, &map, &modes, &tongues)
         }
         (Plane::Releases, Scene::Arms) => {
             let map = map::over_releases(arguments, job, &ArmsInPhase::new())?;

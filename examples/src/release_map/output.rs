@@ -6,9 +6,9 @@ use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::{Arguments, Scene};
-use super::blades::{Resonance, Tongue, span};
 use super::map::Map;
 use super::normal_modes::NormalMode;
+use super::tongues::{Resonance, Tongue, span};
 use crate::critical_angle::scan::PAPER;
 use crate::failure::Failure;
 use crate::program::Job;
@@ -206,14 +206,18 @@ fn list(arguments: &Arguments, tongues: &[Tongue]) -> String {
         return String::new();
     }
     let mut text = format!(
-        "\nTongues of instability at some angles of the parent, over {} s: where they grow most\n  \
-         parent  children (tongue)           rate 1/s  f_eff Hz    f_+ Hz    f_− Hz  resonance\n",
+        "\nTongues of instability at some angles of the parent and at the paper's angle of the\n\
+         children, 0°: where differences grow most, over {} s\n  \
+         parent                children              rate 1/s  f_eff Hz    f_+ Hz    f_− Hz  resonance\n",
         span(arguments)
     );
     for Tongue { edges, ridge } in tongues {
-        let ([parent, children], [from, to]) = (ridge.release, *edges);
+        let [from, to] = *edges;
         let [plus, minus] = ridge.modes;
-        let place = format!("{children}° ({from}° to {to}°)");
+        let [parent, children] = [0, 1].map(|i| match ridge.release[i] {
+            angle if from[i] == to[i] => format!("{angle}°"),
+            angle => format!("{angle}° ({} to {})", from[i], to[i]),
+        });
         let resonance = match ridge.resonance {
             None => "-".to_owned(),
             Some(Resonance { numbers, mismatch }) => {
@@ -223,7 +227,7 @@ fn list(arguments: &Arguments, tongues: &[Tongue]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "  {parent:5}°  {place:26}  {:8.4}  {:8.5}  {plus:8.5}  {minus:8.5}  {resonance}",
+            "  {parent:20}  {children:20}  {:8.4}  {:8.5}  {plus:8.5}  {minus:8.5}  {resonance}",
             ridge.rate, ridge.effective,
         );
     }

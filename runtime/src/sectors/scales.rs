@@ -275,8 +275,10 @@ impl<T: Scalar> ScaleBudget<T> {
         put(&mut self.transfers, from * self.scales + to, -value);
     }
 
-    pub(crate) fn set_power(&mut self, kind: PowerKind, scale: usize, value: T) {
-        put(&mut self.powers, kind as usize * self.scales + scale, value);
+    pub(crate) fn add_power(&mut self, kind: PowerKind, scale: usize, value: T) {
+        if let Some(power) = self.powers.get_mut(kind as usize * self.scales + scale) {
+            *power = *power + value;
+        }
     }
 }
 

@@ -113,6 +113,34 @@ fn errors_of_pairs_are_of_third_order_and_of_means_of_fourth() {
     assert!(means > 3.8 && differences > 2.8, "{means} {differences}");
 }
 
+macro_rules! braked {
+    ($name:ident $(, $entry:ident($($inside:tt)*))*) => {
+        #[branched_pendulum(
+            gravity = 9.80665,
+            parent(mass = 0.13, com = 0.08, inertia = 1.9e-3, joint = 0.27,
+                friction(coulomb = 2e-2, width = 2)) [
+                child(mass = 0.11, com = 0.043, inertia = 0.5e-3,
+                    friction(viscous = 1e-5, coulomb = 5e-2, quadratic = 1e-3, width = 2),
+                    drag(quadratic = 2e-3, width = 2)) * 2
+            ],
+            $($entry($($inside)*)),*
+        )]
+        struct $name;
+    };
+}
+
+braked!(Braked);
+braked!(BrakedSmall, in_phase(child), emit(small));
+
+/// The second derivatives of friction act on the motion in phase.
+#[test]
+fn friction_of_all_kinds_keeps_the_orders() {
+    let models = (&BrakedSmall::new(), &Braked::new());
+    let patterns = DifferencePatterns::of::<f64, _>(models.0, BrakedSmall::WHOLE).expect("a pair");
+    let [means, differences] = order(models, &patterns, [1e-2, 5e-3]);
+    assert!(means > 3.8 && differences > 2.8, "{means} {differences}");
+}
+
 /// Friction, drag, springs, offsets and a drive; three copies, whose third-order terms do
 /// not cancel.
 #[test]

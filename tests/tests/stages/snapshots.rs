@@ -159,6 +159,27 @@ fn paper() {
     );
 }
 
+/// Two copies with every law of friction.
+#[test]
+fn braked() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(gravity = 9.80665, \
+         trunk: rod(mass = 1, length = 1, friction(viscous = c, coulomb = dry, width = 0.1)) [ \
+             twig: rod(mass = 0.5, length = 0.5, friction(coulomb = dry, quadratic = 1e-3), \
+                 drag(quadratic = 2e-3)) * 2 ], \
+         emit(energies, symmetric, forces))] struct Braked;",
+    );
+    insta::assert_snapshot!("braked_description", stages.description.to_string());
+    insta::assert_snapshot!("braked_scene", stages.scene.to_string());
+    insta::assert_snapshot!("braked_mechanics", stages.mechanics.to_string());
+    for name in ["accelerations", "symmetric_accelerations", "friction_power"] {
+        insta::assert_snapshot!(
+            format!("braked_code_{name}"),
+            function(&stages.tokens, name)
+        );
+    }
+}
+
 /// The pendulum of one rod: one order of its Taylor coefficients.
 #[test]
 fn taylor() {

@@ -1,5 +1,5 @@
-//! The tongues of instability between the two modes: where the growth rate is largest
-//! across them, and the frequencies there.
+//! Tongues of instability along lines through the plane of releases: where the growth
+//! rate is largest across them, and the frequencies there.
 
 use branched_pendulum::analysis::growth::{Growth, frequency_at_rest, turns_a_second};
 use branched_pendulum::prelude::*;
@@ -11,11 +11,12 @@ use crate::critical_angle::scene::InPhase;
 use crate::critical_angle::windows::windows;
 use crate::failure::Failure;
 
-/// A tongue of instability, crossed at one angle of the parent.
+/// A tongue of instability, crossed by a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tongue {
-    /// Angles of the children between which differences grow, degrees.
-    pub edges: [f64; 2],
+    /// First and last release on the line from which differences grow: angles of parent
+    /// and children, degrees.
+    pub edges: [[f64; 2]; 2],
     /// The place of largest growth.
     pub ridge: Ridge,
 }
@@ -67,40 +68,46 @@ pub fn span(arguments: &Arguments) -> f64 {
     SPANS * arguments.span
 }
 
-/// Finds the tongues at some angles of the parent; none where the motion is chaotic.
+/// The lines that are looked along: across the plane at some angles of the parent, and
+/// the releases of the paper.
+pub fn lines(arguments: &Arguments) -> Vec<Vec<[f64; 2]>> {
+    let mut children = arguments.children();
+    children.retain(|angle| CHILDREN.contains(angle));
+    let shown = PARENTS.iter().filter(|parent| **parent <= arguments.parent);
+    let across = shown.map(|&parent| children.iter().map(|&child| [parent, child]).collect());
+    let paper = arguments.parents().into_iter().map(|parent| [parent, 0.0]);
+    across.chain([paper.collect()]).collect()
+}
+
+/// Finds the tongues along a line of releases; none where the motion is chaotic.
 ///
 /// # Errors
 /// [`Failure::Growth`] or [`Failure::Integration`].
-pub fn find(
+pub fn along(
+    line: &[[f64; 2]],
     arguments: &Arguments,
     model: &InPhase,
     modes: &[NormalMode],
 ) -> Result<Vec<Tongue>, Failure> {
     let ode = first_sector(model)?;
     let growth = growth(model, span(arguments), arguments.tolerance)?;
-    let mut children = arguments.children();
-    children.retain(|angle| CHILDREN.contains(angle));
+    let starts = line.iter();
+    let starts = starts.map(|&[parent, child]| (ode, at_rest::<InPhase>(parent, child)));
+    let grown = growth.in_lanes(&Ensemble::new(), &starts.collect::<Vec<_>>());
+    let rates = grown.into_iter().map(|grown| Ok(grown?.rate.value));
+    let rates = rates.collect::<Result<Vec<f64>, Failure>>()?;
+    let settings = (span(arguments), arguments.tolerance);
     let mut tongues = Vec::new();
-    for parent in PARENTS {
-        if parent > arguments.parent {
-            continue;
-        }
-        let releases = children.iter();
-        let releases = releases.map(|angle| (ode, at_rest::<InPhase>(parent, *angle)));
-        let grown = growth.in_lanes(&Ensemble::new(), &releases.collect::<Vec<_>>());
-        let rates = grown.into_iter().map(|grown| Ok(grown?.rate.value));
-        let rates = rates.collect::<Result<Vec<f64>, Failure>>()?;
-        for edges in windows(&children, |index| rates[index] >= LEAST) {
-            let inside = children.iter().zip(&rates);
-            let inside = inside.filter(|(angle, _)| (edges[0]..=edges[1]).contains(*angle));
-            let Some((&angle, _)) = inside.max_by(|a, b| a.1.total_cmp(b.1)) else {
-                continue;
-            };
-            let settings = (span(arguments), arguments.tolerance);
-            if let Some(ridge) = Ridge::at(model, modes, [parent, angle], settings)? {
-                tongues.push(Tongue { edges, ridge });
-            }
-        }
+    for [first, last] in windows(rates.len(), |index| rates[index] >= LEAST) {
+        let highest = (first..=last).max_by(|a, b| rates[*a].total_cmp(&rates[*b]));
+        let ridge = match highest {
+            Some(highest) => Ridge::at(model, modes, line[highest], settings)?,
+            None => None,
+        };
+        tongues.extend(ridge.map(|ridge| Tongue {
+            edges: [line[first], line[last]],
+            ridge,
+        }));
     }
     Ok(tongues)
 }

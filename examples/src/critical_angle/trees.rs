@@ -1,0 +1,238 @@
+//! The threshold of the first branching of trees by rule: 2 to 6 generations of rods,
+//! two or three on each, by the ratios of their masses and lengths.
+
+use std::fmt::Write;
+
+use branched_pendulum::analysis::growth::{Growth, frequency_at_rest};
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::TransverseOde;
+use branched_pendulum::{ParameterError, Transverse};
+use branched_pendulum_data::{Cell, Column};
+
+use super::arguments::Arguments;
+use crate::failure::Failure;
+use crate::program::Job;
+
+/// Trees of so many generations in phase, two rods on each.
+macro_rules! trees {
+    ($($name:ident, $parameters:ident, $count:tt;)*) => {
+        $(
+            /// A tree of rods in phase.
+            #[branched_pendulum(
+                gravity = 9.80665,
+                tree: generations(count = $count, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+                    mass_ratio = mass_ratio, length_ratio = length_ratio),
+                in_phase(tree),
+                emit(transverse),
+            )]
+            pub struct $name;
+        )*
+
+        /// Numbers of generations.
+        pub const GENERATIONS: &[usize] = &[$($count),*];
+
+        fn factors(rule: Rule, arguments: &Arguments) -> Result<Vec<Factor>, Failure> {
+            let mass_ratio = rule.pair_ratio();
+            match rule.generations {
+                $($count => {
+                    let parameters = $parameters { mass_ratio, length_ratio: rule.length_ratio };
+                    along(|| $name::new(parameters), arguments)
+                })*
+                _ => Ok(Vec::new()),
+            }
+        }
+    };
+}
+
+trees! {
+    Two, TwoParameters, 2;
+    Three, ThreeParameters, 3;
+    Four, FourParameters, 4;
+    Five, FiveParameters, 5;
+    Six, SixParameters, 6;
+}
+
+/// A tree by rule.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rule {
+    /// Number of generations.
+    pub generations: usize,
+    /// Rods that hang from each one.
+    pub copies: u32,
+    /// Mass of a rod over that of its parent.
+    pub mass_ratio: f64,
+    /// Length of a rod over that of its parent.
+    pub length_ratio: f64,
+}
+
+impl Rule {
+    /// Returns the ratio of masses with two rods on each that moves alike: in phase k
+    /// copies are one of k times the mass, and differences of the first branching obey
+    /// the equations of one of its subtrees, in which masses count by their ratios alone.
+    pub fn pair_ratio(&self) -> f64 {
+        self.mass_ratio * f64::from(self.copies) / 2.0
+    }
+}
+
+/// The threshold of a tree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Threshold {
+    /// The tree.
+    pub rule: Rule,
+    /// Smallest angle of the scan with the growth factor, degrees.
+    pub angle_deg: Option<f64>,
+    /// False where the growth there is not determined.
+    pub determined: bool,
+}
+
+/// Growth factor at an angle, and whether it is determined.
+type Factor = (f64, bool);
+
+/// Periods of the difference at rest over which growth is looked at: 10 s of the paper's
+/// pendulum.
+const PERIODS: f64 = 12.58;
+
+/// Ratios of masses and of lengths.
+const MASSES: [f64; 3] = [0.25, 0.5, 1.0];
+const LENGTHS: [f64; 3] = [0.5, 0.7, 1.0];
+
+/// Releases from rest, the root at every angle and all others vertical.
+fn along<P: Transverse<f64> + Sync>(
+    model: impl Fn() -> Result<P, ParameterError>,
+    arguments: &Arguments,
+) -> Result<Vec<Factor>, Failure> {
+    let model = model()?;
+    let releases = arguments.angles_deg.iter().map(|degrees| {
+        let ode = TransverseOde::new(&model, 0).ok_or(Failure::NoPair)?;
+        let mut angles = vec![0.0; P::LINKS];
+        angles[0] = degrees.to_radians();
+        angles.resize(P::LINKS + ode.sector().links, 1.0);
+        Ok((ode, State::at_rest(0.0, &angles)))
+    });
+    let releases = releases.collect::<Result<Vec<_>, Failure>>()?;
+    let frequency_hz = releases
+        .first()
+        .map_or(f64::NAN, |(ode, _)| frequency_at_rest(ode));
+    let growth = Growth {
+        frequency_hz,
+        horizons: vec![PERIODS / frequency_hz],
+        tolerance: arguments.tolerance,
+    };
+    let grown = growth.in_lanes(&Ensemble::new(), &releases).into_iter();
+    // A motion that cannot be followed is not determined.
+    let factors = grown.map(
+        |grown| match grown.ok().and_then(|g| g.factors.first().copied()) {
+            Some(factor) => (factor.value, factor.is_determined()),
+            None => (f64::INFINITY, false),
+        },
+    );
+    Ok(factors.collect())
+}
+
+/// Finds the threshold of a tree: the first level of the command line.
+///
+/// # Errors
+/// [`Failure`].
+pub fn threshold(rule: Rule, arguments: &Arguments) -> Result<Threshold, Failure> {
+    let level = arguments.levels.first().copied().unwrap_or(f64::INFINITY);
+    let factors = factors(rule, arguments)?;
+    let both = arguments.angles_deg.iter().zip(&factors);
+    let first = both.into_iter().find(|(_, (factor, _))| *factor >= level);
+    Ok(Threshold {
+        rule,
+        angle_deg: first.map(|(angle, _)| *angle),
+        determined: first.is_none_or(|(_, (_, determined))| *determined),
+    })
+}
+
+/// Computes, prints and writes the thresholds of all trees.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let mut rules = Vec::new();
+    for copies in [2, 3] {
+        for mass_ratio in MASSES {
+            for length_ratio in LENGTHS {
+                rules.extend(GENERATIONS.iter().map(|&generations| Rule {
+                    generations,
+                    copies,
+                    mass_ratio,
+                    length_ratio,
+                }));
+            }
+        }
+    }
+    let progress = job.progress(rules.len());
+    progress.begin("trees");
+    let mut thresholds = Vec::new();
+    for rule in rules {
+        if job.is_interrupted() {
+            break;
+        }
+        thresholds.push(threshold(rule, arguments)?);
+        progress.next();
+    }
+    if thresholds.is_empty() {
+        return Ok(());
+    }
+    job.print(&report(arguments, &thresholds))?;
+    let columns = [
+        Column::new("copies", ""),
+        Column::new("mass ratio", ""),
+        Column::new("length ratio", ""),
+        Column::new("generations", ""),
+        Column::new("critical angle", "degrees"),
+        Column::new("determined", ""),
+    ];
+    job.csv("critical-angles.csv", &columns, |csv| {
+        thresholds.iter().try_for_each(|threshold| {
+            let Rule {
+                generations,
+                copies,
+                mass_ratio,
+                length_ratio,
+            } = threshold.rule;
+            csv.row([
+                Cell::from(u64::from(copies)),
+                mass_ratio.into(),
+                length_ratio.into(),
+                (generations as u64).into(),
+                threshold.angle_deg.unwrap_or(f64::NAN).into(),
+                u64::from(threshold.determined).into(),
+            ])
+        })
+    })
+}
+
+fn report(arguments: &Arguments, thresholds: &[Threshold]) -> String {
+    let level = arguments.levels.first().copied().unwrap_or(f64::INFINITY);
+    let mut text = format!(
+        "Smallest angle of the root, all others vertical, from which differences of the first\n\
+         branching grow {level}-fold within {PERIODS} periods of theirs at rest\n\n\
+         copies  mass ratio  length ratio  generations:"
+    );
+    for generations in GENERATIONS {
+        let _ = write!(text, "{generations:>9}");
+    }
+    for row in thresholds.chunks(GENERATIONS.len()) {
+        let Some(Threshold { rule, .. }) = row.first() else {
+            continue;
+        };
+        // Writing to a string cannot fail.
+        let _ = write!(
+            text,
+            "\n{:6}  {:10}  {:12}              ",
+            rule.copies, rule.mass_ratio, rule.length_ratio
+        );
+        for threshold in row {
+            let mark = if threshold.determined { "" } else { "?" };
+            let angle = threshold
+                .angle_deg
+                .map_or("-".to_owned(), |angle| format!("{angle}°{mark}"));
+            let _ = write!(text, "{angle:>9}");
+        }
+    }
+    text.push_str("\n(- nowhere in the scan, ? not determined)\n");
+    text
+}
