@@ -8,7 +8,6 @@ use super::scale_function::ScaleFunction;
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{LinkBalance, LinkScales, LinkSymbols};
 use crate::program::entries::EntryList;
-use crate::program::friction::Law;
 use crate::program::lower::Lowering;
 use crate::program::pair::Pair;
 use crate::program::{Argument, Purpose, Shape, ValueId};
