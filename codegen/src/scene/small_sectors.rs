@@ -3,9 +3,9 @@
 
 use proc_macro2::{Ident, Span};
 
+use super::Scene;
 use super::coordinates::symmetric_coordinates;
 use super::sectors::sectors;
-use super::{Link, Scene};
 use crate::description::RequestForm;
 use crate::report::{OutputMessage, Report, nearest};
 
@@ -42,26 +42,21 @@ pub(super) fn resolve_acting(
     scene: &mut Scene,
     report: &mut Report,
 ) {
-    let Some((span, named)) = resolved else {
+    let Some((_, named)) = resolved else {
         return;
     };
     let sectors = scene.transverse_sectors();
-    let names: Vec<&str> = sectors.iter().map(|sector| sector.name.as_str()).collect();
-    let find = |name: &str| names.iter().position(|known| *known == name);
-    let small = match named.is_empty() {
-        true => (0..sectors.len()).collect(),
-        false => resolve_sectors(named, &names, find, report),
-    };
-    let mut links = small.iter().flat_map(|&number: &usize| {
-        let sector = &sectors[number];
-        &scene.links[sector.first.0..sector.first.0 + sector.links]
-    });
-    // Their torques have second derivatives, which are not derived.
-    let braked = |link: &&Link| link.nonlinear.joint.is_some() || link.nonlinear.ground.is_some();
-    if let Some(link) = links.find(braked) {
-        let link = link.name.clone();
-        report.error(*span, OutputMessage::SmallFriction { link });
+    if named.is_empty() {
+        scene.requests.small = (0..sectors.len()).collect();
+        return;
     }
+    let names: Vec<&str> = sectors.iter().map(|sector| sector.name.as_str()).collect();
+    let small = resolve_sectors(
+        named,
+        &names,
+        |name| names.iter().position(|known| *known == name),
+        report,
+    );
     scene.requests.small = small;
 }
 

@@ -118,11 +118,6 @@ pub enum OutputMessage {
         /// The function.
         function: String,
     },
-    /// Differences that act back of links whose friction is not viscous.
-    SmallFriction {
-        /// The first of these links.
-        link: String,
-    },
     /// Small differences of copies in phase where there are none.
     NoTransverse {
         /// `transverse` or `small`.
@@ -317,12 +312,6 @@ impl OutputMessage {
                 format!("there is a function `{function}` already"),
                 format!("`{name}` would emit it again"),
                 format!("choose another name, as in `my_{name}`"),
-            ),
-            M::SmallFriction { link } => problem(
-                "differences that act back know viscous friction alone",
-                format!("`{link}` has Coulomb or quadratic friction"),
-                "write `emit(transverse)` for differences that do not act back, or leave the sector \
-                 out: `small(...)` with the names of others",
             ),
             M::NoTransverse { request } => problem(
                 format!("`{request}` needs copies that move in phase"),

@@ -259,15 +259,6 @@ pub(super) const CASES: &[Case] = &[
     in_phase(bone), emit(small(bon, c, bone, bone, bone(a))))] struct Pendulum;",
     ),
     (
-        "small_friction",
-        "#[branched_pendulum(gravity = 1,
-    a: rod(mass = 1, length = 1) [
-        b: rod(mass = 1, length = 1) * 2,
-        c: rod(mass = 1, length = 1, friction(coulomb = 1, width = 1)) * 2
-    ],
-    in_phase(all), emit(small))] struct Pendulum;",
-    ),
-    (
         "small_of_none",
         "#[branched_pendulum(gravity = 1,
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
