@@ -9,7 +9,9 @@ use branched_pendulum::analysis::advice::AdviceError;
 use branched_pendulum::analysis::growth::GrowthError;
 use branched_pendulum::analysis::statistics::StatisticsError;
 use branched_pendulum::analysis::truncation::TruncationError;
-use branched_pendulum::analysis::{ModesError, SectorModesError, SmoothingError, SpectrumError};
+use branched_pendulum::analysis::{
+    IdentificationError, ModesError, SectorModesError, SmoothingError, SpectrumError,
+};
 use branched_pendulum::approximate::LinearError;
 use branched_pendulum_charts::ChartError;
 use branched_pendulum_data::{CsvError, ReadError};
@@ -47,7 +49,7 @@ pub enum Failure {
     #[error("the linear modes of the sectors could not be found")]
     SectorModes(#[from] SectorModesError),
     /// A spectrum could not be taken.
-    #[error("the spectrum of θ_m could not be taken")]
+    #[error("the spectrum could not be taken")]
     Spectrum(#[from] SpectrumError),
     /// There is no linear model of small motions.
     #[error("the linear model could not be made")]
@@ -71,16 +73,29 @@ pub enum Failure {
     #[error("the measurements could not be read")]
     Reading(#[from] ReadError),
     /// A file holds another number of links than the pendulum.
-    #[error("{} holds angles of {found} links where the pendulum has 3; name them by `--columns` or `--dots`", path.display())]
+    #[error("{} holds angles of {found} links where the pendulum has {needed}; name them by `--columns` or `--dots`", path.display())]
     Links {
         /// The file.
         path: PathBuf,
         /// Number of links found.
         found: usize,
+        /// Number of links of the pendulum.
+        needed: usize,
+    },
+    /// A file of constants is none.
+    #[error("{} is no table of names and values", path.display())]
+    Parameters {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Box<dyn Error + Send + Sync>,
     },
     /// Measured angles could not be smoothed.
     #[error("the motion could not be estimated")]
     Smoothing(#[from] SmoothingError),
+    /// Parameters could not be identified.
+    #[error("the parameters could not be identified")]
+    Identification(#[from] IdentificationError),
     /// The output folder could not be made.
     #[error("cannot make the output folder {}", path.display())]
     Folder {

@@ -9,19 +9,31 @@ use crate::branched_double::Friction;
 use crate::program::Results;
 use crate::program::command_line::number;
 
-/// From measured angles of the paper's pendulum to H_d and W with their errors. The
-/// file is a table of three angles against time, or of two dots a link as Tracker or
-/// DeepLabCut write them; without one a camera is simulated, whose truth is known.
+/// From measured angles of a pendulum to its energy and power with their errors: of the
+/// paper's pendulum H_d and W, of a chain of two links H and the power of friction. The
+/// file is a table of angles against time, or of two dots a link as Tracker or DeepLabCut
+/// write them; without one a camera before the paper's pendulum is simulated, whose truth
+/// is known.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "analyse", version, verbatim_doc_comment)]
 pub struct Arguments {
     /// file of measurements; without it a camera is simulated
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
-    /// columns of the angles of parent and children; all but the time without it
+    /// what the angles are those of
+    #[arg(long, value_enum, value_name = "TREE", default_value = "branched")]
+    pub pendulum: Tree,
+    /// constants of the chain, a table of names and values (JSON); without it those that the
+    /// authors of its measurements fitted
+    #[arg(verbatim_doc_comment, long, value_name = "FILE")]
+    pub parameters: Option<PathBuf>,
+    /// takes every Nth row of the file
+    #[arg(long, value_name = "N", default_value = "1", value_parser = rows)]
+    pub every: usize,
+    /// columns of the angles of the links; all but the time without it
     #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
     pub columns: Vec<String>,
-    /// dots of parent and children, UPPER:LOWER for each, in place of angles
+    /// dots of the links, UPPER:LOWER for each, in place of angles
     #[arg(long, value_name = "U:L", value_delimiter = ',', conflicts_with = "columns", value_parser = pair)]
     pub dots: Vec<(String, String)>,
     /// y of dots grows downwards, as rows of a picture
@@ -39,6 +51,9 @@ pub struct Arguments {
     /// use the equations of motion: smaller errors if they hold
     #[arg(long)]
     pub model: bool,
+    /// polynomials near each time, a check of what smoothness says
+    #[arg(long, conflicts_with = "model")]
+    pub polynomials: bool,
     /// Friction in the equations of motion.
     #[command(flatten)]
     pub friction: Friction,
@@ -60,12 +75,30 @@ pub struct Arguments {
     /// simulated: error of a dot's place, m from 1e-6 to 0.01
     #[arg(long, value_name = "M", default_value = "2e-4", value_parser = number(1e-6..=1e-2, "m"))]
     pub noise: f64,
+    /// simulated: friction in the children's pivots that the equations lack, N m s
+    #[arg(long, value_name = "C", default_value = "0", value_parser = number(0.0..=1.0, "N m s"))]
+    pub unmodelled: f64,
+    /// simulated: the parent is longer than assumed by so much, m
+    #[arg(long, value_name = "M", default_value = "0", value_parser = number(-0.1..=0.1, "m"), allow_hyphen_values = true)]
+    pub longer: f64,
+    /// simulated: the first child's dots are turned from its line by so much, degrees
+    #[arg(long, value_name = "DEG", default_value = "0", value_parser = number(-10.0..=10.0, "°"), allow_hyphen_values = true)]
+    pub turned: f64,
     /// seed of all random numbers
     #[arg(long, value_name = "N", default_value = "1")]
     pub seed: u64,
     /// Folder of results.
     #[command(flatten)]
     pub results: Results,
+}
+
+/// Trees that can be analysed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Tree {
+    /// The paper's: a parent with two equal children.
+    Branched,
+    /// A chain of two links.
+    Chain,
 }
 
 /// Unit of angles.
@@ -109,6 +142,14 @@ impl Arguments {
     pub fn clock(&self) -> Clock {
         self.frame_rate.map_or(Clock::Detect, Clock::FrameRate)
     }
+
+    /// Friction of the simulated apparatus.
+    pub fn real_friction(&self) -> Friction {
+        Friction {
+            children: self.friction.children + self.unmodelled,
+            ..self.friction
+        }
+    }
 }
 
 impl Default for Arguments {
@@ -122,6 +163,28 @@ impl crate::program::Arguments for Arguments {
 
     fn results(&self) -> &Results {
         &self.results
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if self.pendulum == Tree::Chain && self.file.is_none() {
+            return Err("a camera is simulated before the branched pendulum alone: \
+                 --pendulum chain needs a file"
+                .to_owned());
+        }
+        if self.pendulum == Tree::Chain && !self.friction.is_zero() {
+            return Err("friction of the chain stands among its --parameters".to_owned());
+        }
+        if self.pendulum == Tree::Branched && self.parameters.is_some() {
+            return Err("--parameters are those of the chain".to_owned());
+        }
+        Ok(())
+    }
+}
+
+fn rows(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(rows @ 1..=100_000) => Ok(rows),
+        _ => Err("a whole number from 1 to 100000".to_owned()),
     }
 }
 
@@ -160,5 +223,6 @@ mod tests {
             ]
         );
         assert!(parse("--dots", "top,mid").is_err());
+        assert!(parse("--every", "0").is_err());
     }
 }

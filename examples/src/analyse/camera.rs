@@ -6,7 +6,8 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use crate::branched_double::{Apparatus, Sample};
+use super::scenes::{RealApparatus, RealApparatusParameters};
+use crate::branched_double::Friction;
 use crate::failure::Failure;
 
 /// What a camera sees of the apparatus, each link by two dots.
@@ -18,6 +19,8 @@ pub struct Camera {
     pub noise: f64,
     /// Distance of the two dots of a link, m.
     pub distance: f64,
+    /// Angle between the first child's dots and its line from pivot to centre of mass, rad.
+    pub turned: f64,
     /// Seed of the noise.
     pub seed: u64,
 }
@@ -33,35 +36,74 @@ pub struct Release {
     pub duration: f64,
 }
 
-/// The motion as it is, at every picture.
-///
-/// # Errors
-/// [`Failure::Integration`].
-pub fn motion(apparatus: &Apparatus, release: Release, rate: f64) -> Result<Vec<Sample>, Failure> {
-    let count = (release.duration * rate).round() as u32;
-    let times: Vec<f64> = (0..=count)
-        .map(|picture| f64::from(picture) / rate)
-        .collect();
-    let angles = [release.angle_deg.to_radians(), 0.0, release.difference];
-    let start = State::at_rest(0.0, &angles);
-    let method = Dop853::new(Options::with_tolerance(1e-13));
-    let mut samples = Vec::with_capacity(times.len());
-    let measure = |time: f64, state: &[f64]| {
-        if let ([a, b, c], [d, e, f]) = (&state[..3], &state[3..]) {
-            samples.push(apparatus.measure(time, [*a, *b, *c], [*d, *e, *f]));
-        }
-    };
-    let run: Result<Solution<f64>, _> = match apparatus.damped() {
-        Some(model) => method.sample(&SymmetricCoordinates(model), &start, &times, measure),
-        None => method.sample(
-            &SymmetricCoordinates(apparatus.ideal()),
+/// What is real of an apparatus, whatever is assumed of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Real {
+    /// Friction in the pivots.
+    pub friction: Friction,
+    /// Distance of the pivots beyond the published one, m.
+    pub longer: f64,
+}
+
+/// A motion as it is, at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Truth<const N: usize> {
+    /// Time, s.
+    pub time: f64,
+    /// Angles of the links, rad.
+    pub links: [f64; N],
+    /// Rates of the coordinates, rad/s.
+    pub rates: [f64; N],
+    /// Energy, J.
+    pub energy: f64,
+    /// Power, W.
+    pub power: f64,
+}
+
+/// Distance of the pivots, m.
+const JOINT: f64 = 0.27;
+
+impl Real {
+    /// The motion as it is, at every picture.
+    ///
+    /// # Errors
+    /// [`Failure::Parameter`] or [`Failure::Integration`].
+    pub fn motion(&self, release: Release, rate: f64) -> Result<Vec<Truth<3>>, Failure> {
+        let model = RealApparatus::new(RealApparatusParameters {
+            joint: JOINT + self.longer,
+            friction_root: self.friction.root,
+            friction_children: self.friction.children,
+        })?;
+        let count = (release.duration * rate).round() as u32;
+        let times: Vec<f64> = (0..=count)
+            .map(|picture| f64::from(picture) / rate)
+            .collect();
+        let angles = [release.angle_deg.to_radians(), 0.0, release.difference];
+        let start = State::at_rest(0.0, &angles);
+        let method = Dop853::new(Options::with_tolerance(1e-13));
+        let mut samples = Vec::with_capacity(times.len());
+        let run: Result<Solution<f64>, _> = method.sample(
+            &SymmetricCoordinates(&model),
             &start,
             &times,
-            measure,
-        ),
-    };
-    run.map_err(|error| Failure::integration(release.angle_deg, error))?;
-    Ok(samples)
+            |time, state| {
+                let &[a, b, c, d, e, f] = state else { return };
+                let (coordinates, rates) = ([a, b, c], [d, e, f]);
+                let momenta = model.symmetric_momenta(&coordinates, &rates);
+                samples.push(Truth {
+                    time,
+                    links: model.from_symmetric(&coordinates),
+                    rates,
+                    energy: model.antiphase_energy(&coordinates, &momenta),
+                    power: model
+                        .transfer_exact_from_rates(&coordinates, &rates)
+                        .total(),
+                });
+            },
+        );
+        run.map_err(|error| Failure::integration(release.angle_deg, error))?;
+        Ok(samples)
+    }
 }
 
 impl Camera {
@@ -71,13 +113,13 @@ impl Camera {
     }
 
     /// The links' angles (rad) as they follow from the dots.
-    pub fn angles(&self, motion: &[Sample]) -> Vec<[Option<f64>; 3]> {
+    pub fn angles(&self, motion: &[Truth<3>]) -> Vec<[Option<f64>; 3]> {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(self.seed);
         let mut dot = || {
             let normal: f64 = StandardNormal.sample(&mut random);
             self.noise * normal
         };
-        let angle = |angle: f64, dot: &mut dyn FnMut() -> f64| {
+        let mut seen = |angle: f64| {
             let right = self.distance * angle.sin() + dot() - dot();
             let down = self.distance * angle.cos() + dot() - dot();
             let seen = right.atan2(down);
@@ -86,7 +128,10 @@ impl Camera {
         };
         let samples = motion.iter();
         samples
-            .map(|sample| sample.theta.map(|theta| angle(theta, &mut dot)))
+            .map(|sample| {
+                let [one, two, three] = sample.links;
+                [one, two + self.turned, three].map(&mut seen)
+            })
             .collect()
     }
 }

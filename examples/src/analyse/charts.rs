@@ -1,9 +1,12 @@
-//! θ_d, H_d and W against time, with their errors.
+//! Angle, energy and power against time, with their errors.
 
+use branched_pendulum::analysis::Bands;
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
 
+use super::camera::Truth;
 use super::estimate::{Estimate, quantity};
 use super::source::Source;
+use super::subject::{Names, Subject};
 
 const BLUE: Color = Color::rgb(0, 114, 178);
 const BLACK: Color = Color::rgb(0, 0, 0);
@@ -13,46 +16,67 @@ const LIGHT: Color = Color::rgb(176, 208, 232);
 const NORMAL_95: f64 = 1.96;
 
 /// Draws the estimate; a simulated camera's truth is dashed.
-pub fn chart(source: &Source, estimate: &Estimate) -> Chart {
+pub fn chart<const N: usize>(
+    subject: &dyn Subject<N>,
+    source: &Source<N>,
+    estimate: &Estimate<N>,
+) -> Chart {
+    let names = subject.names();
     let times = &source.times;
-    let difference: Vec<f64> = estimate.motion.iter().map(|state| state[2]).collect();
+    let drawn = names.drawn;
+    let angles: Vec<f64> = estimate.motion.iter().map(|[q, _]| q[drawn]).collect();
     let data: Vec<f64> = source
         .angles
         .iter()
-        .map(|angles| match *angles {
-            [_, Some(two), Some(three)] => 0.5 * (two - three),
-            _ => f64::NAN,
+        .map(|angles| {
+            let links = angles.map(|angle| angle.unwrap_or(f64::NAN));
+            subject.coordinates(&links)[drawn]
         })
         .collect();
-    let angle = Panel::new(Axis::linear("θ_d (rad)"))
+    let angle = Panel::new(Axis::linear(format!("{} (rad)", names.symbols[drawn])))
         .series(Series::points("measured", times, &data).color(LIGHT))
         .series(
-            Series::line("estimated", times, &difference)
+            Series::line("estimated", times, &angles)
                 .color(BLUE)
                 .dash(Dash::Solid),
         )
         .zero_line();
-    let energy = with_band(Axis::linear("H_d (J)"), source, estimate, quantity::ENERGY);
-    let transfer =
-        with_band(Axis::linear("W (W)"), source, estimate, quantity::TRANSFER).zero_line();
-    let closure = with_band(
-        Axis::linear("∫ dH_d/dt dt − ΔH_d (J)"),
-        source,
-        estimate,
-        quantity::CLOSURE,
-    );
+    let Names { energy, power, .. } = names;
+    let truth = |of: fn(&Truth<N>) -> f64| source.truth.iter().map(of).collect::<Vec<f64>>();
+    let panel = |axis: String, index: usize, truth: Vec<f64>| {
+        let axis = Axis::linear(axis);
+        with_band(axis, times, &estimate.energies, index, &truth)
+    };
     Chart::new(
-        "Energy of the antiphase mode from measured angles",
+        format!("{} from measured angles", names.energy_words),
         Axis::linear("t (s)"),
     )
+    .size(900.0, 800.0)
     .panel(angle)
-    .panel(energy)
-    .panel(transfer)
-    .panel(closure.zero_line())
+    .panel(panel(
+        format!("{energy} (J)"),
+        quantity::ENERGY,
+        truth(|truth| truth.energy),
+    ))
+    .panel(
+        panel(
+            format!("{power} (W)"),
+            quantity::POWER,
+            truth(|truth| truth.power),
+        )
+        .zero_line(),
+    )
+    .panel(panel("closure (J)".to_owned(), quantity::CLOSURE, Vec::new()).zero_line())
 }
 
-fn with_band(axis: Axis, source: &Source, estimate: &Estimate, index: usize) -> Panel {
-    let rows = || estimate.bands.means.iter().zip(&estimate.bands.deviations);
+fn with_band(
+    axis: Axis,
+    times: &[f64],
+    bands: &Bands<{ quantity::COUNT }>,
+    index: usize,
+    truth: &[f64],
+) -> Panel {
+    let rows = || bands.means.iter().zip(&bands.deviations);
     let edge = |side: f64| -> Vec<f64> {
         rows()
             .map(|(mean, deviation)| mean[index] + side * NORMAL_95 * deviation[index])
@@ -60,29 +84,18 @@ fn with_band(axis: Axis, source: &Source, estimate: &Estimate, index: usize) -> 
     };
     let mean: Vec<f64> = rows().map(|(mean, _)| mean[index]).collect();
     let panel = Panel::new(axis)
-        .series(Series::band("95 %", &source.times, &edge(-1.0), &edge(1.0)).color(LIGHT))
+        .series(Series::band("95 %", times, &edge(-1.0), &edge(1.0)).color(LIGHT))
         .series(
-            Series::line("estimated", &source.times, &mean)
+            Series::line("estimated", times, &mean)
                 .color(BLUE)
                 .dash(Dash::Solid),
         );
-    let truth: Option<Vec<f64>> = match index {
-        quantity::ENERGY => Some(source.truth.iter().map(|s| s.antiphase_energy).collect()),
-        quantity::TRANSFER => Some(
-            source
-                .truth
-                .iter()
-                .map(|s| s.flow.transfer[2].total())
-                .collect(),
-        ),
-        _ => None,
-    };
-    match truth {
-        Some(truth) if !truth.is_empty() => panel.series(
-            Series::line("true", &source.times, &truth)
-                .color(BLACK)
-                .dash(Dash::Dashed),
-        ),
-        _ => panel,
+    if truth.is_empty() {
+        return panel;
     }
+    panel.series(
+        Series::line("true", times, truth)
+            .color(BLACK)
+            .dash(Dash::Dashed),
+    )
 }

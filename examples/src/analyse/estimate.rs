@@ -1,47 +1,45 @@
-//! H_d and W of the apparatus from measured angles, with their errors.
+//! A motion, its energy and power from measured angles, with their errors.
 
-use branched_pendulum::analysis::variational::linearised;
-use branched_pendulum::analysis::{Bands, KinematicSmoother, ModelSmoother, SmoothedMotion, bands};
-use branched_pendulum::prelude::{AbsoluteAngles, Rk4};
+use branched_pendulum::analysis::{
+    Bands, KinematicSmoother, LocalPolynomials, SmoothedMotion, SmoothingError, bands,
+    running_integral,
+};
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use crate::branched_double::Apparatus;
-use crate::branched_double::apparatus::EXACT;
+use super::subject::{Motion, Record, Subject};
 use crate::failure::Failure;
 
-/// Indices of the quantities in [`Estimate::bands`].
+/// Indices of the quantities in [`Estimate::energies`].
 pub mod quantity {
-    /// Rates of θ_1, θ_m, θ_d, rad/s.
-    pub const RATES: usize = 0;
-    /// H_d, J.
-    pub const ENERGY: usize = 3;
-    /// W, exact, W.
-    pub const TRANSFER: usize = 4;
-    /// ∫ (W + power of friction on H_d) dt since the first time, J.
-    pub const FLOWED: usize = 5;
-    /// That less the change of H_d: zero but for errors, J.
-    pub const CLOSURE: usize = 6;
+    /// The energy, J: of a branched pendulum H_d, of a chain H.
+    pub const ENERGY: usize = 0;
+    /// The power, W: of a branched pendulum W, of a chain that of friction.
+    pub const POWER: usize = 1;
+    /// Integral since the first time of all power that changes the energy, J.
+    pub const FLOWED: usize = 2;
+    /// That less the change of the energy: zero but for errors, J.
+    pub const CLOSURE: usize = 3;
     /// Their number.
-    pub const COUNT: usize = 7;
+    pub const COUNT: usize = 4;
 }
 
-/// The motion of the apparatus as data tell it.
+/// A motion as data tell it.
 #[derive(Clone, Debug)]
-pub struct Estimate {
+pub struct Estimate<const N: usize> {
+    /// Rates of the coordinates, rad/s.
+    pub rates: Bands<N>,
     /// What follows from the motion: [`quantity`] says which stands where.
-    pub bands: Bands<{ quantity::COUNT }>,
+    pub energies: Bands<{ quantity::COUNT }>,
     /// Standard deviation of the links' angles that was found, rad.
     pub noise: f64,
-    /// Correlation of successive innovations in standard deviations, the largest.
+    /// Correlation of successive innovations in standard deviations, the largest; NaN where
+    /// nothing is foretold.
     pub whiteness: f64,
-    /// θ_1, θ_m, θ_d and their rates.
-    pub motion: Vec<[f64; 6]>,
+    /// The likeliest motion.
+    pub motion: Vec<Motion<N>>,
 }
-
-/// Longest step from picture to picture, s: its error is far below that of any camera.
-const LONGEST_STEP: f64 = 2e-3;
 
 /// Draws whose mean and deviation are told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,212 +50,151 @@ pub struct Draws {
     pub seed: u64,
 }
 
-/// What a camera has measured.
-#[derive(Clone, Copy, Debug)]
-pub struct Measured<'a> {
-    /// The apparatus.
-    pub apparatus: &'a Apparatus,
-    /// Times, s.
-    pub times: &'a [f64],
-    /// Angles of the links, rad.
-    pub angles: &'a [[Option<f64>; 3]],
+/// Measured angles of a pendulum.
+#[derive(Clone, Copy)]
+pub struct Measured<'a, const N: usize> {
+    /// The pendulum.
+    pub subject: &'a dyn Subject<N>,
+    /// The angles.
+    pub record: Record<'a, N>,
 }
 
-impl Measured<'_> {
-    /// Estimates the motion knowing only that it is smooth, in symmetric coordinates; a
+/// What is told of a motion beside itself.
+struct Told {
+    noise: f64,
+    whiteness: f64,
+}
+
+impl<const N: usize> Measured<'_, N> {
+    /// Estimates the motion knowing only that it is smooth, each coordinate by itself; a
     /// picture that lacks a link counts as missing.
     ///
     /// # Errors
     /// [`Failure::Smoothing`].
-    pub fn by_smoothness(&self, draws: Draws) -> Result<Estimate, Failure> {
-        let symmetric = |angles: &[Option<f64>; 3]| match *angles {
-            [Some(one), Some(two), Some(three)] => {
-                Some(self.apparatus.ideal().to_symmetric(&[one, two, three]))
-            }
-            _ => None,
-        };
-        let data: Vec<Option<[f64; 3]>> = self.angles.iter().map(symmetric).collect();
-        let smooth = |coordinate: usize| {
-            let data: Vec<Option<f64>> = data
-                .iter()
-                .map(|all| all.map(|all| all[coordinate]))
-                .collect();
-            KinematicSmoother::default().smooth(self.times, &data)
-        };
-        let series = [smooth(0)?, smooth(1)?, smooth(2)?];
-        let joined = |[a, b, c]: [[f64; 3]; 3]| [a[0], b[0], c[0], a[1], b[1], c[1]];
-        let mut random = Xoshiro256PlusPlus::seed_from_u64(draws.seed);
-        let mut normal = || StandardNormal.sample(&mut random);
-        let (bands, _) = bands(draws.count, || {
-            let motion = series.each_ref().map(|series| series.draw(&mut normal));
-            let at = |index: usize| joined(motion.each_ref().map(|series| series[index]));
-            self.quantities((0..self.times.len()).map(at))
-        });
-        let at = |index: usize| joined(series.each_ref().map(|series| series.mean(index)));
-        let white = series.iter().map(SmoothedMotion::whiteness);
-        Ok(Estimate {
-            bands,
-            noise: series[0].noise(),
-            whiteness: white.fold(0.0, |a, b| if b.abs() > f64::abs(a) { b } else { a }),
-            motion: (0..self.times.len()).map(at).collect(),
+    pub fn by_smoothness(&self, draws: Draws) -> Result<Estimate<N>, Failure> {
+        self.separately(draws, |times, data| {
+            KinematicSmoother::default().smooth(times, data)
         })
     }
 
-    /// Estimates the motion with the equations of motion of the apparatus, beginning from an
-    /// estimate without them.
+    /// Estimates the motion by polynomials near each time, otherwise likewise.
     ///
     /// # Errors
     /// [`Failure::Smoothing`].
-    pub fn by_model(&self, guess: &Estimate, draws: Draws) -> Result<Estimate, Failure> {
-        let ideal = self.apparatus.ideal();
-        let links = |[a, b, c, d, e, f]: [f64; 6]| {
-            let theta = ideal.from_symmetric(&[a, b, c]);
-            let omega = ideal.from_symmetric(&[d, e, f]);
-            [theta[0], theta[1], theta[2], omega[0], omega[1], omega[2]]
-        };
-        let symmetric = |[a, b, c, d, e, f]: [f64; 6]| {
-            let q = ideal.to_symmetric(&[a, b, c]);
-            let v = ideal.to_symmetric(&[d, e, f]);
-            [q[0], q[1], q[2], v[0], v[1], v[2]]
-        };
-        let guess: Vec<[f64; 6]> = guess.motion.iter().copied().map(links).collect();
-        let method = Rk4::new(LONGEST_STEP);
-        let smoother = ModelSmoother::default();
-        let (times, data) = (self.times, self.angles);
-        let motion = match self.apparatus.damped() {
-            Some(model) => {
-                let system = linearised(AbsoluteAngles(model));
-                smoother.smooth(&method, &system, times, data, &guess)?
-            }
-            None => {
-                let system = linearised(AbsoluteAngles(ideal));
-                smoother.smooth(&method, &system, times, data, &guess)?
-            }
-        };
-        let mut random = Xoshiro256PlusPlus::seed_from_u64(draws.seed);
-        let (bands, _) = bands(draws.count, || {
-            let drawn = motion.draw(|| StandardNormal.sample(&mut random));
-            self.quantities(drawn.into_iter().map(symmetric))
-        });
-        Ok(Estimate {
-            bands,
-            noise: motion.noise(),
-            whiteness: motion.whiteness(),
-            motion: (0..times.len())
-                .map(|index| symmetric(motion.mean(index)))
-                .collect(),
+    pub fn by_polynomials(&self, draws: Draws) -> Result<Estimate<N>, Failure> {
+        self.separately(draws, |times, data| {
+            LocalPolynomials::default().smooth(times, data)
         })
+    }
+
+    /// Estimates the motion with the equations of motion, beginning from an estimate without
+    /// them.
+    ///
+    /// # Errors
+    /// [`Failure::Smoothing`].
+    pub fn by_model(&self, guess: &Estimate<N>, draws: Draws) -> Result<Estimate<N>, Failure> {
+        let subject = self.subject;
+        let guess = guess.motion.iter();
+        let guess: Vec<Motion<N>> = guess
+            .map(|motion| motion.each_ref().map(|part| subject.links(part)))
+            .collect();
+        let found = subject.by_model(self.record, &guess)?;
+        let symmetric = |motion: Vec<Motion<N>>| -> Vec<Motion<N>> {
+            let states = motion.iter();
+            states
+                .map(|state| state.each_ref().map(|part| subject.coordinates(part)))
+                .collect()
+        };
+        let told = Told {
+            noise: found.noise,
+            whiteness: found.whiteness,
+        };
+        let draw = |normal: &mut dyn FnMut() -> f64| symmetric((found.draw)(normal));
+        Ok(self.estimate(draws, told, symmetric(found.mean.clone()), draw))
+    }
+
+    fn separately(
+        &self,
+        draws: Draws,
+        smooth: impl Fn(&[f64], &[Option<f64>]) -> Result<SmoothedMotion<3>, SmoothingError>,
+    ) -> Result<Estimate<N>, Failure> {
+        let times = self.record.times;
+        let whole = |angles: &[Option<f64>; N]| -> Option<[f64; N]> {
+            let mut links = [0.0; N];
+            for (link, angle) in links.iter_mut().zip(angles) {
+                *link = (*angle)?;
+            }
+            Some(self.subject.coordinates(&links))
+        };
+        let data: Vec<Option<[f64; N]>> = self.record.angles.iter().map(whole).collect();
+        let of = |coordinate: usize| -> Vec<Option<f64>> {
+            data.iter()
+                .map(|all| all.map(|all| all[coordinate]))
+                .collect()
+        };
+        let series: Result<Vec<SmoothedMotion<3>>, SmoothingError> = (0..N)
+            .map(|coordinate| smooth(times, &of(coordinate)))
+            .collect();
+        let series = series?;
+        let joined = |states: &dyn Fn(usize, usize) -> [f64; 3]| -> Vec<Motion<N>> {
+            let at =
+                |time: usize| [0, 1].map(|order| std::array::from_fn(|of| states(of, time)[order]));
+            (0..times.len()).map(at).collect()
+        };
+        let white = series.iter().map(SmoothedMotion::whiteness);
+        let largest = |a: f64, b: f64| if a.abs() > b.abs() { a } else { b };
+        let told = Told {
+            noise: series.first().map_or(f64::NAN, SmoothedMotion::noise),
+            whiteness: white.reduce(largest).unwrap_or(f64::NAN),
+        };
+        let motion = joined(&|of, time| series[of].mean(time));
+        let draw = |normal: &mut dyn FnMut() -> f64| {
+            let drawn: Vec<_> = series.iter().map(|one| one.draw(&mut *normal)).collect();
+            joined(&|of, time| drawn[of][time])
+        };
+        Ok(self.estimate(draws, told, motion, draw))
+    }
+
+    /// Tells what follows from draws. They are drawn twice, with the same random numbers,
+    /// rather than kept.
+    fn estimate(
+        &self,
+        Draws { count, seed }: Draws,
+        told: Told,
+        motion: Vec<Motion<N>>,
+        draw: impl Fn(&mut dyn FnMut() -> f64) -> Vec<Motion<N>>,
+    ) -> Estimate<N> {
+        let normal = || {
+            let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+            move || StandardNormal.sample(&mut random)
+        };
+        let mut numbers = normal();
+        let (rates, _) = bands(count, || {
+            let motion = draw(&mut numbers);
+            motion.iter().map(|[_, rates]| *rates).collect()
+        });
+        let mut numbers = normal();
+        let (energies, _) = bands(count, || self.energies(&draw(&mut numbers)));
+        Estimate {
+            rates,
+            energies,
+            noise: told.noise,
+            whiteness: told.whiteness,
+            motion,
+        }
     }
 
     /// The quantities of one motion.
-    fn quantities(&self, motion: impl Iterator<Item = [f64; 6]>) -> Vec<[f64; quantity::COUNT]> {
-        let apparatus = self.apparatus;
-        let mut before: Option<(f64, f64)> = None;
-        let (mut flowed, mut start) = (0.0, 0.0);
-        let row = |(state, &time): ([f64; 6], &f64)| {
-            let [a, b, c, d, e, f] = state;
-            let (coordinates, rates) = ([a, b, c], [d, e, f]);
-            let energy = apparatus.antiphase_energy(&coordinates, &rates);
-            let flow = apparatus.flow(&coordinates, &rates);
-            let rate = flow.antiphase_rate(EXACT);
-            match before {
-                None => start = energy,
-                Some((last, earlier)) => flowed += 0.5 * (rate + earlier) * (time - last),
-            }
-            before = Some((time, rate));
-            let transfer = flow.transfer[EXACT].total();
-            [d, e, f, energy, transfer, flowed, flowed - (energy - start)]
-        };
-        motion.zip(self.times).map(row).collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::arguments::Arguments;
-    use super::super::report::{Trust, transfer_error};
-    use super::super::source::Source;
-    use super::{Draws, Estimate, Measured};
-    use crate::branched_double::{Apparatus, Friction};
-
-    const DRAWS: Draws = Draws { count: 50, seed: 7 };
-
-    /// Looks with the simulated camera at an apparatus, and analyses it as one without
-    /// friction.
-    fn estimates(arguments: &Arguments, real: Friction, models: bool) -> (Source, Vec<Estimate>) {
-        let apparatus = Apparatus::new(Friction::default()).unwrap();
-        let source = Source::new(arguments, &Apparatus::new(real).unwrap()).unwrap();
-        let measured = Measured {
-            apparatus: &apparatus,
-            times: &source.times,
-            angles: &source.angles,
-        };
-        let mut all = vec![measured.by_smoothness(DRAWS).unwrap()];
-        if models {
-            all.push(measured.by_model(&all[0], DRAWS).unwrap());
-        }
-        (source, all)
-    }
-
-    /// The median of five cameras.
-    fn median(mut of: impl FnMut(u64) -> [f64; 2]) -> [f64; 2] {
-        let mut all: Vec<[f64; 2]> = (0..5).map(&mut of).collect();
-        [0, 1].map(|index| {
-            all.sort_by(|a, b| a[index].total_cmp(&b[index]));
-            all[2][index]
+    fn energies(&self, motion: &[Motion<N>]) -> Vec<[f64; quantity::COUNT]> {
+        let energies: Vec<f64> = motion.iter().map(|m| self.subject.energy(m)).collect();
+        let powers: Vec<_> = motion.iter().map(|m| self.subject.powers(m)).collect();
+        let whole: Vec<f64> = powers.iter().map(|powers| powers.whole).collect();
+        let flowed = running_integral(self.record.times, &whole);
+        let start = energies.first().copied().unwrap_or(0.0);
+        let rows = energies.iter().zip(&powers).zip(&flowed);
+        rows.map(|((energy, powers), flowed)| {
+            [*energy, powers.told, *flowed, flowed - (energy - start)]
         })
-    }
-
-    #[test]
-    fn transfer_from_smoothness() {
-        for (difference, rate, bounds) in [
-            (1e-2, 240.0, [0.015, 0.02]),
-            (1e-2, 60.0, [0.025, 0.03]),
-            (1e-3, 240.0, [0.05, 0.05]),
-        ] {
-            let [transfer, closure] = median(|seed| {
-                let arguments = Arguments {
-                    difference,
-                    rate,
-                    seed,
-                    ..Arguments::default()
-                };
-                let (source, all) = estimates(&arguments, Friction::default(), false);
-                [
-                    transfer_error(&source, &all[0]).unwrap(),
-                    Trust::of(&all[0]).closure,
-                ]
-            });
-            assert!(
-                transfer < bounds[0] && closure < bounds[1],
-                "{rate} {transfer} {closure}"
-            );
-            // Not by far, or the bounds would tell nothing.
-            assert!(3.0 * transfer > bounds[0], "{rate} {transfer}");
-        }
-    }
-
-    #[test]
-    fn the_right_model_is_worth_a_factor_ten_and_a_wrong_one_is_no_loss() {
-        let arguments = Arguments {
-            rate: 60.0,
-            ..Arguments::default()
-        };
-        let (source, all) = estimates(&arguments, Friction::default(), true);
-        let errors = all.iter().map(|one| transfer_error(&source, one).unwrap());
-        let errors: Vec<f64> = errors.collect();
-        assert!(
-            errors[1] < 2e-3 && errors[1] < 0.1 * errors[0],
-            "{errors:?}"
-        );
-
-        let real = Friction {
-            root: 0.0,
-            children: 1e-5,
-        };
-        let (source, all) = estimates(&arguments, real, true);
-        let errors = all.iter().map(|one| transfer_error(&source, one).unwrap());
-        let errors: Vec<f64> = errors.collect();
-        assert!(errors[1] < errors[0], "{errors:?}");
+        .collect()
     }
 }

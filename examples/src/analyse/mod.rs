@@ -1,52 +1,91 @@
-//! From measured angles of the paper's pendulum to H_d and W, with their errors.
+//! From measured angles of a pendulum to its energy and power, with their errors.
 //!
 //! - [`arguments`]: the command line,
+//! - [`subject`]: the pendulums, [`scenes`] and [`parameters`]: their descriptions,
 //! - [`source`]: angles out of a file, or of a simulated [`camera`],
 //! - [`estimate`]: the motion, and what follows from it,
+//! - [`spectrogram`]: its lines,
 //! - [`report`]: words and tables, [`charts`]: charts.
 
 pub mod arguments;
 pub mod camera;
 pub mod charts;
 pub mod estimate;
+pub mod parameters;
 pub mod report;
+pub mod scenes;
 pub mod source;
+pub mod spectrogram;
+pub mod subject;
+#[cfg(test)]
+mod tests;
 
 pub use arguments::Arguments;
 pub use estimate::{Draws, Estimate, Measured};
 pub use source::Source;
+pub use subject::{Chain, Subject};
 
 use crate::branched_double::Apparatus;
 use crate::failure::Failure;
 use crate::program::Job;
+use arguments::Tree;
+use spectrogram::Spectrogram;
 
-/// Reads or simulates the angles, estimates the motion, prints the report and writes table
-/// and chart.
+/// Reads or simulates the angles, estimates the motion, prints the report and writes tables
+/// and charts.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    let apparatus = Apparatus::new(arguments.friction)?;
-    let source = Source::new(arguments, &apparatus)?;
+    match arguments.pendulum {
+        Tree::Branched => {
+            let apparatus = Apparatus::new(arguments.friction)?;
+            let source = match &arguments.file {
+                Some(file) => Source::open(file, arguments)?,
+                None => Source::simulate(arguments)?,
+            };
+            analyse(arguments, job, &apparatus, &source)
+        }
+        Tree::Chain => {
+            let read = arguments.parameters.as_deref().map(parameters::read);
+            let chain = Chain::new(read.transpose()?.unwrap_or(parameters::FITTED))?;
+            let file = arguments.file.as_deref().unwrap_or("".as_ref());
+            analyse(arguments, job, &chain, &Source::open(file, arguments)?)
+        }
+    }
+}
+
+fn analyse<const N: usize>(
+    arguments: &Arguments,
+    job: &Job,
+    subject: &dyn Subject<N>,
+    source: &Source<N>,
+) -> Result<(), Failure> {
     let draws = Draws {
         count: arguments.draws as usize,
         seed: arguments.seed,
     };
-    let measured = Measured {
-        apparatus: &apparatus,
-        times: &source.times,
-        angles: &source.angles,
-    };
+    let record = source.record();
+    let measured = Measured { subject, record };
     let progress = job.progress(1 + usize::from(arguments.model));
-    progress.begin("by smoothness");
-    let mut estimate = measured.by_smoothness(draws)?;
+    let mut estimate = if arguments.polynomials {
+        progress.begin("by polynomials");
+        measured.by_polynomials(draws)?
+    } else {
+        progress.begin("by smoothness");
+        measured.by_smoothness(draws)?
+    };
     if arguments.model {
         progress.begin("by the equations of motion");
         estimate = measured.by_model(&estimate, draws)?;
     }
-    report::write(job, &source, &estimate)?;
-    job.print(&report::report(arguments, &source, &estimate))?;
-    job.chart("estimate", &charts::chart(&source, &estimate))?;
+    let names = subject.names();
+    report::write(job, &names, source, &estimate)?;
+    job.print(&report::report(arguments, &names, source, &estimate))?;
+    job.chart("estimate", &charts::chart(subject, source, &estimate))?;
+    if let Some(spectrogram) = Spectrogram::of(&names, source, &estimate)? {
+        spectrogram.write(job)?;
+    }
     let findings = source.findings.iter().map(ToString::to_string);
     job.report("findings", findings.collect::<Vec<_>>());
     job.report("noise", estimate.noise);

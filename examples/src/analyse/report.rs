@@ -7,6 +7,7 @@ use branched_pendulum_data::Column;
 use super::arguments::Arguments;
 use super::estimate::{Estimate, quantity};
 use super::source::Source;
+use super::subject::Names;
 use crate::failure::Failure;
 use crate::program::Job;
 
@@ -14,28 +15,38 @@ use crate::program::Job;
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
-pub fn write(job: &Job, source: &Source, estimate: &Estimate) -> Result<(), Failure> {
+pub fn write<const N: usize>(
+    job: &Job,
+    names: &Names<N>,
+    source: &Source<N>,
+    estimate: &Estimate<N>,
+) -> Result<(), Failure> {
     let mut columns = vec![Column::new("time", "s")];
-    columns.extend(["theta_1", "theta_m", "theta_d"].map(|name| Column::new(name, "rad")));
-    let quantities = [
-        ("omega_1", "rad/s"),
-        ("omega_m", "rad/s"),
-        ("omega_d", "rad/s"),
-        ("H_d", "J"),
-        ("W", "W"),
+    columns.extend(names.coordinates.map(|name| Column::new(name, "rad")));
+    let rates = names
+        .coordinates
+        .map(|name| name.replacen("theta", "omega", 1));
+    let rates = rates.iter().map(|name| (name.as_str(), "rad/s"));
+    let energies = [
+        (names.energy, "J"),
+        (names.power, "W"),
         ("flowed", "J"),
         ("closure", "J"),
     ];
-    for (name, unit) in quantities {
+    for (name, unit) in rates.chain(energies) {
         columns.push(Column::new(name, unit));
         columns.push(Column::new(format!("{name}_error"), unit));
     }
     job.csv("estimate.csv", &columns, |file| {
-        let bands = &estimate.bands;
+        let (rates, energies) = (&estimate.rates, &estimate.energies);
         for (index, time) in source.times.iter().enumerate() {
             let mut row = vec![*time];
-            row.extend(&estimate.motion[index][..3]);
-            for (mean, deviation) in bands.means[index].iter().zip(&bands.deviations[index]) {
+            row.extend(&estimate.motion[index][0]);
+            let of_rates = rates.means[index].iter().zip(&rates.deviations[index]);
+            let of_energies = energies.means[index]
+                .iter()
+                .zip(&energies.deviations[index]);
+            for (mean, deviation) in of_rates.chain(of_energies) {
                 row.extend([mean, deviation]);
             }
             file.row(row)?;
@@ -47,20 +58,20 @@ pub fn write(job: &Job, source: &Source, estimate: &Estimate) -> Result<(), Fail
 /// How far an estimate is to be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trust {
-    /// Largest H_d, J.
+    /// Largest energy, J.
     pub energy: f64,
-    /// Largest |∫ dH_d/dt dt − ΔH_d|, of that.
+    /// Largest |∫ power dt − change of the energy|, of that.
     pub closure: f64,
     /// Its standard deviation there, of that.
     pub closure_deviation: f64,
-    /// Root mean square of the deviation of W, of that of W.
-    pub transfer: f64,
+    /// Root mean square of the power's deviation, of that of the power.
+    pub power: f64,
 }
 
 impl Trust {
     /// Judges an estimate.
-    pub fn of(estimate: &Estimate) -> Self {
-        let bands = &estimate.bands;
+    pub fn of<const N: usize>(estimate: &Estimate<N>) -> Self {
+        let bands = &estimate.energies;
         let means = || bands.means.iter();
         let energy = means().map(|row| row[quantity::ENERGY]).fold(0.0, f64::max);
         let rows = means().zip(&bands.deviations);
@@ -69,20 +80,25 @@ impl Trust {
         let [closure, deviation] = closure.fold([0.0; 2], |a, b| if b[0] > a[0] { b } else { a });
         let square = |rows: &[[f64; quantity::COUNT]]| {
             rows.iter()
-                .map(|row| row[quantity::TRANSFER].powi(2))
+                .map(|row| row[quantity::POWER].powi(2))
                 .sum::<f64>()
         };
         Self {
             energy,
             closure: closure / energy,
             closure_deviation: deviation / energy,
-            transfer: (square(&bands.deviations) / square(&bands.means)).sqrt(),
+            power: (square(&bands.deviations) / square(&bands.means)).sqrt(),
         }
     }
 }
 
 /// The report in words.
-pub fn report(arguments: &Arguments, source: &Source, estimate: &Estimate) -> String {
+pub fn report<const N: usize>(
+    arguments: &Arguments,
+    names: &Names<N>,
+    source: &Source<N>,
+    estimate: &Estimate<N>,
+) -> String {
     let mut text = String::new();
     let mut line = |words: String| {
         let _ = writeln!(text, "{words}");
@@ -101,30 +117,34 @@ pub fn report(arguments: &Arguments, source: &Source, estimate: &Estimate) -> St
     }
     let trust = Trust::of(estimate);
     let percent = |part: f64| format!("{:.2} %", 100.0 * part);
-    line(match arguments.model {
-        true => {
-            "Estimated with the equations of motion, and what they lack by likelihood.".to_owned()
+    let (energy, power) = (names.energy, names.power);
+    line(
+        match (arguments.model, arguments.polynomials) {
+            (true, _) => {
+                "Estimated with the equations of motion, and what they lack by likelihood."
+            }
+            (_, true) => "Estimated by polynomials near each time.",
+            _ => "Estimated from smoothness alone.",
         }
-        false => "Estimated from smoothness alone.".to_owned(),
-    });
+        .to_owned(),
+    );
     line(format!(
         "  angles are good to {:.2e} rad (found from the data)",
         estimate.noise
     ));
-    line(format!("  largest H_d {:.4e} J", trust.energy));
+    line(format!("  largest {energy} {:.4e} J", trust.energy));
     line(format!(
-        "  W to {} (rms of its deviation, of that of W)",
-        percent(trust.transfer)
+        "  {power} to {} (rms of its deviation, of that of {power})",
+        percent(trust.power)
     ));
     line(format!(
-        "  ∫ dH_d/dt dt differs from the change of H_d by {} of the largest H_d, {} expected",
+        "  ∫ d{energy}/dt dt differs from the change of {energy} by {} of the largest {energy}, {} expected",
         percent(trust.closure),
         percent(trust.closure_deviation)
     ));
-    // With the model the rule of quadrature is what is left of it.
-    if !arguments.model && trust.closure > 3.0 * trust.closure_deviation {
+    if trust.closure > 3.0 * trust.closure_deviation {
         line(
-            "  that is too much: the pendulum is not the paper's with this friction, or the \
+            "  that is too much: the pendulum is not the assumed one with this friction, or the \
              pictures are too few"
                 .to_owned(),
         );
@@ -132,30 +152,28 @@ pub fn report(arguments: &Arguments, source: &Source, estimate: &Estimate) -> St
     let white = estimate.whiteness;
     line(match white.abs() {
         ..3.0 => format!("  what is left over is white ({white:.1} deviations)"),
-        _ => format!(
+        3.0.. => format!(
             "  what is left over is not white ({white:.1} deviations): the errors are larger \
              than told here"
         ),
+        _ => "  errors are those of the noise: what polynomials do not follow is not in them"
+            .to_owned(),
     });
-    if let Some(error) = transfer_error(source, estimate) {
+    if let Some(error) = power_error(source, estimate) {
         line(format!(
-            "  true error of W {} (rms, of that of W)",
+            "  true error of {power} {} (rms, of that of {power})",
             percent(error)
         ));
     }
     text
 }
 
-/// The error of W against the truth of a simulated camera, rms over rms.
-pub fn transfer_error(source: &Source, estimate: &Estimate) -> Option<f64> {
-    let truth = source
-        .truth
-        .iter()
-        .map(|sample| sample.flow.transfer[2].total());
-    let pairs = truth.zip(&estimate.bands.means);
+/// The error of the power against the truth of a simulated camera, rms over rms.
+pub fn power_error<const N: usize>(source: &Source<N>, estimate: &Estimate<N>) -> Option<f64> {
+    let pairs = source.truth.iter().zip(&estimate.energies.means);
     let (error, size) = pairs.fold((0.0, 0.0), |(error, size), (truth, row)| {
-        let off = row[quantity::TRANSFER] - truth;
-        (error + off * off, size + truth * truth)
+        let off = row[quantity::POWER] - truth.power;
+        (error + off * off, size + truth.power * truth.power)
     });
     (size > 0.0).then(|| (error / size).sqrt())
 }

@@ -3,8 +3,8 @@
 use branched_pendulum_data::{AngleColumns, Finding, LinkMarkers, Markers, Table, TableOptions};
 
 use super::arguments::Arguments;
-use super::camera::{Camera, Release, motion};
-use crate::branched_double::{Apparatus, Sample};
+use super::camera::{Camera, Real, Release, Truth};
+use super::subject::Record;
 use crate::failure::Failure;
 
 /// Distance of the two dots of a link before the simulated camera, m.
@@ -12,30 +12,23 @@ const DOTS: f64 = 0.25;
 
 /// Angles against time.
 #[derive(Clone, Debug)]
-pub struct Source {
+pub struct Source<const N: usize> {
     /// Times, s.
     pub times: Vec<f64>,
     /// Angles of the links, rad.
-    pub angles: Vec<[Option<f64>; 3]>,
+    pub angles: Vec<[Option<f64>; N]>,
     /// How a file was read.
     pub findings: Vec<Finding>,
     /// The motion as it is, of a simulated camera.
-    pub truth: Vec<Sample>,
+    pub truth: Vec<Truth<N>>,
 }
 
-impl Source {
-    /// Reads the file of the arguments, or simulates the camera.
+impl<const N: usize> Source<N> {
+    /// Reads the file of the arguments.
     ///
     /// # Errors
-    /// [`Failure::Reading`], [`Failure::Links`] or [`Failure::Integration`].
-    pub fn new(arguments: &Arguments, apparatus: &Apparatus) -> Result<Self, Failure> {
-        match &arguments.file {
-            Some(file) => Self::read(&Table::read(file, &TableOptions::default())?, arguments),
-            None => Self::simulate(arguments, apparatus),
-        }
-    }
-
-    fn read(table: &Table, arguments: &Arguments) -> Result<Self, Failure> {
+    /// [`Failure::Reading`] or [`Failure::Links`].
+    pub fn read(table: &Table, arguments: &Arguments) -> Result<Self, Failure> {
         let recording = if arguments.dots.is_empty() && table.tracks().is_empty() {
             let columns = AngleColumns {
                 clock: arguments.clock(),
@@ -57,22 +50,49 @@ impl Source {
             };
             markers.read(table)?
         };
-        let [one, two, three] = recording.links.as_slice() else {
+        let found = recording.links.len();
+        if found != N {
+            let path = table.path().to_path_buf();
             return Err(Failure::Links {
-                path: table.path().to_path_buf(),
-                found: recording.links.len(),
+                path,
+                found,
+                needed: N,
             });
-        };
-        let row = |index: usize| [one, two, three].map(|link| link.angle(index));
+        }
+        let row =
+            |index: usize| std::array::from_fn(|link: usize| recording.links[link].angle(index));
+        let rows = (0..recording.times.len()).step_by(arguments.every);
         Ok(Self {
-            angles: (0..recording.times.len()).map(row).collect(),
-            times: recording.times,
+            angles: rows.clone().map(row).collect(),
+            times: rows.map(|index| recording.times[index]).collect(),
             findings: recording.findings,
             truth: Vec::new(),
         })
     }
 
-    fn simulate(arguments: &Arguments, apparatus: &Apparatus) -> Result<Self, Failure> {
+    /// Opens the file of the arguments.
+    ///
+    /// # Errors
+    /// [`Failure::Reading`] or [`Failure::Links`].
+    pub fn open(file: &std::path::Path, arguments: &Arguments) -> Result<Self, Failure> {
+        Self::read(&Table::read(file, &TableOptions::default())?, arguments)
+    }
+
+    /// The angles with their times.
+    pub fn record(&self) -> Record<'_, N> {
+        Record {
+            times: &self.times,
+            angles: &self.angles,
+        }
+    }
+}
+
+impl Source<3> {
+    /// Simulates a camera before the paper's apparatus.
+    ///
+    /// # Errors
+    /// [`Failure::Parameter`] or [`Failure::Integration`].
+    pub fn simulate(arguments: &Arguments) -> Result<Self, Failure> {
         let release = Release {
             angle_deg: arguments.angle,
             difference: arguments.difference,
@@ -82,9 +102,14 @@ impl Source {
             rate: arguments.rate,
             noise: arguments.noise,
             distance: DOTS,
+            turned: arguments.turned.to_radians(),
             seed: arguments.seed,
         };
-        let truth = motion(apparatus, release, camera.rate)?;
+        let real = Real {
+            friction: arguments.real_friction(),
+            longer: arguments.longer,
+        };
+        let truth = real.motion(release, camera.rate)?;
         Ok(Self {
             times: truth.iter().map(|sample| sample.time).collect(),
             angles: camera.angles(&truth),

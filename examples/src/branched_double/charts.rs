@@ -9,6 +9,7 @@ use super::apparatus::{DIFFERENCE, EXACT, MEAN, PUBLISHED, Sample, folded};
 use super::arguments::Arguments;
 use super::experiment::Run;
 use super::findings::Frequencies;
+use super::lines;
 use crate::failure::Failure;
 use crate::program::Job;
 use crate::program::command_line::plain;
@@ -28,8 +29,7 @@ const GREEN: Color = Color::rgb(0, 158, 115);
 /// The charts against time show the onset: this time, s.
 const ONSET: f64 = 10.0;
 
-/// The span of the paper's spectrum, s, and the frequencies shown, Hz.
-const SPECTRUM_SPAN: f64 = 32.0;
+/// The frequencies shown, Hz.
 const SPECTRUM_TOP: f64 = 3.0;
 
 /// Draws the charts. Nothing is drawn without a run.
@@ -205,7 +205,7 @@ fn spectrum(
     runs: &[Run],
     pair: &[&Run],
 ) -> Result<Chart, Failure> {
-    let span = arguments.duration.min(SPECTRUM_SPAN);
+    let span = arguments.duration.min(lines::SPAN);
     let top = SPECTRUM_TOP.min(0.5 * arguments.rate);
     // Eight points for each resolved frequency: smooth peaks.
     let count = (8.0 * span * top).round();
@@ -213,21 +213,16 @@ fn spectrum(
         .map(|index| top * index as f64 / count)
         .collect();
     let title = format!("Spectrum of θ_m, 0 to {span} s; {}", conditions(arguments));
-    let mut lines = Vec::new();
+    let mut series = Vec::new();
     let mut moves = true;
     let lowest = runs
         .first()
         .filter(|run| pair.iter().all(|other| other.angle_deg != run.angle_deg));
     for run in lowest.into_iter().chain(pair.iter().copied()) {
-        let samples: Vec<f64> = run
-            .samples
-            .iter()
-            .take_while(|sample| sample.time < span)
-            .map(|sample| sample.coordinates[MEAN])
-            .collect();
+        let samples = lines::mean_angle(run);
         let spectrum =
             Spectrum::at_frequencies(&samples, arguments.rate, &grid, SpectrumOptions::default())?;
-        lines.push(Series::line(
+        series.push(Series::line(
             format!("θ_1(0) = {:?}°", run.angle_deg),
             &spectrum.frequencies_hz,
             &spectrum.amplitudes,
@@ -241,7 +236,7 @@ fn spectrum(
     } else {
         Axis::linear(label)
     });
-    let panel = lines
+    let panel = series
         .into_iter()
         .fold(panel, Panel::series)
         .vertical(frequencies.plus, "f_+")

@@ -10,6 +10,7 @@
 //! - [`apparatus`]: the two scenes, and what is measured at one instant,
 //! - [`experiment`]: one run from release to the last sample,
 //! - [`findings`]: what a run says, [`terms`]: the terms of W one by one,
+//!   [`lines`]: those of the spectrum,
 //! - [`table`], [`samples`], [`charts`], [`growth`], [`film`]: how it is shown.
 
 pub mod apparatus;
@@ -19,6 +20,7 @@ pub mod experiment;
 pub mod film;
 pub mod findings;
 pub mod growth;
+pub mod lines;
 pub mod run;
 pub mod samples;
 pub mod scenes;

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::table;
 use super::{
-    Apparatus, Arguments, Findings, Frequencies, Run, charts, film, growth, samples, scenes,
+    Apparatus, Arguments, Findings, Frequencies, Run, charts, film, growth, lines, samples, scenes,
 };
 use crate::failure::Failure;
 use crate::program::Job;
@@ -29,6 +29,10 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let report = table::report(arguments, &apparatus, frequencies, &runs, &findings);
     let bands = growth::report(&runs, &findings);
     job.print(&format!("{report}\n{bands}\n"))?;
+    if let Some(gentlest) = runs.first() {
+        let lines = lines::of(gentlest, arguments.rate)?;
+        job.print(&format!("{}\n", lines::report(gentlest.angle_deg, &lines)))?;
+    }
     charts::write(job, arguments, frequencies, &runs)?;
     growth::write(job, arguments, &runs, &findings)?;
     if arguments.animate {

@@ -155,6 +155,15 @@ pub enum ReadErrorKind {
         /// The column.
         name: String,
     },
+    /// Times that are whole numbers of nothing: frames, or milliseconds.
+    #[error(
+        "column `{name}` holds whole numbers and names no unit; give the frame rate, or the unit \
+         behind the name (frames are never taken for seconds)"
+    )]
+    WholeTimes {
+        /// The column.
+        name: String,
+    },
     /// A frame rate that is no positive number.
     #[error("a frame rate of {value} Hz; it must be finite and positive")]
     FrameRate {
@@ -228,7 +237,9 @@ impl ReadErrorKind {
 fn hint(text: &str) -> &'static str {
     let digits = text.chars().filter(char::is_ascii_digit).count();
     let marks = text.chars().filter(|c| matches!(c, '.' | ',')).count();
-    if digits > 0 && marks > 1 {
+    if text.starts_with('"') {
+        " (a quotation mark that is not closed?)"
+    } else if digits > 0 && marks > 1 {
         " (are thousands separated?)"
     } else if digits > 0 && text.contains(',') {
         " (decimal commas in a file of decimal points?)"

@@ -105,7 +105,11 @@ impl Table {
             return Err(ReadErrorKind::CellCount { expected, found }.at(&self.path, place));
         }
         for (index, (cell, values)) in row.cells.iter().zip(&mut self.values).enumerate() {
-            let text = || cell.clone();
+            // A quotation mark that is not closed takes the lines below in.
+            let text = || match cell.split_once('\n') {
+                Some((first, _)) => format!("\"{first}…"),
+                None => cell.clone(),
+            };
             let refused = match format.entry(cell) {
                 Entry::Number(value) => {
                     values.push(Some(value));

@@ -202,8 +202,8 @@ fn seconds(unit: &str) -> Option<f64> {
     })
 }
 
-/// The unit of a column of times, in seconds. Whole numbers that count up by one are
-/// frames, unless their unit is named.
+/// The unit of a column of times, in seconds. Whole numbers may be frames, some of them
+/// dropped or skipped, unless their unit is named.
 fn unit(
     table: &Table,
     column: usize,
@@ -212,14 +212,10 @@ fn unit(
 ) -> Result<f64, ReadError> {
     let (name, unit) = (&table.columns()[column].name, &table.columns()[column].unit);
     if unit.is_empty() {
-        let values = table.values(column);
-        let counts = values.windows(2).all(|pair| match pair {
-            [Some(one), Some(next)] => one.fract() == 0.0 && *next == one + 1.0,
-            _ => false,
-        });
-        if counts {
+        let mut values = table.values(column).iter().flatten();
+        if values.all(|value| value.fract() == 0.0) {
             let name = name.clone();
-            return Err(table.refused(ReadErrorKind::FrameNumbers { name }));
+            return Err(table.refused(ReadErrorKind::WholeTimes { name }));
         }
         findings.push(Finding::new(basis, format!("`{name}` is the time")));
         let text = format!("`{name}` is in seconds, since its header names no unit");

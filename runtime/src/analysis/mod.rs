@@ -22,7 +22,8 @@ pub use identification::{AngleRecord, FamilyOf, Fit, Identification, Identificat
 pub use modes::{Modes, ModesError};
 pub use sector_modes::{SectorBlock, SectorModes, SectorModesError};
 pub use smoothing::{
-    Bands, KinematicSmoother, ModelSmoother, SmoothedMotion, SmoothingError, bands,
+    Bands, KinematicSmoother, LocalPolynomials, ModelSmoother, SmoothedMotion, SmoothingError,
+    bands, running_integral,
 };
 #[cfg(feature = "spectra")]
 pub use spectrum::{

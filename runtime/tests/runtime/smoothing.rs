@@ -1,7 +1,10 @@
 //! Motions estimated from noisy data, against the motions that they were made from.
 
 use branched_pendulum::analysis::variational::WithDerivative;
-use branched_pendulum::analysis::{KinematicSmoother, ModelSmoother, SmoothingError};
+use branched_pendulum::analysis::{
+    KinematicSmoother, LocalPolynomials, ModelSmoother, SmoothedMotion, SmoothingError,
+    running_integral,
+};
 use branched_pendulum::integrate::{Dop853, Integrator, Options, Rk4};
 use branched_pendulum::system::{OdeFn, State};
 
@@ -24,6 +27,7 @@ fn signal(time: f64) -> [f64; 3] {
 /// In how many of all cases angle and rate lie within 1.96 deviations. (Those of the second
 /// derivative are too wide: the signal is smoother than the integral of a white jerk.)
 fn coverage(
+    smooth: impl Fn(&[f64], &[Option<f64>]) -> SmoothedMotion<3>,
     times: &[f64],
     noise: f64,
     missing: impl Fn(usize) -> bool,
@@ -40,7 +44,7 @@ fn coverage(
                 (!missing(index)).then_some(datum)
             })
             .collect();
-        let smoothed = KinematicSmoother::default().smooth(times, &data).unwrap();
+        let smoothed = smooth(times, &data);
         for (index, &time) in times
             .iter()
             .enumerate()
@@ -56,6 +60,14 @@ fn coverage(
     inside.map(|inside| f64::from(inside) / f64::from(count))
 }
 
+fn by_smoothness(times: &[f64], data: &[Option<f64>]) -> SmoothedMotion<3> {
+    KinematicSmoother::default().smooth(times, data).unwrap()
+}
+
+fn by_polynomials(times: &[f64], data: &[Option<f64>]) -> SmoothedMotion<3> {
+    LocalPolynomials::default().smooth(times, data).unwrap()
+}
+
 #[test]
 fn bars_hold_what_they_say() {
     let even: Vec<f64> = (0..400).map(|i| f64::from(i) / 120.0).collect();
@@ -65,7 +77,7 @@ fn bars_hold_what_they_say() {
         .collect();
     for times in [even, uneven] {
         for noise in [3e-4, 3e-3] {
-            let all = coverage(&times, noise, |_| false, |_| true);
+            let all = coverage(by_smoothness, &times, noise, |_| false, |_| true);
             assert!(
                 all.iter().all(|part| (0.93..0.995).contains(part)),
                 "{noise}: {all:?}"
@@ -73,12 +85,101 @@ fn bars_hold_what_they_say() {
         }
         // A gap of 12 pictures, and every seventh picture lost.
         let lost = |index: usize| (200..212).contains(&index) || index % 7 == 3;
-        let within = coverage(&times, 1e-3, lost, |index| (200..212).contains(&index));
+        let within = coverage(by_smoothness, &times, 1e-3, lost, |index| {
+            (200..212).contains(&index)
+        });
         assert!(
             within.iter().all(|part| (0.85..=1.0).contains(part)),
             "gap: {within:?}"
         );
     }
+}
+
+/// What polynomials do not follow is not in their bars, which are nearly as good.
+#[test]
+fn bars_of_polynomials_hold_nearly_what_they_say() {
+    let even: Vec<f64> = (0..400).map(|i| f64::from(i) / 120.0).collect();
+    let uneven: Vec<f64> = (0..400)
+        .map(|i| (f64::from(i) + 0.33 * (2.3 * f64::from(i)).sin()) / 120.0)
+        .collect();
+    for times in [even, uneven] {
+        for noise in [3e-4, 3e-3] {
+            let lost = |index: usize| index % 7 == 3;
+            let all = coverage(by_polynomials, &times, noise, lost, |_| true);
+            assert!(
+                all.iter().all(|part| (0.9..0.995).contains(part)),
+                "{noise}: {all:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn polynomials_of_their_own_degree_are_met_exactly() {
+    let times: Vec<f64> = (0..30)
+        .map(|i| 0.1 * f64::from(i) + 0.003 * f64::from(i * i % 7))
+        .collect();
+    let value = |t: f64| {
+        [
+            1.0 - t + 0.5 * t * t - 0.1 * t.powi(4),
+            -1.0 + t - 0.4 * t.powi(3),
+            1.0 - 1.2 * t * t,
+        ]
+    };
+    let data: Vec<_> = times
+        .iter()
+        .enumerate()
+        .map(|(i, &t)| (i % 5 != 2).then_some(value(t)[0]))
+        .collect();
+    for window in [None, Some(9)] {
+        let smoother = LocalPolynomials {
+            window,
+            noise: Some(1e-3),
+            ..LocalPolynomials::default()
+        };
+        let smoothed = smoother.smooth(&times, &data).unwrap();
+        for (index, &time) in times.iter().enumerate() {
+            for (found, exact) in smoothed.mean(index).iter().zip(value(time)) {
+                assert!((found - exact).abs() < 1e-8, "{window:?} {index}");
+            }
+        }
+    }
+    let refused = |degree, window| {
+        let noise = None;
+        let smoother = LocalPolynomials {
+            degree,
+            window,
+            noise,
+        };
+        smoother.smooth(&times, &data).unwrap_err().to_string()
+    };
+    assert_eq!(
+        refused(1, None),
+        "the degree is 1: degrees are 2 to 8, windows wider"
+    );
+    assert_eq!(
+        refused(4, Some(5)),
+        "the window is 5: degrees are 2 to 8, windows wider"
+    );
+    assert_eq!(
+        refused(4, Some(99)),
+        "the window is 99: degrees are 2 to 8, windows wider"
+    );
+}
+
+/// A cubic is integrated exactly, a wave far better than by the trapezoidal rule.
+#[test]
+fn integrals_over_time_are_close() {
+    let times: Vec<f64> = (0..61).map(|i| f64::from(i) / 60.0).collect();
+    let waves: Vec<f64> = times.iter().map(|t| (20.0 * t).cos()).collect();
+    let integral = running_integral(&times, &waves);
+    let off = times.iter().zip(&integral);
+    let off = off.map(|(t, sum)| (sum - (20.0 * t).sin() / 20.0).abs());
+    let off = off.fold(0.0, f64::max);
+    let step: f64 = 20.0 / 60.0;
+    assert!(off < 0.05 / 20.0 * step.powi(4) && off > 0.0, "{off}");
+    assert!(running_integral(&[], &[]).is_empty());
+    assert_eq!(running_integral(&[0.0, 0.5], &[1.0, 3.0]), [0.0, 1.0]);
 }
 
 #[test]
@@ -89,13 +190,18 @@ fn draws_have_the_deviations_of_the_estimate() {
         .iter()
         .map(|&t| Some(signal(t)[0] + 1e-3 * normal.next()))
         .collect();
-    let smoothed = KinematicSmoother::default().smooth(&times, &data).unwrap();
+    assert!(by_smoothness(&times, &data).whiteness().abs() < 3.0);
+    for smoothed in [by_smoothness(&times, &data), by_polynomials(&times, &data)] {
+        check_draws(&smoothed, &mut normal);
+    }
+}
+
+fn check_draws(smoothed: &SmoothedMotion<3>, normal: &mut Normal) {
     assert!(
         (smoothed.noise() / 1e-3 - 1.0).abs() < 0.15,
         "{}",
         smoothed.noise()
     );
-    assert!(smoothed.whiteness().abs() < 3.0);
     let draws: Vec<_> = (0..2000).map(|_| smoothed.draw(|| normal.next())).collect();
     for index in [0, 57, 199] {
         let (mean, deviation) = (smoothed.mean(index), smoothed.deviation(index));
@@ -128,12 +234,12 @@ fn what_is_given_is_kept() {
             .unwrap()
     };
     let free = smooth(None, None);
-    let both = smooth(Some(free.noise()), Some(free.density()));
+    let both = smooth(Some(free.noise()), Some(free.densities()[0]));
     let noise = smooth(Some(free.noise()), None);
-    let jerk = smooth(None, Some(free.density()));
+    let jerk = smooth(None, Some(free.densities()[0]));
     for other in [&both, &noise, &jerk] {
         assert!((other.noise() / free.noise() - 1.0).abs() < 0.05);
-        assert!((other.density() / free.density() - 1.0).abs() < 0.3);
+        assert!((other.densities()[0] / free.densities()[0] - 1.0).abs() < 0.3);
         let [_, one, _] = free.mean(150);
         let [_, two, _] = other.mean(150);
         assert!((one - two).abs() < 0.2 * free.deviation(150)[1]);
@@ -243,7 +349,7 @@ fn equations_of_motion_help_where_they_hold() {
         let wrong = smooth(0.05);
         let by_wrong = rms(&mut (0..times.len()).map(|i| wrong_rate(wrong.mean(i)[1], i)));
         assert!(by_wrong < by_smoothness, "{by_wrong} {by_smoothness}");
-        assert!(wrong.density() > 100.0 * right.density());
+        assert!(wrong.densities()[0] > 100.0 * right.densities()[0]);
         assert!(wrong.deviation(150)[1] > 2.0 * right.deviation(150)[1]);
     }
     // The errors of one record are those of two numbers: 24 records, 48 numbers.

@@ -13,7 +13,8 @@ pub enum SmoothingError {
         /// Number of data.
         data: usize,
     },
-    /// Fewer than four data that are not missing.
+    /// Too few data that are not missing: four are needed, for polynomials two more than
+    /// their degree.
     TooFew {
         /// Number of data.
         found: usize,
@@ -44,7 +45,8 @@ pub enum SmoothingError {
     },
     /// The model's motion leaves the data, or cannot be integrated.
     Diverged,
-    /// A noise, a jerk or an acceleration that is not finite and positive.
+    /// A noise, a jerk or an acceleration that is not finite and positive, a degree or a
+    /// window of polynomials that is not possible.
     Option {
         /// Its name.
         name: &'static str,
@@ -77,6 +79,13 @@ impl fmt::Display for SmoothingError {
                  them measured; a state is the measured angles and their rates"
             ),
             Self::Diverged => write!(f, "the motion of the model does not stay near the data"),
+            Self::Option {
+                name: name @ ("degree" | "window"),
+                value,
+            } => write!(
+                f,
+                "the {name} is {value}: degrees are 2 to 8, windows wider"
+            ),
             Self::Option { name, value } => {
                 write!(f, "the {name} is {value}: it must be finite and positive")
             }
@@ -85,6 +94,29 @@ impl fmt::Display for SmoothingError {
 }
 
 impl core::error::Error for SmoothingError {}
+
+/// Smallest number of data: three are met by a parabola.
+const FEWEST: usize = 4;
+
+/// Refuses data that do not belong to the times, are too few, or are not finite.
+pub(super) fn check_data(times: &[f64], data: &[Option<f64>]) -> Result<(), SmoothingError> {
+    if times.len() != data.len() {
+        let (times, data) = (times.len(), data.len());
+        return Err(SmoothingError::Length { times, data });
+    }
+    let found = data.iter().flatten().count();
+    if found < FEWEST {
+        return Err(SmoothingError::TooFew { found });
+    }
+    for (index, datum) in data.iter().enumerate() {
+        if let Some(value) = *datum
+            && !value.is_finite()
+        {
+            return Err(SmoothingError::Datum { index, value });
+        }
+    }
+    Ok(())
+}
 
 pub(super) fn check_times(times: &[f64]) -> Result<(), SmoothingError> {
     for (index, &value) in times.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::error::{SmoothingError, check_option, check_times, usual_interval};
+use super::error::{SmoothingError, check_data, check_option, check_times, usual_interval};
 use super::gaussian::{Gaussian, Innovations, Step};
 use super::likelihood::largest;
 use super::series::{Scale, SmoothedMotion};
@@ -64,7 +64,10 @@ impl KinematicSmoother {
         times: &[f64],
         data: &[Option<f64>],
     ) -> Result<SmoothedMotion<3>, SmoothingError> {
-        self.check(times, data)?;
+        check_data(times, data)?;
+        check_times(times)?;
+        check_option("noise", self.noise)?;
+        check_option("jerk", self.jerk)?;
         let unit = usual_interval(times);
         let problem = Problem { times, data, unit };
         let scale = unit.powi(5);
@@ -91,36 +94,13 @@ impl KinematicSmoother {
         };
         let scale = Scale {
             noise,
-            density: ratio * noise * noise / scale,
+            densities: vec![ratio * noise * noise / scale],
             factors: Vector3::new(1.0, 1.0 / unit, 1.0 / (unit * unit)),
         };
         Ok(SmoothedMotion::new(times, &steps, innovations, scale))
     }
-
-    fn check(&self, times: &[f64], data: &[Option<f64>]) -> Result<(), SmoothingError> {
-        if times.len() != data.len() {
-            let (times, data) = (times.len(), data.len());
-            return Err(SmoothingError::Length { times, data });
-        }
-        let found = data.iter().flatten().count();
-        if found < FEWEST {
-            return Err(SmoothingError::TooFew { found });
-        }
-        check_times(times)?;
-        for (index, datum) in data.iter().enumerate() {
-            if let Some(value) = *datum
-                && !value.is_finite()
-            {
-                return Err(SmoothingError::Datum { index, value });
-            }
-        }
-        check_option("noise", self.noise)?;
-        check_option("jerk", self.jerk)
-    }
 }
 
-/// Smallest number of data: three are met by a parabola.
-const FEWEST: usize = 4;
 /// Logarithms of q τ⁵/σ² among which the likeliest is sought, τ the usual interval.
 const LOG_RATIOS: [f64; 2] = [-60.0, 20.0];
 /// Variance of the state before the first datum, in σ²: its weight beside the data is the
@@ -164,7 +144,7 @@ impl Problem<'_> {
 }
 
 /// Transition over h usual intervals and the variance that the jerk adds, in units of σ²
-/// (physics §8).
+/// (physics §17).
 fn step(h: f64, ratio: f64) -> (Matrix3<f64>, Matrix3<f64>) {
     let transition = Matrix3::new(1.0, h, 0.5 * h * h, 0.0, 1.0, h, 0.0, 0.0, 1.0);
     let factorial = [1.0, 1.0, 2.0];

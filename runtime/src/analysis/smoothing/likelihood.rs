@@ -1,4 +1,4 @@
-//! The largest value of a likelihood of one variable.
+//! The largest values of likelihoods.
 
 /// Returns where a function is largest in an interval: the best of a grid, refined between
 /// its neighbours by golden sections. Where it is not finite it counts as smallest.
@@ -35,4 +35,38 @@ pub(super) fn largest(function: impl Fn(f64) -> f64, [low, high]: [f64; 2]) -> f
         }
     }
     0.5 * (low + high)
+}
+
+/// Returns a place near `at` where a function of some variables is large: each in turn goes
+/// on while that gains, in steps that are halved, where no step gains, down to `least`. No
+/// variable falls below `low`.
+pub(super) fn climb(
+    function: impl Fn(&[f64]) -> f64,
+    mut at: Vec<f64>,
+    low: f64,
+    [mut step, least]: [f64; 2],
+) -> Vec<f64> {
+    let mut best = function(&at);
+    while step >= least {
+        let mut gains = false;
+        for index in 0..at.len() {
+            for side in [step, -step] {
+                loop {
+                    let before = at[index];
+                    at[index] = (before + side).max(low);
+                    let value = function(&at);
+                    // NaN is no gain.
+                    if at[index] == before || !(value > best) {
+                        at[index] = before;
+                        break;
+                    }
+                    (best, gains) = (value, true);
+                }
+            }
+        }
+        if !gains {
+            step *= 0.5;
+        }
+    }
+    at
 }

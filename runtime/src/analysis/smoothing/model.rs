@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use super::error::{SmoothingError, check_option, check_times, usual_interval};
 use super::gaussian::{Gaussian, Innovations, Step, smooth};
 use super::kinematic::DIFFUSE;
-use super::likelihood::largest;
+use super::likelihood::climb;
 use super::series::{Scale, SmoothedMotion};
 use crate::analysis::variational::{Linearised, Variational, flow_jacobian};
 use crate::integrate::Integrator;
@@ -14,19 +14,39 @@ use crate::system::State;
 /// A smoother that knows the equations of motion: between times the state follows them but
 /// for white angular accelerations of a spectral density q, which stand for all that the
 /// model lacks. Gauss–Newton iteration of a Kalman smoother about the motion's own
-/// linearisation (physics §8; B. M. Bell, *The iterated Kalman smoother as a Gauss–Newton
+/// linearisation (physics §17; B. M. Bell, *The iterated Kalman smoother as a Gauss–Newton
 /// method*, SIAM J. Optim. 4 (1994)).
 ///
 /// With the likeliest q, errors are as small as the model is good: with the right model
-/// those of the best single trajectory, with a wrong one no worse than without any.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct ModelSmoother {
+/// those of the best single trajectory, with a wrong one no worse than without any. What a
+/// model lacks seldom acts on all angles alike: friction on the motion in phase is far larger
+/// than on a small difference of identical branches. [`disturbances`](Self::disturbances)
+/// tell such patterns apart, and each has a density of its own.
+///
+/// # Examples
+///
+/// Patterns of a parent with two identical children:
+///
+/// ```
+/// use branched_pendulum::analysis::ModelSmoother;
+///
+/// let smoother = ModelSmoother {
+///     disturbances: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.0, 1.0, -1.0]],
+///     ..ModelSmoother::default()
+/// };
+/// # assert_eq!(smoother.disturbances.len(), 3);
+/// ```
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct ModelSmoother<const N: usize> {
     /// Standard deviation σ of measured angles, rad; without it the one of largest
     /// likelihood.
     pub noise: Option<f64>,
     /// Spectral density q of the angular accelerations, rad²/s³; without it the one of
     /// largest likelihood.
     pub acceleration: Option<f64>,
+    /// Patterns of the angular accelerations, each with the likeliest density of its own;
+    /// without any all angles are disturbed independently with one density.
+    pub disturbances: Vec<[f64; N]>,
 }
 
 /// Steps of Gauss and Newton for one q at most.
@@ -42,8 +62,12 @@ const LOG_RATIOS: [f64; 2] = [-35.0, 2.0];
 const LOG_STEP: f64 = 2.5;
 /// Loss of likelihood after which smaller ones are not tried.
 const HOPELESS: f64 = 20.0;
+/// Steps by which the likeliest ones are approached, the first and the last.
+const STEPS: [f64; 2] = [LOG_STEP, 0.3];
+/// Times that the likeliest ones are sought, each about the motion of the last ones.
+const SEARCHES: usize = 2;
 
-impl ModelSmoother {
+impl<const N: usize> ModelSmoother<N> {
     /// Estimates angles and angular velocities at all times, where data are missing too.
     ///
     /// `system` is that of the angles followed by their rates, `D` numbers in all, of which
@@ -56,7 +80,7 @@ impl ModelSmoother {
     ///
     /// [`SmoothingError`]; [`SmoothingError::Diverged`] where the motion of the model does
     /// not stay near the data.
-    pub fn smooth<const D: usize, const N: usize, L, M>(
+    pub fn smooth<const D: usize, L, M>(
         &self,
         method: &M,
         system: &L,
@@ -75,6 +99,7 @@ impl ModelSmoother {
             times,
             data,
             unit: usual_interval(times),
+            kinds: self.kinds(),
         };
         let cube = problem.unit.powi(3);
         let ratio = match (self.noise, self.acceleration) {
@@ -82,27 +107,30 @@ impl ModelSmoother {
             _ => None,
         };
         let solution = match ratio {
-            Some(ratio) => problem.solve(ratio, guess.to_vec(), CONVERGED)?,
+            Some(ratio) => problem.solve(&[ratio.ln()], guess.to_vec(), CONVERGED)?,
             None => self.likeliest(&problem, guess)?,
         };
         let Solution {
-            ratio,
+            logs,
             steps,
             innovations,
             ..
         } = solution;
         let noise = self
             .noise
-            .unwrap_or_else(|| self.noise_of(ratio, cube, &innovations));
+            .unwrap_or_else(|| self.noise_of(&logs, cube, &innovations));
         let scale = Scale {
             noise,
-            density: ratio * noise * noise / cube,
+            densities: logs
+                .iter()
+                .map(|log| log.exp() * noise * noise / cube)
+                .collect(),
             factors: SVector::repeat(1.0),
         };
         Ok(SmoothedMotion::new(times, &steps, innovations, scale))
     }
 
-    fn check<const D: usize, const N: usize>(
+    fn check<const D: usize>(
         &self,
         dimension: usize,
         times: &[f64],
@@ -147,16 +175,27 @@ impl ModelSmoother {
         check_option("acceleration", self.acceleration)
     }
 
-    /// The deviation of the data that goes with a ratio.
-    fn noise_of(&self, ratio: f64, cube: f64, innovations: &Innovations) -> f64 {
+    /// Covariances of the accelerations that have a density of their own.
+    fn kinds(&self) -> Vec<SMatrix<f64, N, N>> {
+        if self.disturbances.is_empty() {
+            return vec![SMatrix::identity()];
+        }
+        let patterns = self.disturbances.iter().map(|p| SVector::from(*p));
+        patterns
+            .map(|pattern| pattern * pattern.transpose())
+            .collect()
+    }
+
+    /// The deviation of the data that goes with logarithms of ratios.
+    fn noise_of(&self, logs: &[f64], cube: f64, innovations: &Innovations) -> f64 {
         match (self.noise, self.acceleration) {
             (Some(noise), _) => noise,
-            (None, Some(q)) => (q * cube / ratio).sqrt(),
+            (None, Some(q)) => (q * cube / logs.first().map_or(1.0, |log| log.exp())).sqrt(),
             (None, None) => innovations.noise(),
         }
     }
 
-    fn likeliest<const D: usize, const N: usize, L, M>(
+    fn likeliest<const D: usize, L, M>(
         &self,
         problem: &Problem<'_, N, L, M>,
         guess: &[[f64; D]],
@@ -166,38 +205,42 @@ impl ModelSmoother {
         M: for<'a> Integrator<f64, Variational<'a, L>>,
     {
         let cube = problem.unit.powi(3);
-        let likelihood = |solution: &Solution<D>| {
-            let noise = self.noise_of(solution.ratio, cube, &solution.innovations);
-            solution.innovations.log_likelihood(Some(noise))
+        let likelihood = |logs: &[f64], innovations: &Innovations| {
+            innovations.log_likelihood(Some(self.noise_of(logs, cube, innovations)))
         };
+        let of = |solution: &Solution<D>| likelihood(&solution.logs, &solution.innovations);
         let [low, high] = LOG_RATIOS;
         let mut log = high;
-        let mut best = problem.solve(log.exp(), guess.to_vec(), NEAR)?;
+        let mut best = problem.solve(&[log], guess.to_vec(), NEAR)?;
         let mut motion = best.motion.clone();
         while log > low {
             log -= LOG_STEP;
             // A model that cannot follow the data any more has been trusted too far.
-            let Ok(next) = problem.solve(log.exp(), motion, NEAR) else {
+            let Ok(next) = problem.solve(&[log], motion, NEAR) else {
                 break;
             };
             motion = next.motion.clone();
-            if likelihood(&next) < likelihood(&best) - HOPELESS {
+            if of(&next) < of(&best) - HOPELESS {
                 break;
             }
-            if likelihood(&next) > likelihood(&best) {
+            if of(&next) > of(&best) {
                 best = next;
             }
         }
-        // The linearisation about the best motion serves its neighbours.
-        let linear = problem.linearise(&best.motion)?;
-        let near = best.ratio.ln();
-        let of = |log: f64| {
-            let (innovations, _) = problem.filter(log.exp(), &best.motion, &linear);
-            let noise = self.noise_of(log.exp(), cube, &innovations);
-            innovations.log_likelihood(Some(noise))
-        };
-        let refined = largest(of, [near - LOG_STEP, near + LOG_STEP]).exp();
-        problem.solve(refined, best.motion, CONVERGED)
+        // A density that is given is that of all patterns.
+        if self.acceleration.is_none() {
+            best.logs = vec![best.logs[0]; problem.kinds.len()];
+        }
+        for search in 1..=SEARCHES {
+            // The linearisation about the best motion serves its neighbours.
+            let linear = problem.linearise(&best.motion)?;
+            let near =
+                |logs: &[f64]| likelihood(logs, &problem.filter(logs, &best.motion, &linear).0);
+            let logs = climb(near, best.logs.clone(), low, STEPS);
+            let enough = if search < SEARCHES { NEAR } else { CONVERGED };
+            best = problem.solve(&logs, best.motion, enough)?;
+        }
+        Ok(best)
     }
 }
 
@@ -209,14 +252,17 @@ struct Problem<'a, const N: usize, L, M> {
     data: &'a [[Option<f64>; N]],
     /// The usual interval, s.
     unit: f64,
+    /// Covariances of the accelerations, of a density of 1 each.
+    kinds: Vec<SMatrix<f64, N, N>>,
 }
 
 /// The flow from each time to the next about a motion: where it leads, and its derivative.
 type Flow<const D: usize> = Vec<(SVector<f64, D>, SMatrix<f64, D, D>)>;
 
-/// The motion for one ratio q τ³/σ².
+/// The motion for given ratios q τ³/σ².
 struct Solution<const D: usize> {
-    ratio: f64,
+    /// Their logarithms: one for each kind of disturbance, or one for all.
+    logs: Vec<f64>,
     motion: Vec<[f64; D]>,
     steps: Vec<Step<D>>,
     innovations: Innovations,
@@ -231,13 +277,13 @@ where
     /// deviations of the data.
     fn solve<const D: usize>(
         &self,
-        ratio: f64,
+        logs: &[f64],
         mut motion: Vec<[f64; D]>,
         converged: f64,
     ) -> Result<Solution<D>, SmoothingError> {
         for iteration in 1.. {
             let flow = self.linearise(&motion)?;
-            let (innovations, steps) = self.filter(ratio, &motion, &flow);
+            let (innovations, steps) = self.filter(logs, &motion, &flow);
             let (smoothed, _) = smooth(&steps);
             let noise = innovations.noise();
             let mut change = 0.0_f64;
@@ -258,7 +304,7 @@ where
             }
             if change <= converged * noise || iteration == ITERATIONS {
                 return Ok(Solution {
-                    ratio,
+                    logs: logs.to_vec(),
                     motion,
                     steps,
                     innovations,
@@ -284,10 +330,13 @@ where
 
     fn filter<const D: usize>(
         &self,
-        ratio: f64,
+        logs: &[f64],
         motion: &[[f64; D]],
         flow: &Flow<D>,
     ) -> (Innovations, Vec<Step<D>>) {
+        let ratios = logs.iter().cycle().map(|log| log.exp());
+        let kinds = self.kinds.iter().zip(ratios);
+        let accelerations: SMatrix<f64, N, N> = kinds.map(|(kind, ratio)| kind * ratio).sum();
         let mut innovations = Innovations::new(D);
         let mut steps: Vec<Step<D>> = Vec::with_capacity(self.times.len());
         for (index, row) in self.data.iter().enumerate() {
@@ -297,7 +346,7 @@ where
                     let h = (self.times[index] - self.times[before]) / self.unit;
                     let about = SVector::from(motion[before]);
                     let mean = end + transition * (last.updated.mean - about);
-                    let noise = ratio * self.noise(h);
+                    let noise = self.noise(&accelerations, h);
                     (*transition, last.updated.step(mean, transition, &noise))
                 }
                 _ => (SMatrix::identity(), self.start(motion)),
@@ -328,15 +377,20 @@ where
         }
     }
 
-    /// Variance that white accelerations add over h usual intervals, for q τ³ = 1.
-    fn noise<const D: usize>(&self, h: f64) -> SMatrix<f64, D, D> {
+    /// Variance that white accelerations add over h usual intervals.
+    fn noise<const D: usize>(
+        &self,
+        accelerations: &SMatrix<f64, N, N>,
+        h: f64,
+    ) -> SMatrix<f64, D, D> {
         let unit = self.unit;
-        SMatrix::from_fn(|row, column| match (row < N, column < N) {
-            (true, true) if row == column => h.powi(3) / 3.0,
-            (false, false) if row == column => h / (unit * unit),
-            (true, false) if row + N == column => 0.5 * h * h / unit,
-            (false, true) if column + N == row => 0.5 * h * h / unit,
-            _ => 0.0,
+        SMatrix::from_fn(|row, column| {
+            let part = match (row < N, column < N) {
+                (true, true) => h.powi(3) / 3.0,
+                (false, false) => h / (unit * unit),
+                _ => 0.5 * h * h / unit,
+            };
+            part * accelerations[(row % N, column % N)]
         })
     }
 }

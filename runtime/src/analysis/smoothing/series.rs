@@ -5,29 +5,58 @@ use nalgebra::SVector;
 use super::gaussian::{Back, Innovations, Step, smooth};
 
 /// A motion of `D` components at every time, their errors, and draws from all motions that
-/// the data allow: for a [`KinematicSmoother`](super::KinematicSmoother) a coordinate with
-/// its first and second time derivative, for a [`ModelSmoother`](super::ModelSmoother) angles
-/// and angular velocities.
+/// the data allow: for a [`KinematicSmoother`](super::KinematicSmoother) and
+/// [`LocalPolynomials`](super::LocalPolynomials) a coordinate with its first and second time
+/// derivative, for a [`ModelSmoother`](super::ModelSmoother) angles and angular velocities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmoothedMotion<const D: usize> {
     times: Vec<f64>,
     noise: f64,
-    density: f64,
+    densities: Vec<f64>,
     means: Vec<[f64; D]>,
     deviations: Vec<[f64; D]>,
-    back: Vec<Back<D>>,
+    spread: Spread<D>,
     innovations: Vec<f64>,
     free: usize,
-    /// Factors that take the smoother's state to the user's units.
-    scales: SVector<f64, D>,
+}
+
+/// How the errors of a motion hang together.
+#[derive(Clone, Debug, PartialEq)]
+enum Spread<const D: usize> {
+    /// Each state given the next.
+    Steps {
+        back: Vec<Back<D>>,
+        /// Factors that take the smoother's state to the user's units.
+        factors: SVector<f64, D>,
+    },
+    /// Each state a sum over data of independent errors.
+    Sums {
+        rows: Vec<Weights<D>>,
+        /// Number of data.
+        data: usize,
+    },
+}
+
+/// Weights of some data, from the one with index `first` on, in a state.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Weights<const D: usize> {
+    pub(super) first: usize,
+    pub(super) weights: Vec<SVector<f64, D>>,
+}
+
+impl<const D: usize> Weights<D> {
+    fn sum(&self, data: &[f64]) -> SVector<f64, D> {
+        let terms = self.weights.iter().zip(data.iter().skip(self.first));
+        terms.map(|(weight, datum)| weight * *datum).sum()
+    }
 }
 
 /// What a smoother knows of its state beside the steps.
 pub(super) struct Scale<const D: usize> {
     /// Standard deviation of the data.
     pub(super) noise: f64,
-    /// Spectral density of what disturbs the motion.
-    pub(super) density: f64,
+    /// Spectral densities of what disturbs the motion.
+    pub(super) densities: Vec<f64>,
     /// Factors that take the state to the user's units.
     pub(super) factors: SVector<f64, D>,
 }
@@ -42,7 +71,7 @@ impl<const D: usize> SmoothedMotion<D> {
     ) -> Self {
         let Scale {
             noise,
-            density,
+            densities,
             factors,
         } = scale;
         let (smoothed, back) = smooth(steps);
@@ -56,17 +85,45 @@ impl<const D: usize> SmoothedMotion<D> {
         Self {
             times: times.to_vec(),
             noise,
-            density,
+            densities,
             means: means.collect(),
             deviations: deviations.collect(),
-            back,
+            spread: Spread::Steps { back, factors },
             innovations: innovations
                 .standard
                 .iter()
                 .map(|value| value / noise)
                 .collect(),
             free: innovations.free,
-            scales: factors,
+        }
+    }
+
+    /// A motion whose states are sums of data with independent errors.
+    pub(super) fn by_weights(
+        times: &[f64],
+        rows: Vec<Weights<D>>,
+        data: &[f64],
+        noise: f64,
+    ) -> Self {
+        let deviation = |row: &Weights<D>| {
+            let squares = row
+                .weights
+                .iter()
+                .map(|weight| weight.component_mul(weight));
+            squares.sum::<SVector<f64, D>>().map(|x| noise * x.sqrt())
+        };
+        Self {
+            times: times.to_vec(),
+            noise,
+            densities: Vec::new(),
+            means: rows.iter().map(|row| row.sum(data).into()).collect(),
+            deviations: rows.iter().map(|row| deviation(row).into()).collect(),
+            spread: Spread::Sums {
+                rows,
+                data: data.len(),
+            },
+            innovations: Vec::new(),
+            free: 0,
         }
     }
 
@@ -80,11 +137,12 @@ impl<const D: usize> SmoothedMotion<D> {
         self.noise
     }
 
-    /// Spectral density of what disturbs the motion: the jerk of a
+    /// Spectral densities of what disturbs the motion: the jerk of a
     /// [`KinematicSmoother`](super::KinematicSmoother) in the data's unit squared over s⁵,
-    /// the angular acceleration of a [`ModelSmoother`](super::ModelSmoother) in rad²/s³.
-    pub fn density(&self) -> f64 {
-        self.density
+    /// the angular accelerations of a [`ModelSmoother`](super::ModelSmoother) in rad²/s³, one
+    /// for each of its patterns; none for [`LocalPolynomials`](super::LocalPolynomials).
+    pub fn densities(&self) -> &[f64] {
+        &self.densities
     }
 
     /// Returns the components at a time, NaN beyond the last.
@@ -99,14 +157,14 @@ impl<const D: usize> SmoothedMotion<D> {
 
     /// What each datum differed from what those before it led to expect, in standard
     /// deviations of that: white and normal if noise and motion are as assumed. The first
-    /// `D` say nothing.
+    /// `D` say nothing. [`LocalPolynomials`](super::LocalPolynomials) expect nothing: none.
     pub fn innovations(&self) -> &[f64] {
         &self.innovations
     }
 
     /// Returns the correlation of successive innovations in its standard deviations for
     /// white ones: beyond some 3 the motion is not what the smoother takes it for, and its
-    /// errors are larger than it says.
+    /// errors are larger than it says. NaN without innovations.
     pub fn whiteness(&self) -> f64 {
         let used = self.innovations.get(self.free..).unwrap_or_default();
         let square: f64 = used.iter().map(|x| x * x).sum();
@@ -117,13 +175,25 @@ impl<const D: usize> SmoothedMotion<D> {
     /// Draws a motion, each as likely as the data make it: the components at every time.
     /// `normal` gives independent numbers of a standard normal distribution.
     pub fn draw(&self, mut normal: impl FnMut() -> f64) -> Vec<[f64; D]> {
-        let mut motion = vec![[0.0; D]; self.back.len()];
-        let mut next = SVector::zeros();
-        for (slot, back) in motion.iter_mut().zip(&self.back).rev() {
-            let kick = SVector::from_fn(|_, _| self.noise * normal());
-            next = back.offset + back.gain * next + back.root * kick;
-            *slot = next.component_mul(&self.scales).into();
+        match &self.spread {
+            Spread::Steps { back, factors } => {
+                let mut motion = vec![[0.0; D]; back.len()];
+                let mut next = SVector::zeros();
+                for (slot, back) in motion.iter_mut().zip(back).rev() {
+                    let kick = SVector::from_fn(|_, _| self.noise * normal());
+                    next = back.offset + back.gain * next + back.root * kick;
+                    *slot = next.component_mul(factors).into();
+                }
+                motion
+            }
+            Spread::Sums { rows, data } => {
+                let errors: Vec<f64> = (0..*data).map(|_| self.noise * normal()).collect();
+                let states = rows.iter().zip(&self.means);
+                let drawn = |(row, mean): (&Weights<D>, &[f64; D])| {
+                    (SVector::from(*mean) + row.sum(&errors)).into()
+                };
+                states.map(drawn).collect()
+            }
         }
-        motion
     }
 }

@@ -207,7 +207,6 @@ struct Left {
     mean_square: f64,
     /// Amplitude, squared, of white noise of variance 1.
     noise: f64,
-    count: usize,
 }
 
 impl Left {
@@ -222,7 +221,6 @@ impl Left {
             amplitudes: magnitudes.iter().map(|x| 2.0 * x / total).collect(),
             mean_square: fit.mean_square(&residual),
             noise: 4.0 * squares / (total * total),
-            count,
         }
     }
 
@@ -241,7 +239,8 @@ impl Left {
         let best = bins.max_by(|&a, &b| self.amplitudes[a].total_cmp(&self.amplitudes[b]))?;
         let [before, at, after] = [best - 1, best, best + 1].map(|bin| self.amplitudes[bin]);
         let largest = waves.iter().map(Wave::amplitude).fold(0.0, f64::max);
-        let by_chance = (0.5 * self.count as f64 / CHANCE).ln();
+        // As many chances as amplitudes: those between Fourier frequencies count nearly so.
+        let by_chance = (self.amplitudes.len() as f64 / CHANCE).ln();
         let is_line = at * at > by_chance * self.noise * self.mean_square;
         if !is_line || at <= smallest * largest {
             return None;

@@ -1,5 +1,6 @@
 //! Coulomb and quadratic friction and drag in loops.
 
+use branched_pendulum::Cast;
 use branched_pendulum::prelude::*;
 
 use super::{Powered, agree, array, balance, pair, powered};
@@ -45,7 +46,7 @@ fn braked_tables_agree_with_code_written_out_and_with_the_oracle() {
 /// Several states at once, in registers, as one by one.
 #[test]
 fn batches_agree_with_single_states() {
-    fn check<P: Pendulum<f64>>(model: &P) {
+    fn check<P: Cast<f64>>(model: &P) {
         let states: Vec<super::State> = super::states(P::LINKS, 9).collect();
         let columns = |of: fn(&super::State) -> &Vec<f64>| -> Vec<Vec<f64>> {
             let column = |link: usize| states.iter().map(|state| of(state)[link]).collect();

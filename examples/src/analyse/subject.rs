@@ -1,0 +1,243 @@
+//! The pendulums that can be analysed.
+
+use branched_pendulum::analysis::variational::{Linearised, linearised};
+use branched_pendulum::analysis::{ModelSmoother, SmoothedMotion, SmoothingError};
+use branched_pendulum::prelude::{AbsoluteAngles, Rk4};
+
+use super::scenes::{DoublePendulum, DoublePendulumParameters};
+use crate::branched_double::Apparatus;
+use crate::branched_double::apparatus::EXACT;
+
+/// Coordinates and their rates.
+pub type Motion<const N: usize> = [[f64; N]; 2];
+
+/// Measured angles.
+#[derive(Clone, Copy, Debug)]
+pub struct Record<'a, const N: usize> {
+    /// Times, s.
+    pub times: &'a [f64],
+    /// Angles of the links, rad.
+    pub angles: &'a [[Option<f64>; N]],
+}
+
+/// Names of what is told about a pendulum.
+#[derive(Clone, Copy, Debug)]
+pub struct Names<const N: usize> {
+    /// Coordinates, in columns.
+    pub coordinates: [&'static str; N],
+    /// Coordinates, in charts.
+    pub symbols: [&'static str; N],
+    /// The coordinate that is drawn.
+    pub drawn: usize,
+    /// The coordinate of the spectrogram.
+    pub heard: usize,
+    /// The energy, in words.
+    pub energy_words: &'static str,
+    /// The energy, as a symbol.
+    pub energy: &'static str,
+    /// The power that is told.
+    pub power: &'static str,
+}
+
+/// Power at a state, W.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Powers {
+    /// The one that is told.
+    pub told: f64,
+    /// All that changes the energy.
+    pub whole: f64,
+}
+
+/// A pendulum of N links that were measured.
+pub trait Subject<const N: usize> {
+    /// Names of what is told.
+    fn names(&self) -> Names<N>;
+
+    /// Coordinates that are smoothed, from angles of links or from rates.
+    fn coordinates(&self, links: &[f64; N]) -> [f64; N];
+
+    /// Angles or rates of links from coordinates.
+    fn links(&self, coordinates: &[f64; N]) -> [f64; N];
+
+    /// The energy that is told, J.
+    fn energy(&self, motion: &Motion<N>) -> f64;
+
+    /// Its powers.
+    fn powers(&self, motion: &Motion<N>) -> Powers;
+
+    /// Smooths by the equations of motion, beginning from a motion of the links.
+    ///
+    /// # Errors
+    /// [`SmoothingError`].
+    fn by_model(
+        &self,
+        record: Record<'_, N>,
+        guess: &[Motion<N>],
+    ) -> Result<LinkMotion<N>, SmoothingError>;
+}
+
+/// Draws a motion by normal numbers.
+pub type Draw<const N: usize> = dyn Fn(&mut dyn FnMut() -> f64) -> Vec<Motion<N>>;
+
+/// A smoothed motion of links.
+pub struct LinkMotion<const N: usize> {
+    /// The likeliest motion.
+    pub mean: Vec<Motion<N>>,
+    /// Another motion that the data allow.
+    pub draw: Box<Draw<N>>,
+    /// Standard deviation of the angles, rad.
+    pub noise: f64,
+    /// Correlation of successive innovations, in standard deviations.
+    pub whiteness: f64,
+}
+
+/// Longest step from picture to picture, s: its error is far below that of any camera.
+const LONGEST_STEP: f64 = 2e-3;
+
+fn smoothed<const N: usize, const D: usize, L: Linearised<f64>>(
+    system: &L,
+    record: Record<'_, N>,
+    guess: &[Motion<N>],
+    disturbances: Vec<[f64; N]>,
+) -> Result<LinkMotion<N>, SmoothingError> {
+    let flat = |[angles, rates]: &Motion<N>| -> [f64; D] {
+        std::array::from_fn(|i| if i < N { angles[i] } else { rates[i - N] })
+    };
+    let parted = |state: &[f64; D]| -> Motion<N> {
+        [0, N].map(|first| std::array::from_fn(|i| state[first + i]))
+    };
+    let guess: Vec<[f64; D]> = guess.iter().map(flat).collect();
+    let smoother = ModelSmoother {
+        disturbances,
+        ..ModelSmoother::default()
+    };
+    let method = Rk4::new(LONGEST_STEP);
+    let motion: SmoothedMotion<D> =
+        smoother.smooth(&method, system, record.times, record.angles, &guess)?;
+    Ok(LinkMotion {
+        mean: (0..record.times.len())
+            .map(|index| parted(&motion.mean(index)))
+            .collect(),
+        noise: motion.noise(),
+        whiteness: motion.whiteness(),
+        draw: Box::new(move |normal| motion.draw(normal).iter().map(parted).collect()),
+    })
+}
+
+impl Subject<3> for Apparatus {
+    fn names(&self) -> Names<3> {
+        Names {
+            coordinates: ["theta_1", "theta_m", "theta_d"],
+            symbols: ["θ_1", "θ_m", "θ_d"],
+            drawn: 2,
+            heard: 1,
+            energy_words: "Energy of the antiphase mode",
+            energy: "H_d",
+            power: "W",
+        }
+    }
+
+    fn coordinates(&self, links: &[f64; 3]) -> [f64; 3] {
+        self.ideal().to_symmetric(links)
+    }
+
+    fn links(&self, coordinates: &[f64; 3]) -> [f64; 3] {
+        self.ideal().from_symmetric(coordinates)
+    }
+
+    fn energy(&self, [coordinates, rates]: &Motion<3>) -> f64 {
+        self.antiphase_energy(coordinates, rates)
+    }
+
+    fn powers(&self, [coordinates, rates]: &Motion<3>) -> Powers {
+        let flow = self.flow(coordinates, rates);
+        Powers {
+            told: flow.transfer[EXACT].total(),
+            whole: flow.antiphase_rate(EXACT),
+        }
+    }
+
+    /// What the model lacks acts on the parent, on the children together and against each
+    /// other: friction on the last is far smaller.
+    fn by_model(
+        &self,
+        record: Record<'_, 3>,
+        guess: &[Motion<3>],
+    ) -> Result<LinkMotion<3>, SmoothingError> {
+        let patterns = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.0, 1.0, -1.0]];
+        match self.damped() {
+            Some(model) => {
+                let system = linearised(AbsoluteAngles(model));
+                smoothed::<3, 6, _>(&system, record, guess, patterns)
+            }
+            None => {
+                let system = linearised(AbsoluteAngles(self.ideal()));
+                smoothed::<3, 6, _>(&system, record, guess, patterns)
+            }
+        }
+    }
+}
+
+/// A chain of two links with viscous friction.
+#[derive(Clone, Copy, Debug)]
+pub struct Chain {
+    model: DoublePendulum,
+    friction: [f64; 2],
+}
+
+impl Chain {
+    /// The chain with these parameters.
+    ///
+    /// # Errors
+    /// Parameters that no pendulum has.
+    pub fn new(
+        parameters: DoublePendulumParameters<f64>,
+    ) -> Result<Self, branched_pendulum::ParameterError> {
+        let friction = [parameters.upper_friction, parameters.lower_friction];
+        let model = DoublePendulum::new(parameters)?;
+        Ok(Self { model, friction })
+    }
+}
+
+impl Subject<2> for Chain {
+    fn names(&self) -> Names<2> {
+        Names {
+            coordinates: ["theta_1", "theta_2"],
+            symbols: ["θ_1", "θ_2"],
+            drawn: 1,
+            heard: 1,
+            energy_words: "Energy of the chain",
+            energy: "H",
+            power: "P",
+        }
+    }
+
+    fn coordinates(&self, links: &[f64; 2]) -> [f64; 2] {
+        *links
+    }
+
+    fn links(&self, coordinates: &[f64; 2]) -> [f64; 2] {
+        *coordinates
+    }
+
+    fn energy(&self, [angles, rates]: &Motion<2>) -> f64 {
+        self.model.kinetic_energy(angles, rates) + self.model.potential_energy(angles)
+    }
+
+    /// The power of friction is all that changes the energy.
+    fn powers(&self, [_, [upper, lower]]: &Motion<2>) -> Powers {
+        let [at_root, between] = self.friction;
+        let whole = -at_root * upper * upper - between * (lower - upper).powi(2);
+        Powers { told: whole, whole }
+    }
+
+    fn by_model(
+        &self,
+        record: Record<'_, 2>,
+        guess: &[Motion<2>],
+    ) -> Result<LinkMotion<2>, SmoothingError> {
+        let system = linearised(AbsoluteAngles(&self.model));
+        let patterns = vec![[1.0, 0.0], [0.0, 1.0]];
+        smoothed::<2, 4, _>(&system, record, guess, patterns)
+    }
+}

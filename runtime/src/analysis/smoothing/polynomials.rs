@@ -1,0 +1,198 @@
+//! Smoothing by polynomials through the data near each time.
+
+use nalgebra::{DMatrix, SVector};
+
+use super::error::{SmoothingError, check_data, check_option, check_times};
+use super::series::{SmoothedMotion, Weights};
+
+/// A smoother that knows nothing of a motion as a whole: near each time a polynomial is
+/// fitted to the data, with weights that fall off to the ends of its window. A cross-check of
+/// [`KinematicSmoother`](super::KinematicSmoother) that assumes neither a white jerk nor
+/// innovations.
+///
+/// A. Savitzky, M. J. E. Golay, *Smoothing and differentiation of data by simplified least
+/// squares procedures*, Anal. Chem. 36 (1964), here for uneven times and missing data, and up
+/// to the ends of the record. The bars are those of the noise: what a polynomial cannot
+/// follow is not in them.
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum::analysis::LocalPolynomials;
+///
+/// let times: Vec<f64> = (0..240).map(|i| f64::from(i) / 120.0).collect();
+/// // Rounded to milliradians: noise of some 0.3 mrad.
+/// let data: Vec<_> = times.iter().map(|t| Some((1e3 * (6.0 * t).sin()).round() * 1e-3)).collect();
+///
+/// let smoothed = LocalPolynomials::default().smooth(&times, &data)?;
+/// assert!((smoothed.noise() / 0.29e-3 - 1.0).abs() < 0.2);
+/// let [_, velocity, _] = smoothed.mean(120);
+/// assert!((velocity - 6.0 * 6.0_f64.cos()).abs() < 0.02);
+/// # Ok::<(), branched_pendulum::analysis::SmoothingError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalPolynomials {
+    /// Degree of the polynomials, 2 to 8. An odd one has rates as true as values.
+    pub degree: u8,
+    /// Number of data in a window; without it the one that foretells each datum best from
+    /// the others.
+    pub window: Option<usize>,
+    /// Standard deviation of the data; without it that of what the polynomials leave.
+    pub noise: Option<f64>,
+}
+
+impl Default for LocalPolynomials {
+    fn default() -> Self {
+        Self {
+            degree: 5,
+            window: None,
+            noise: None,
+        }
+    }
+}
+
+/// Largest number of data in a window that is tried.
+const WIDEST: usize = 201;
+/// Growth of the windows that are tried.
+const GROWTH: f64 = 1.15;
+/// Wider windows are not tried where the error is that of the best one, squared, so often.
+const HOPELESS: f64 = 4.0;
+
+impl LocalPolynomials {
+    /// Estimates the motion at all times, where data are missing too. Linear in the number of
+    /// times, for each of some 25 windows that are tried.
+    ///
+    /// # Errors
+    ///
+    /// [`SmoothingError`].
+    pub fn smooth(
+        &self,
+        times: &[f64],
+        data: &[Option<f64>],
+    ) -> Result<SmoothedMotion<3>, SmoothingError> {
+        check_data(times, data)?;
+        check_times(times)?;
+        check_option("noise", self.noise)?;
+        let degree = usize::from(self.degree);
+        if !(2..=8).contains(&degree) {
+            let (name, value) = ("degree", f64::from(self.degree));
+            return Err(SmoothingError::Option { name, value });
+        }
+        let found = times.iter().zip(data);
+        let found = found.filter_map(|(time, datum)| Some([*time, (*datum)?]));
+        let record = Record {
+            points: found.collect(),
+            degree,
+        };
+        let narrowest = degree + 2;
+        let found = record.points.len();
+        if found < narrowest {
+            return Err(SmoothingError::TooFew { found });
+        }
+        let window = match self.window {
+            Some(window) if !(narrowest..=found).contains(&window) => {
+                let (name, value) = ("window", window as f64);
+                return Err(SmoothingError::Option { name, value });
+            }
+            Some(window) => window,
+            None => record.best_window(),
+        };
+        let noise = self.noise.unwrap_or_else(|| record.errors(window).noise);
+        let weights = times.iter().map(|&time| record.weights(time, window));
+        let values: Vec<f64> = record.points.iter().map(|[_, value]| *value).collect();
+        Ok(SmoothedMotion::by_weights(
+            times,
+            weights.collect(),
+            &values,
+            noise,
+        ))
+    }
+}
+
+/// Data that are not missing.
+struct Record {
+    /// Times and values.
+    points: Vec<[f64; 2]>,
+    degree: usize,
+}
+
+/// What polynomials leave of the data.
+struct Errors {
+    /// Mean square by which data differ from what the others foretell.
+    foretold: f64,
+    /// Standard deviation of the data.
+    noise: f64,
+}
+
+impl Record {
+    fn best_window(&self) -> usize {
+        let mut best = (f64::INFINITY, self.degree + 2);
+        let mut window = self.degree + 2;
+        while window <= self.points.len().min(WIDEST) {
+            let error = self.errors(window).foretold;
+            if error < best.0 {
+                best = (error, window);
+            }
+            if error > HOPELESS * best.0 {
+                break;
+            }
+            window = (window + 1).max((GROWTH * window as f64) as usize);
+        }
+        best.1
+    }
+
+    fn errors(&self, window: usize) -> Errors {
+        let (mut foretold, mut squares) = (0.0, 0.0);
+        let mut freedom = 0.0;
+        for (index, [time, value]) in self.points.iter().enumerate() {
+            let weights = self.weights(*time, window);
+            let near = self.points[weights.first..].iter().zip(&weights.weights);
+            let (mean, square) = near.fold((0.0, 0.0), |(mean, square), ([_, value], weight)| {
+                (mean + weight[0] * value, square + weight[0] * weight[0])
+            });
+            let own = index.checked_sub(weights.first);
+            let own = own.and_then(|own| weights.weights.get(own));
+            let own = own.map_or(0.0, |weight| weight[0]);
+            let left = value - mean;
+            // Where a polynomial meets its datum the others foretell nothing.
+            foretold += (left / (1.0 - own).max(f64::EPSILON)).powi(2);
+            squares += left * left;
+            freedom += 1.0 - 2.0 * own + square;
+        }
+        Errors {
+            foretold: foretold / self.points.len() as f64,
+            noise: (squares / freedom).sqrt(),
+        }
+    }
+
+    /// Weights of the data of the window about a time in value, first and second derivative
+    /// of the polynomial there.
+    fn weights(&self, time: f64, window: usize) -> Weights<3> {
+        let after = self.points.partition_point(|[other, _]| *other < time);
+        let mut first = after.saturating_sub(window);
+        while first + window < self.points.len()
+            && self.points[first + window][0] - time < time - self.points[first][0]
+        {
+            first += 1;
+        }
+        let near = &self.points[first..first + window];
+        let reach = near.iter().map(|[other, _]| (other - time).abs());
+        // Beyond the farthest, which counts as well.
+        let reach = reach.fold(0.0, f64::max) * (1.0 + 1.0 / window as f64);
+        let places = near.iter().map(|[other, _]| (other - time) / reach);
+        let places: Vec<f64> = places.collect();
+        let columns = self.degree + 1;
+        let basis = DMatrix::from_fn(window, columns, |row, power| places[row].powi(power as i32));
+        let weighted = DMatrix::from_fn(columns, window, |power, column| {
+            (1.0 - places[column] * places[column]) * basis[(column, power)]
+        });
+        let solved = (&weighted * basis).cholesky().map(|f| f.solve(&weighted));
+        let solved = solved.unwrap_or_else(|| DMatrix::zeros(columns, window));
+        let scales = [1.0, 1.0 / reach, 2.0 / (reach * reach)];
+        let of = |column: usize| SVector::from_fn(|row, _| scales[row] * solved[(row, column)]);
+        Weights {
+            first,
+            weights: (0..window).map(of).collect(),
+        }
+    }
+}
