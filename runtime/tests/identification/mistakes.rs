@@ -91,7 +91,9 @@ fn too_few_data_are_counted() {
 fn what_is_not_determined_is_told_with_what_it_goes_with() {
     let record = simulated([0.5, 0.2], 6.0, 50.0, 0.0, 1);
     let all = Identification::new(FamilyOf::<Chain>::new()).unknown("gravity", 9.8);
-    let all = REAL.iter().fold(all, |task, (name, value)| task.unknown(name, *value));
+    let all = REAL
+        .iter()
+        .fold(all, |task, (name, value)| task.unknown(name, *value));
     let fit = all.fit(&record).unwrap();
     // Ratios alone, with gravity as without.
     let found = &fit.identifiability;
