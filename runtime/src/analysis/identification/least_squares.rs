@@ -21,7 +21,7 @@ pub(super) struct Effort {
 const UNCERTAIN: f64 = 1e-4;
 
 impl Effort {
-    pub(super) const ROUGH: Self = Self { settled: 1e-3 };
+    pub(super) const ROUGH: Self = Self { settled: 1e-4 };
     pub(super) const FULL: Self = Self { settled: 2e-6 };
 }
 /// Root mean square of residuals, in deviations, at which nothing is left to be done.
@@ -31,6 +31,9 @@ const DAMPING: f64 = 1e-3;
 const MORE: f64 = 6.0;
 const LESS: f64 = 10.0;
 const DAMPING_RANGE: [f64; 2] = [1e-10, 1e10];
+
+/// Damping below which steps are as good as those of Gauss and Newton.
+const NEARLY_FREE: f64 = 1e-2;
 
 /// Segments, with the estimate that belongs to them.
 #[derive(Clone, Debug)]
@@ -132,12 +135,12 @@ impl FitStage {
                 continue;
             };
             let gain = best.squares - residuals.squares;
-            let small = if gain > 0.0 {
-                effort.settled
-            } else {
-                UNCERTAIN
+            // A step that is held back changes little wherever it is.
+            let small = match gain > 0.0 {
+                true => effort.settled,
+                false => UNCERTAIN,
             };
-            let is_settled = gain.abs() <= small * best.squares;
+            let is_settled = lambda <= NEARLY_FREE && gain.abs() <= small * best.squares;
             if gain > 0.0 {
                 (*self, best) = (trial, residuals);
                 lambda = (lambda / LESS).max(DAMPING_RANGE[0]);
