@@ -110,7 +110,7 @@ impl Findings {
         let per_mean = series.mean(0) / shape.degrees_of_freedom(0) as f64;
         let scales = all.clone().map(|scale| {
             let mean = series.mean(scale);
-            if mean < ASLEEP * per_mean * shape.degrees_of_freedom(scale) as f64 {
+            if mean <= ASLEEP * per_mean * shape.degrees_of_freedom(scale) as f64 {
                 return Scale::Asleep(mean);
             }
             match Average::of(&of(Quantity::Energy, scale..scale + 1, 1.0)) {

@@ -99,7 +99,7 @@ impl Record {
             "files": files,
         });
         let path = folder.join(RECORD);
-        replace(&path, format!("{record:#}\n").as_bytes())
+        replace(&path, "", format!("{record:#}\n").as_bytes())
             .map_err(|source| Failure::File { path, source })?;
         ledger.files.push(RECORD.to_owned());
         Ok(Some(left))

@@ -38,6 +38,11 @@ tree!(Thirteen, THIRTEEN: tree: generations(count = 3, branching = 3, shape = ro
     length = 0.3, mass_ratio = 0.4, length_ratio = 0.7, drag(viscous = 1e-3, quadratic = 1e-4),
     friction(viscous = 1e-4, coulomb = 2e-4, width = 0.05)));
 
+tree!(Braked, BRAKED: tree: generations(count = 3, branching = 3, shape = rod, mass = 0.12,
+    length = 0.3, mass_ratio = 0.4, length_ratio = 0.7,
+    friction(viscous = 1e-4, coulomb = 1e-2, quadratic = 1e-3, width = 0.1), friction_ratio = 0.5,
+    drag(quadratic = 1e-4)));
+
 // Large enough to be computed in blocks.
 tree!(InBlocks: tree: generations(count = 13, branching = 2, shape = rod,
     mass = 0.2, length = 0.3, mass_ratio = 0.6, length_ratio = 0.8, friction = 1e-4,

@@ -8,7 +8,6 @@ use super::scale_function::ScaleFunction;
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{LinkBalance, LinkScales, LinkSymbols};
 use crate::program::entries::EntryList;
-use crate::program::friction::Law;
 use crate::program::lower::Lowering;
 use crate::program::pair::Pair;
 use crate::program::{Argument, Purpose, Shape, ValueId};
@@ -27,7 +26,10 @@ impl EntryList<'_, '_> {
                 ScaleFunction::Factor => functions.factor(self),
                 ScaleFunction::Eliminate => functions.eliminate(self, link, scales),
                 ScaleFunction::Flow => functions.flow(self, link, scales),
-                ScaleFunction::Torques => functions.torques(self, link, scales),
+                ScaleFunction::Torques => {
+                    let torques = functions.derived(self, link, scales, function, &scales.torques);
+                    functions.with_braking(self, torques)
+                }
                 ScaleFunction::Velocity => {
                     functions.derived(self, link, scales, function, &scales.velocity)
                 }
@@ -81,38 +83,23 @@ impl Functions<'_> {
             .collect()
     }
 
-    /// The derived torques, with friction that is not viscous.
-    fn torques(
-        &self,
-        list: &mut EntryList<'_, '_>,
-        link: &LinkSymbols,
-        scales: &LinkScales,
-    ) -> Vec<ValueId> {
-        let function = ScaleFunction::Torques;
-        let mut torques = self.derived(list, link, scales, function, &scales.torques);
-        let zero = list.lowering.builder.integer(0);
-        let mut at = |column| self.column(list, Kind::Any, column);
-        let joint = Law {
-            coulomb: at(Column::Coulomb),
-            quadratic: at(Column::QuadraticFriction),
-            width: at(Column::FrictionWidth),
-        };
-        let ground = Law {
-            coulomb: zero,
-            quadratic: at(Column::QuadraticDrag),
-            width: at(Column::DragWidth),
-        };
-        let unit = at(Column::PerTorque);
+    /// Torques of friction and drag with those that are not viscous, in N m.
+    fn with_braking(&self, list: &mut EntryList<'_, '_>, torques: Vec<ValueId>) -> Vec<ValueId> {
+        let per_torque = self.column(list, Kind::Any, Column::PerTorque);
         let laws = [
-            (2, joint, Motion::JointRate, "_joint"),
-            (3, ground, Motion::Omega, "_ground"),
+            self.joint_law(list, Kind::Any),
+            self.ground_law(list, Kind::Any),
         ];
-        for (place, law, rate, suffix) in laws {
-            let rate = self.motion(list, rate);
-            let builder = &mut list.lowering.builder;
-            let reduced = builder.braking_torque(&law, rate, suffix);
-            let torque = builder.div(reduced, unit);
-            torques[place] = builder.add(torques[place], torque);
+        let rates = [Motion::JointRate, Motion::Omega].map(|rate| self.motion(list, rate));
+        let builder = &mut list.lowering.builder;
+        let mut torques = torques;
+        // Behind the strain and the torque of the spring.
+        for ((torque, law), rate) in torques.iter_mut().skip(2).zip(laws).zip(rates) {
+            let braking = builder.braking_torque(&law, rate, "");
+            if !builder.is(braking, 0) {
+                let braking = builder.div(braking, per_torque);
+                *torque = builder.add(*torque, braking);
+            }
         }
         torques
     }

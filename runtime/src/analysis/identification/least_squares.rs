@@ -12,10 +12,13 @@ const STEPS: usize = 100;
 /// Where to stop, and how exactly to look: early stages only lead to the next one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
-    /// Share of the sum of squares below which a change ends the iteration. Integration
-    /// makes it uncertain, so that a small loss is no reason to go on either.
+    /// Share of the sum of squares below which a gain ends the iteration.
     pub(super) settled: f64,
 }
+
+/// Share of the sum of squares that integration makes uncertain where a motion is long: a
+/// smaller loss after a step is none, and ends the iteration too.
+const UNCERTAIN: f64 = 1e-4;
 
 impl Effort {
     pub(super) const ROUGH: Self = Self { settled: 1e-3 };
@@ -129,7 +132,12 @@ impl FitStage {
                 continue;
             };
             let gain = best.squares - residuals.squares;
-            let is_settled = gain.abs() <= effort.settled * best.squares;
+            let small = if gain > 0.0 {
+                effort.settled
+            } else {
+                UNCERTAIN
+            };
+            let is_settled = gain.abs() <= small * best.squares;
             if gain > 0.0 {
                 (*self, best) = (trial, residuals);
                 lambda = (lambda / LESS).max(DAMPING_RANGE[0]);

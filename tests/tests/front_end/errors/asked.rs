@@ -253,6 +253,18 @@ pub(super) const CASES: &[Case] = &[
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2], emit(transverse))] struct Pendulum;",
     ),
     (
+        "small",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [bone: rod(mass = 1, length = 1) * 2, c: rod(mass = 1, length = 1)],
+    in_phase(bone), emit(small(bon, c, bone, bone, bone(a))))] struct Pendulum;",
+    ),
+    (
+        "small_of_none",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(small(), taylor))] struct Pendulum;",
+    ),
+    (
         "nothing_in_phase",
         "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1), in_phase(all))] struct Pendulum;",
     ),
