@@ -133,7 +133,7 @@ impl crate::program::Arguments for Arguments {
                 "there is no tree of {generations} generations by {branching}"
             ));
         }
-        if self.steps % self.samples != 0 {
+        if !self.steps.is_multiple_of(self.samples) {
             return Err("`--steps` must be a multiple of `--samples`".to_owned());
         }
         if self.bandwidth > 0.9 * self.frequency {

@@ -72,6 +72,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             job.write("tree.svg", film.to_svg()?.as_bytes())?;
         }
         job.report("steady", findings.is_steady());
+        job.report("balanced", findings.is_balanced());
     }
     Checkpoint::new(job, 0.0).discard();
     Ok(())

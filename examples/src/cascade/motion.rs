@@ -97,7 +97,7 @@ pub fn follow<P: RodTree>(
             for step in 0..arguments.steps {
                 let place = u64::from(arguments.steps) * window as u64 + u64::from(step);
                 together.step(arguments.time(place), arguments.step());
-                if (step + 1) % (arguments.steps / arguments.samples) == 0 {
+                if (step + 1).is_multiple_of(arguments.steps / arguments.samples) {
                     for (start, (means, motor)) in means.iter_mut().zip(*motors).enumerate() {
                         let time = arguments.time(place + 1);
                         let state = together.state(start);
