@@ -33,8 +33,8 @@ pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
     Chart::new("Energy by scale, mean of all starts", Axis::linear("t (s)")).panel(panel)
 }
 
-/// Energy per degree of freedom, and flux, by scale.
-pub fn scales(arguments: &Arguments, findings: &Findings) -> Chart {
+/// Energy per degree of freedom, and flux, by scale; none where nothing has settled.
+pub fn scales(arguments: &Arguments, findings: &Findings) -> Option<Chart> {
     let shape = arguments.shape();
     let (mut places, mut energies) = (Vec::new(), Vec::new());
     for (scale, state) in findings.scales.iter().enumerate() {
@@ -85,16 +85,20 @@ pub fn scales(arguments: &Arguments, findings: &Findings) -> Chart {
             .band("", &x, &low, &high)
             .series(Series::line("dissipated there and below", &x, &middle).with_symbols());
     }
+    if places.is_empty() || x.is_empty() {
+        return None;
+    }
     if let Ok(input) = &findings.input {
         flux = flux.points("motor", &[0.0], &[1e3 * input.mean]);
     }
-    Chart::new(
+    let chart = Chart::new(
         "The steady state by scale; bands: one standard error",
         Axis::linear("generation in which the branches differ (0: means)"),
     )
     .size(900.0, 760.0)
     .panel(energy)
-    .panel(flux)
+    .panel(flux);
+    Some(chart)
 }
 
 fn columns(rows: &[[f64; 3]]) -> [Vec<f64>; 3] {

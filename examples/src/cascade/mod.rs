@@ -63,7 +63,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         // A tree that hangs still has nothing to show.
         if findings.course.iter().flatten().any(|energy| *energy > 0.0) {
             job.chart("course", &charts::course(arguments, &findings))?;
-            job.chart("scales", &charts::scales(arguments, &findings))?;
+            if let Some(chart) = charts::scales(arguments, &findings) {
+                job.chart("scales", &chart)?;
+            }
             job.chart("densities", &charts::densities(&findings))?;
         }
         if let Some(first) = starts.first() {
