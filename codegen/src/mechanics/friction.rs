@@ -52,7 +52,7 @@ pub enum TorqueSource {
         /// Its rate w in the frame's velocities.
         rate: Expr,
         /// Its law.
-        law: LawConstants,
+        law: Box<LawConstants>,
         /// The speed s, a symbol for formulas alone.
         speed: SymbolId,
     },
@@ -294,7 +294,7 @@ impl Derivation<'_> {
                         link: *link,
                         speed: self.speed(*link, &rate, &law.width),
                         rate,
-                        law,
+                        law: Box::new(law),
                     }
                 }
                 DerivedSource::Coordinate(index) => TorqueSource::Coordinate(*index),
