@@ -9,7 +9,9 @@ use branched_pendulum::analysis::advice::AdviceError;
 use branched_pendulum::analysis::growth::GrowthError;
 use branched_pendulum::analysis::statistics::StatisticsError;
 use branched_pendulum::analysis::truncation::TruncationError;
-use branched_pendulum::analysis::{ModesError, SectorModesError, SmoothingError, SpectrumError};
+use branched_pendulum::analysis::{
+    IdentificationError, ModesError, SectorModesError, SmoothingError, SpectrumError,
+};
 use branched_pendulum::approximate::LinearError;
 use branched_pendulum_charts::ChartError;
 use branched_pendulum_data::{CsvError, ReadError};
@@ -91,6 +93,9 @@ pub enum Failure {
     /// Measured angles could not be smoothed.
     #[error("the motion could not be estimated")]
     Smoothing(#[from] SmoothingError),
+    /// Parameters could not be identified.
+    #[error("the parameters could not be identified")]
+    Identification(#[from] IdentificationError),
     /// The output folder could not be made.
     #[error("cannot make the output folder {}", path.display())]
     Folder {

@@ -21,6 +21,11 @@ pub struct FrontPage;
 #[doc = include_str!("../../docs/limits.md")]
 pub struct Limits;
 
+/// Parameters of a tree of one's own come back from its motion.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/identification.md")]
+pub struct IdentificationPage;
+
 /// The tutorials' listings compile, and what they assert holds.
 #[cfg(doctest)]
 mod tutorials {

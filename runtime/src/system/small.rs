@@ -16,7 +16,9 @@ use crate::scalar::Scalar;
 /// Copies have the angles θ + e δ as in [`Transverse`]; δ belongs to the copies under one
 /// holder, or to those of all holders with squares of e that add up to the number of
 /// copies under one. For pairs the error of δ̈ is of third order in δ, and that of θ̈ of
-/// fourth; for more copies one order less.
+/// fourth; for more copies one order less. Differences of a radian and more are far beyond
+/// it: the kinetic energy through second order is not positive there, and the motion may
+/// end.
 ///
 /// Values are NaN for slices of other lengths.
 pub trait SmallDifferences<T: Scalar>: Transverse<T> {

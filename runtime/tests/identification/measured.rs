@@ -102,9 +102,16 @@ fn random_starts_reach_one_minimum() {
     let mut random = Uniform(7);
     let rms = |_| {
         let task = all_laws(|value| value * (1.0 + 0.3 * random.next()));
-        let rms = task.fit(&record).map(|fit| fit.rms());
-        println!("{rms:?}");
-        rms.unwrap_or(f64::INFINITY)
+        let Ok(fit) = task.fit(&record) else {
+            return f64::INFINITY;
+        };
+        let steps: Vec<_> = fit
+            .stages
+            .iter()
+            .map(|stage| (stage.rms, stage.steps))
+            .collect();
+        println!("{steps:?}");
+        fit.rms()
     };
     let all: Vec<f64> = (0..20).map(rms).collect();
     let least = all.iter().copied().fold(f64::INFINITY, f64::min);

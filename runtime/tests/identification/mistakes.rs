@@ -4,7 +4,7 @@ use branched_pendulum::analysis::identification::{
     AngleRecord, FamilyOf, Identification, IdentificationError, Shooting,
 };
 
-use super::chain::{Chain, all_unknown, simulated};
+use super::chain::{Chain, REAL, all_unknown, simulated};
 
 fn task() -> Identification<FamilyOf<Chain>> {
     all_unknown(FamilyOf::new(), |value| value)
@@ -90,6 +90,14 @@ fn too_few_data_are_counted() {
 #[test]
 fn what_is_not_determined_is_told_with_what_it_goes_with() {
     let record = simulated([0.5, 0.2], 6.0, 50.0, 0.0, 1);
+    let all = Identification::new(FamilyOf::<Chain>::new()).unknown("gravity", 9.8);
+    let all = REAL
+        .iter()
+        .fold(all, |task, (name, value)| task.unknown(name, *value));
+    let fit = all.fit(&record).unwrap();
+    // Ratios alone, with gravity as without.
+    let found = &fit.identifiability;
+    assert_eq!((found.determined(), found.unknown), (6, 10), "{found}");
     let fit = task().fit(&record).unwrap();
     assert_eq!(
         fit.identifiability.determined(),

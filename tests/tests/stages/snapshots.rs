@@ -277,3 +277,23 @@ fn transverse() {
     insta::assert_snapshot!("transverse_program", stages.program.to_string());
     insta::assert_snapshot!("transverse_code", pretty(stages.tokens));
 }
+
+/// Small differences that act back: what they add to the in-phase motion, and its energy.
+#[test]
+fn small() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(
+            gravity = 9.80665,
+            parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+                child(mass = 0.10531, com = 0.043, inertia = 0.516e-3, friction = 1e-5) * 2
+            ],
+            in_phase(child),
+            emit(small)
+        )] pub struct Sample;",
+    );
+    insta::assert_snapshot!("small_mechanics", stages.mechanics.to_string());
+    for wanted in ["small_accelerations", "small_energy"] {
+        let text = function(&stages.tokens, wanted);
+        insta::assert_snapshot!(format!("{wanted}_code"), text);
+    }
+}

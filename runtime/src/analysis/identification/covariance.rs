@@ -7,7 +7,7 @@ use super::elimination::EliminatedChain;
 use super::least_squares::{FitStage, LinearStage};
 use super::task::FitTask;
 
-/// What a block of data adds to the normal equations of the globals, starts eliminated.
+/// Part of a block of data in the normal equations of the globals, starts eliminated.
 struct TimeBlock {
     information: DMatrix<f64>,
     pull: DVector<f64>,

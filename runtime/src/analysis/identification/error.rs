@@ -35,7 +35,7 @@ pub enum IdentificationError {
     },
     /// A number that is not finite, or not positive where it has to be.
     Number {
-        /// What it is of.
+        /// Its meaning.
         what: String,
         /// The number.
         value: f64,
@@ -97,7 +97,7 @@ pub enum IdentificationError {
     NotDetermined {
         /// Its name.
         name: String,
-        /// What changes together with it without a change of the motion.
+        /// Unknowns that can change together with it without a change of the motion.
         with: Vec<String>,
     },
 }

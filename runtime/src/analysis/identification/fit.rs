@@ -1,4 +1,4 @@
-//! What a fit found.
+//! Result of a fit.
 
 use super::error::IdentificationError;
 use super::identifiability::Identifiability;
@@ -10,7 +10,7 @@ use crate::system::State;
 pub struct Fit {
     /// The unknowns, in the order in which they were given; offsets of angles come last.
     pub estimates: Vec<ParameterEstimate>,
-    /// What the data determine of them.
+    /// Combinations of them that the data determine, and changes that they leave open.
     pub identifiability: Identifiability,
     /// The states at the starts of the last stage's segments.
     pub starts: Vec<State<f64>>,
@@ -18,7 +18,7 @@ pub struct Fit {
     pub stages: Vec<StageReport>,
     /// Number of blocks of time from which the second kind of deviations is.
     pub blocks: usize,
-    /// What no pendulum can have of what was found: a friction below zero says that the law of
+    /// The first value found that no pendulum can have: a friction below zero says that the law of
     /// friction is another one, an inertia below zero that something is held where it is not.
     pub impossible: Option<ParameterError>,
     /// Values of all parameters of the model.

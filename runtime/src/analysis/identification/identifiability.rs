@@ -1,4 +1,4 @@
-//! What the data determine of the unknowns, and what they leave open.
+//! Combinations of the unknowns that the data determine, and changes that they leave open.
 
 use core::fmt;
 
@@ -10,7 +10,7 @@ const ZERO: f64 = 1e-7;
 /// Share in an open change that counts.
 const SHARE: f64 = 1e-3;
 
-/// What the data determine, by a singular value decomposition of the derivatives of all data
+/// Combinations that the data determine, by a singular value decomposition of the derivatives of all data
 /// with respect to relative changes of the parameters (and to offsets, rad).
 ///
 /// Equations of motion know ratios only: masses, inertias and friction may all be twice as

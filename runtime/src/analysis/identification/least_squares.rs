@@ -12,13 +12,16 @@ const STEPS: usize = 100;
 /// Where to stop, and how exactly to look: early stages only lead to the next one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
-    /// Share of the sum of squares below which a change ends the iteration. Integration
-    /// makes it uncertain, so that a small loss is no reason to go on either.
+    /// Share of the sum of squares below which a gain ends the iteration.
     pub(super) settled: f64,
 }
 
+/// Share of the sum of squares that integration makes uncertain where a motion is long: a
+/// smaller loss after a step is none, and ends the iteration too.
+const UNCERTAIN: f64 = 1e-4;
+
 impl Effort {
-    pub(super) const ROUGH: Self = Self { settled: 1e-3 };
+    pub(super) const ROUGH: Self = Self { settled: 1e-4 };
     pub(super) const FULL: Self = Self { settled: 2e-6 };
 }
 /// Root mean square of residuals, in deviations, at which nothing is left to be done.
@@ -28,6 +31,9 @@ const DAMPING: f64 = 1e-3;
 const MORE: f64 = 6.0;
 const LESS: f64 = 10.0;
 const DAMPING_RANGE: [f64; 2] = [1e-10, 1e10];
+
+/// Damping below which steps are as good as those of Gauss and Newton.
+const NEARLY_FREE: f64 = 1e-2;
 
 /// Segments, with the estimate that belongs to them.
 #[derive(Clone, Debug)]
@@ -129,7 +135,12 @@ impl FitStage {
                 continue;
             };
             let gain = best.squares - residuals.squares;
-            let is_settled = gain.abs() <= effort.settled * best.squares;
+            // A step that is held back changes little wherever it is.
+            let small = match gain > 0.0 {
+                true => effort.settled,
+                false => UNCERTAIN,
+            };
+            let is_settled = lambda <= NEARLY_FREE && gain.abs() <= small * best.squares;
             if gain > 0.0 {
                 (*self, best) = (trial, residuals);
                 lambda = (lambda / LESS).max(DAMPING_RANGE[0]);

@@ -2,8 +2,8 @@
 //!
 //! Names in a description are parameters of its model; [`Identification`] finds them from
 //! angles against time of any links, from frequencies of small motions, or from both.
-//! Multiple shooting (physics §8; H. G. Bock, *Numerical treatment of inverse problems in
-//! chemical reaction kinetics*, 1981): short segments with starts of their own first, whose
+//! Multiple shooting (`docs/identification.md`; H. G. Bock, *Numerical treatment of inverse
+//! problems in chemical reaction kinetics*, 1981): short segments with starts of their own first, whose
 //! sum of squares is smooth far from the truth, then twice as long ones until one motion
 //! covers the record, for only long ones show small errors of friction. Derivatives are exact
 //! ([`Dual`](crate::scalar::Dual)), steps those of Levenberg and Marquardt.

@@ -1,4 +1,4 @@
-//! What is known, what is to be found, and how.
+//! Known and unknown parameters, and how the unknown ones are looked for.
 
 use super::error::IdentificationError;
 use super::family::Family;
@@ -51,14 +51,14 @@ impl Default for Shooting {
             first: 1.0,
             longest: f64::INFINITY,
             jump: 10.0,
-            tolerance: 1e-9,
+            tolerance: 1e-10,
             block: None,
         }
     }
 }
 
 /// By how much the tolerance of early stages is larger.
-const LOOSENED: f64 = 100.0;
+const LOOSENED: f64 = 1e3;
 
 impl<F: Family> Identification<F> {
     /// The models of a family, of whose parameters nothing is said as yet.

@@ -16,7 +16,7 @@ use crate::system::State;
 const BLOCKS: f64 = 30.0;
 
 impl<F: Family> Identification<F> {
-    /// What the data determine where the stage is, and which unknowns to hold.
+    /// Returns the identifiability where the stage is, and the unknowns to be held.
     pub(super) fn identifiability(
         &self,
         task: &FitTask<'_>,

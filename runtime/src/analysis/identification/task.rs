@@ -100,7 +100,7 @@ impl FitTask<'_> {
         Some((residuals, end))
     }
 
-    /// The same with derivatives: with respect to the state, and to these globals.
+    /// Linearises a segment with respect to the state at its start and to these globals.
     pub(super) fn linearise(
         &self,
         globals: &[f64],
@@ -189,18 +189,23 @@ impl LinkData<'_> {
     }
 }
 
-/// Segments of about this length (s), as ranges of samples. A rest of less than half of it
-/// belongs to the last.
+/// Segments of this length (s) or a little more, as ranges of two samples or more. A rest of
+/// less than half of it belongs to the last.
 pub(super) fn split(times: &[f64], length: f64) -> Vec<Range<usize>> {
-    let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
+    let Some(&last) = times.last().filter(|_| times.len() > 1) else {
         return Vec::new();
     };
-    let count = ((last - first) / length).round().max(1.0) as usize;
-    let count = count.min(times.len() / 2).max(1);
-    let from = |segment: usize| match segment {
-        _ if segment == count => times.len(),
-        _ => times.partition_point(|&time| time < first + segment as f64 * length),
-    };
-    let ranges = (0..count).map(|segment| from(segment)..from(segment + 1));
-    ranges.filter(|range| range.len() > 1).collect()
+    let mut segments = Vec::new();
+    let mut start = 0;
+    for (sample, time) in times.iter().enumerate().skip(2) {
+        // Sums of steps need not reach a length exactly.
+        let is_long = time - times[start] >= length * (1.0 - 1e-9);
+        let is_last = last - time < 0.5 * length || times.len() - sample < 2;
+        if is_long && !is_last && sample - start >= 2 {
+            segments.push(start..sample);
+            start = sample;
+        }
+    }
+    segments.push(start..times.len());
+    segments
 }

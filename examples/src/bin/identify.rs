@@ -1,0 +1,11 @@
+//! Parameters of a pendulum from its measured motion, with their errors.
+//!
+//! `identify --help` lists the options.
+
+use std::process::ExitCode;
+
+use branched_pendulum_examples::{identify, program};
+
+fn main() -> ExitCode {
+    program::main(identify::run)
+}

@@ -1,0 +1,164 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use branched_pendulum_data::Clock;
+use clap::{Parser, ValueEnum};
+
+use crate::analyse::arguments::{Unit, Zero};
+use crate::program::Results;
+use crate::program::command_line::number;
+
+/// Masses, lengths, inertias and friction of a pendulum from its measured motion: a chain of
+/// two links, or the paper's pendulum. Prints how well viscous friction, Coulomb friction and
+/// quadratic drag explain it, what the angles determine and what they leave open, and how
+/// well the motion goes on that was not fitted. Without a file a chain is simulated, whose
+/// parameters are known.
+#[derive(Clone, Debug, Parser, PartialEq)]
+#[command(name = "identify", version, verbatim_doc_comment)]
+pub struct Arguments {
+    /// file of angles against time; without it they are simulated
+    #[arg(value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// tree that was measured
+    #[arg(long, value_enum, value_name = "TREE", default_value = "chain")]
+    pub tree: Tree,
+    /// columns of the angles, parent first; all but the time without it
+    #[arg(long, value_name = "A,B,...", value_parser = names, default_value = "")]
+    // By its full path, clap takes it for one value.
+    pub columns: ::std::vec::Vec<String>,
+    /// unit of angles whose columns do not name it
+    #[arg(long, value_enum, value_name = "UNIT")]
+    pub unit: Option<Unit>,
+    /// direction of angle 0; detected without it
+    #[arg(long, value_enum, value_name = "WAY")]
+    pub zero: Option<Zero>,
+    /// pictures a second, 1 to 1e5; needed for files that number them
+    #[arg(long, value_name = "HZ", value_parser = number(1.0..=1e5, "Hz"))]
+    pub frame_rate: Option<f64>,
+    /// length of the part that is fitted, s from 1 to 1e4; what follows is predicted. Three
+    /// quarters of the record without it
+    #[arg(long, value_name = "S", value_parser = number(1.0..=1e4, "s"))]
+    pub fit: Option<f64>,
+    /// laws of friction, one after the other
+    #[arg(long, value_name = "LAW,...", value_parser = laws, default_value = "viscous,coulomb,all")]
+    pub laws: ::std::vec::Vec<Law>,
+    /// parameters that are known, in SI units
+    #[arg(long, value_name = "NAME=VALUE,...", value_parser = settings, default_value = "")]
+    pub known: ::std::vec::Vec<(String, f64)>,
+    /// values from which others are searched, within some 30 %
+    #[arg(long, value_name = "NAME=VALUE,...", value_parser = settings, default_value = "")]
+    pub start: ::std::vec::Vec<(String, f64)>,
+    /// simulated: error of an angle, rad from 1e-6 to 0.1
+    #[arg(long, value_name = "RAD", default_value = "1e-3", value_parser = number(1e-6..=0.1, "rad"))]
+    pub noise: f64,
+    /// simulated: length of the record, s from 5 to 1000
+    #[arg(long, value_name = "S", default_value = "40", value_parser = number(5.0..=1e3, "s"))]
+    pub duration: f64,
+    /// simulated: seed of the noise
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub seed: u64,
+    /// Folder of results.
+    #[command(flatten)]
+    pub results: Results,
+}
+
+/// Trees that can be measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Tree {
+    /// Two links, one below the other.
+    Chain,
+    /// The paper's pendulum: two equal links hang from one.
+    Branched,
+}
+
+/// Laws of friction, each with those before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Law {
+    /// Proportional to the rate, in every pivot.
+    Viscous,
+    /// And Coulomb's, in every pivot.
+    Coulomb,
+    /// And quadratic drag of every link against the air.
+    All,
+}
+
+impl Law {
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Viscous => "viscous",
+            Self::Coulomb => "and Coulomb",
+            Self::All => "and quadratic",
+        }
+    }
+}
+
+impl Arguments {
+    /// Where the times of the file come from.
+    pub fn clock(&self) -> Clock {
+        self.frame_rate.map_or(Clock::Detect, Clock::FrameRate)
+    }
+}
+
+impl Default for Arguments {
+    fn default() -> Self {
+        Self::parse_from(["identify"])
+    }
+}
+
+impl crate::program::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = Some("identify-output");
+
+    fn results(&self) -> &Results {
+        &self.results
+    }
+}
+
+fn parts(text: &str) -> impl Iterator<Item = &str> {
+    text.split(',')
+        .map(str::trim)
+        .filter(|part| !part.is_empty())
+}
+
+fn names(text: &str) -> Result<Vec<String>, String> {
+    Ok(parts(text).map(str::to_owned).collect())
+}
+
+fn laws(text: &str) -> Result<Vec<Law>, String> {
+    let laws: Result<Vec<Law>, String> =
+        parts(text).map(|part| Law::from_str(part, false)).collect();
+    match laws {
+        Ok(laws) if laws.is_empty() => Err("name one at least".to_owned()),
+        Ok(laws) => Ok(laws),
+        Err(_) => Err("laws are viscous, coulomb and all".to_owned()),
+    }
+}
+
+fn settings(text: &str) -> Result<Vec<(String, f64)>, String> {
+    let setting = |part: &str| {
+        let (name, value) = part.split_once('=')?;
+        let value: f64 = value.trim().parse().ok()?;
+        value.is_finite().then(|| (name.trim().to_owned(), value))
+    };
+    let all: Option<Vec<_>> = parts(text).map(setting).collect();
+    all.ok_or_else(|| "names with numbers: mass_1=0.12,joint_1=0.27".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Arguments, Law};
+    use crate::program::command_line::parse_line;
+
+    #[test]
+    fn lists_are_read() {
+        let line = "swing.csv --columns a,b --laws all --known gravity=9.81,mass_1=0.1";
+        let arguments: Arguments = parse_line(line).unwrap();
+        assert_eq!(arguments.columns, ["a", "b"]);
+        assert_eq!(arguments.laws, [Law::All]);
+        let known = [("gravity".to_owned(), 9.81), ("mass_1".to_owned(), 0.1)];
+        assert_eq!(arguments.known, known);
+        assert!(parse_line::<Arguments>("--known mass_1").is_err());
+        assert!(parse_line::<Arguments>("--laws dry").is_err());
+    }
+}

@@ -1,0 +1,83 @@
+//! Errors of the identified model, and the energy, against time.
+
+use branched_pendulum::analysis::identification::AngleErrors;
+use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
+
+use super::source::Measurement;
+use super::study::{Energies, Outcome, WINDOW};
+
+const COLORS: [Color; 3] = [
+    Color::rgb(0, 114, 178),
+    Color::rgb(213, 94, 0),
+    Color::rgb(0, 158, 115),
+];
+const BLACK: Color = Color::rgb(0, 0, 0);
+
+/// Draws errors of the last law in windows and of one motion, the latter beside those of the
+/// first law, and the energies.
+pub fn chart(measurement: &Measurement, outcomes: &[Outcome], energies: &Energies) -> Chart {
+    let title = "Measured motion and the identified model";
+    let chart = Chart::new(title, Axis::linear("t (s)")).size(1000.0, 900.0);
+    let Some(last) = outcomes.last() else {
+        return chart;
+    };
+    let [fitted, later] = &last.windows;
+    let joined = AngleErrors {
+        times: [fitted.times.as_slice(), &later.times].concat(),
+        rows: [fitted.rows.as_slice(), &later.rows].concat(),
+        ..fitted.clone()
+    };
+    let axis = format!("windows of {WINDOW} s (mrad)");
+    let chart = chart
+        .panel(marked(
+            errors(Panel::new(Axis::linear(axis)), &joined),
+            measurement,
+        ))
+        .panel(marked(
+            errors(
+                Panel::new(Axis::linear("one motion (mrad)")),
+                &last.one_motion,
+            ),
+            measurement,
+        ));
+    let chart = match outcomes.first() {
+        Some(first) if outcomes.len() > 1 => {
+            let axis = Axis::linear(format!("one motion, {} (mrad)", first.law.name()));
+            chart.panel(marked(
+                errors(Panel::new(axis), &first.one_motion),
+                measurement,
+            ))
+        }
+        _ => chart,
+    };
+    let energy = Panel::new(Axis::linear("energy (J)"))
+        .series(
+            Series::line("measured", &energies.times, &energies.measured)
+                .color(COLORS[1])
+                .dash(Dash::Solid),
+        )
+        .series(
+            Series::line("fitted", &energies.times, &energies.fitted)
+                .color(BLACK)
+                .dash(Dash::Dashed),
+        );
+    chart.panel(marked(energy, measurement))
+}
+
+fn errors(panel: Panel, errors: &AngleErrors) -> Panel {
+    let links = errors.links.iter().enumerate();
+    let panel = links.fold(panel, |panel, (index, link)| {
+        let error = |row: &Vec<Option<f64>>| 1e3 * row[index].unwrap_or(f64::NAN);
+        let values: Vec<f64> = errors.rows.iter().map(error).collect();
+        panel.series(
+            Series::line(link.clone(), &errors.times, &values)
+                .color(COLORS[index % COLORS.len()])
+                .dash(Dash::Solid),
+        )
+    });
+    panel.zero_line()
+}
+
+fn marked(panel: Panel, measurement: &Measurement) -> Panel {
+    panel.vertical(measurement.until, "predicted")
+}

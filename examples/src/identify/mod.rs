@@ -1,0 +1,68 @@
+//! Masses, lengths, inertias and friction of a real pendulum from its measured motion.
+//!
+//! - [`arguments`]: the command line, [`scene`]: the two trees,
+//! - [`source`]: angles out of a file, or simulated,
+//! - [`study`]: fits with three laws of friction, and what they leave over,
+//! - [`report`]: words and tables, [`charts`]: charts.
+
+pub mod arguments;
+pub mod charts;
+pub mod report;
+pub mod scene;
+pub mod source;
+pub mod study;
+
+pub use arguments::Arguments;
+pub use source::Measurement;
+pub use study::{Outcome, Study};
+
+use arguments::Tree;
+use scene::{Branched, Chain, Described};
+
+use crate::failure::Failure;
+use crate::program::Job;
+
+/// Reads or simulates the angles, fits them with each law of friction, prints the report and
+/// writes table and chart. Ctrl-C leaves the laws that are done.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    match arguments.tree {
+        Tree::Chain => of_tree::<Chain>(arguments, job),
+        Tree::Branched => of_tree::<Branched>(arguments, job),
+    }
+}
+
+fn of_tree<M: Described>(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let measurement = Measurement::new::<M>(arguments)?;
+    let study = Study::<M>::new(arguments, &measurement)?;
+    let progress = job.progress(arguments.laws.len());
+    job.take_interruption();
+    let mut outcomes = Vec::new();
+    for &law in &arguments.laws {
+        if job.is_interrupted() {
+            break;
+        }
+        progress.begin(law.name());
+        outcomes.push(progress.ticking(|| study.outcome(law))?);
+        progress.next();
+    }
+    let Some(last) = outcomes.last() else {
+        return Ok(());
+    };
+    let energies = study.energies(last)?;
+    job.print(&report::report(
+        arguments,
+        &measurement,
+        &outcomes,
+        &energies,
+    ))?;
+    report::write(job, &measurement, last, &energies)?;
+    job.chart(
+        "identified",
+        &charts::chart(&measurement, &outcomes, &energies),
+    )?;
+    report::record(job, &measurement, &outcomes, &energies);
+    Ok(())
+}

@@ -1,0 +1,222 @@
+//! Fits with several laws of friction, and what they leave over.
+
+use std::marker::PhantomData;
+
+use branched_pendulum::analysis::KinematicSmoother;
+use branched_pendulum::analysis::identification::{
+    AngleErrors, FamilyOf, Fit, Identification, IdentificationError, Shooting,
+};
+
+use super::arguments::{Arguments, Law};
+use super::scene::{COULOMB, Described, GRAVITY, QUADRATIC};
+use super::source::Measurement;
+use crate::failure::Failure;
+
+/// Length of windows, s.
+pub const WINDOW: f64 = 1.0;
+
+/// Fits of one measurement.
+#[derive(Debug)]
+pub struct Study<'a, M> {
+    arguments: &'a Arguments,
+    measurement: &'a Measurement,
+    tree: PhantomData<fn() -> M>,
+}
+
+/// Fits with one law of friction, and their errors.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The law.
+    pub law: Law,
+    /// The fit of one motion over the whole part that is fitted.
+    pub fit: Fit,
+    /// Errors of that motion, followed to the end of the record.
+    pub one_motion: AngleErrors,
+    /// Errors in windows of a fit to windows: of the part that was fitted, and of the rest.
+    pub windows: [AngleErrors; 2],
+}
+
+/// Energy against time.
+#[derive(Clone, Debug, Default)]
+pub struct Energies {
+    /// Times, s.
+    pub times: Vec<f64>,
+    /// Of measured angles and velocities by smoothness, J.
+    pub measured: Vec<f64>,
+    /// Of the fitted motion, J.
+    pub fitted: Vec<f64>,
+}
+
+impl Energies {
+    /// Largest difference of the two, of the energy at the start.
+    pub fn mismatch(&self) -> f64 {
+        let pairs = self.measured.iter().zip(&self.fitted);
+        let largest = pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        largest / self.fitted.first().copied().unwrap_or(f64::NAN)
+    }
+}
+
+impl<'a, M: Described> Study<'a, M> {
+    /// Checks that options name parameters of the tree.
+    ///
+    /// # Errors
+    /// [`Failure::Identification`].
+    pub fn new(arguments: &'a Arguments, measurement: &'a Measurement) -> Result<Self, Failure> {
+        let parameters = || M::PARAMETERS.iter().map(|name| (*name).to_owned());
+        for (name, _) in arguments.known.iter().chain(&arguments.start) {
+            if !parameters().any(|parameter| parameter == *name) {
+                return Err(Failure::Identification(
+                    IdentificationError::UnknownParameter {
+                        name: name.clone(),
+                        parameters: parameters().collect(),
+                    },
+                ));
+            }
+        }
+        Ok(Self {
+            arguments,
+            measurement,
+            tree: PhantomData,
+        })
+    }
+
+    fn identification(&self, law: Law) -> Identification<FamilyOf<M>> {
+        let given = |list: &[(String, f64)], name: &str| {
+            list.iter()
+                .rev()
+                .find(|(own, _)| own == name)
+                .map(|(_, value)| *value)
+        };
+        let rough = |name: &str| {
+            M::ROUGH
+                .iter()
+                .find(|(own, _)| *own == name)
+                .map(|(_, v)| *v)
+        };
+        let sizes = || COULOMB.iter().map(|size| (Law::Coulomb, size));
+        let sizes = || sizes().chain(QUADRATIC.iter().map(|size| (Law::All, size)));
+        let task = Identification::new(FamilyOf::<M>::new()).with_offsets();
+        M::PARAMETERS.iter().fold(task, |task, name| {
+            let from = sizes().find(|(_, (own, _))| own == name);
+            if let Some(value) = given(&self.arguments.known, name) {
+                return task.known(name, value);
+            }
+            match (
+                given(&self.arguments.start, name).or_else(|| rough(name)),
+                from,
+            ) {
+                (Some(value), _) => task.unknown(name, value),
+                (None, Some((needed, (_, size)))) if law as u8 >= needed as u8 => {
+                    task.unknown_from_zero(name, *size)
+                }
+                (None, Some(_)) => task.known(name, 0.0),
+                (None, None) => task.known(name, GRAVITY),
+            }
+        })
+    }
+
+    /// Fits with one law.
+    ///
+    /// # Errors
+    /// [`Failure::Identification`].
+    pub fn outcome(&self, law: Law) -> Result<Outcome, Failure> {
+        let (fitted, later) = (self.measurement.fitted(), self.measurement.later());
+        let task = self.identification(law);
+        let short = task.clone().with_shooting(Shooting {
+            first: WINDOW,
+            longest: WINDOW,
+            ..Shooting::default()
+        });
+        let in_windows = short.fit(&fitted)?;
+        let fit = task.fit(&fitted)?;
+        Ok(Outcome {
+            law,
+            windows: [
+                short.window_errors(&in_windows, &fitted, WINDOW)?,
+                short.window_errors(&in_windows, &later, WINDOW)?,
+            ],
+            one_motion: task.errors(&fit, &self.measurement.record)?,
+            fit,
+        })
+    }
+
+    /// Energies of the measured and of the fitted motion, with the fitted parameters.
+    ///
+    /// # Errors
+    /// [`Failure::Identification`] or [`Failure::Smoothing`].
+    pub fn energies(&self, outcome: &Outcome) -> Result<Energies, Failure> {
+        let values = outcome.fit.parameters();
+        let tree = M::with_parameters(|index| values[index]);
+        let energy = |state: &[f64]| {
+            let (theta, omega) = state.split_at(M::LINKS);
+            tree.kinetic_energy_of(theta, omega) + tree.potential_energy_of(theta)
+        };
+        let record = &self.measurement.record;
+        let mut motion = vec![vec![0.0; 2 * M::LINKS]; record.times().len()];
+        for (link, angles) in self.measurement.angles.iter().enumerate() {
+            let smoothed = KinematicSmoother::default().smooth(record.times(), angles)?;
+            let offset = outcome.fit.offset(&self.measurement.links[link]);
+            for (index, state) in motion.iter_mut().enumerate() {
+                let [angle, velocity, _] = smoothed.mean(index);
+                (state[link], state[M::LINKS + link]) = (angle - offset, velocity);
+            }
+        }
+        let fitted = self
+            .identification(outcome.law)
+            .predict(&outcome.fit, record.times())?;
+        Ok(Energies {
+            times: record.times().to_vec(),
+            measured: motion.iter().map(|state| energy(state)).collect(),
+            fitted: fitted.iter().map(|state| energy(&state.values)).collect(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::arguments::{Arguments, Law};
+    use super::super::scene::Chain;
+    use super::super::source::Measurement;
+    use super::Study;
+    use crate::failure::Failure;
+
+    #[test]
+    fn a_simulated_chain_is_found_within_its_bars() {
+        let arguments = Arguments {
+            duration: 6.0,
+            noise: 1e-4,
+            known: [("mass_1", 0.088), ("mass_2", 0.102), ("com_1", 0.09)]
+                .map(|(name, value)| (name.to_owned(), value))
+                .to_vec(),
+            ..Arguments::default()
+        };
+        let measurement = Measurement::new::<Chain>(&arguments).unwrap();
+        let study = Study::<Chain>::new(&arguments, &measurement).unwrap();
+        let outcome = study.outcome(Law::All).unwrap();
+        for (name, truth) in measurement.truth.iter().flatten() {
+            let Ok(estimate) = outcome.fit.determined(name) else {
+                continue;
+            };
+            let off = (estimate.value - truth).abs();
+            assert!(
+                off < 4.5 * estimate.naive.unwrap(),
+                "{name} {estimate:?} {truth}"
+            );
+        }
+        let rms = outcome.one_motion.rms();
+        assert!((0.9e-4..1.1e-4).contains(&rms), "{rms}");
+        let energies = study.energies(&outcome).unwrap();
+        assert!(energies.mismatch() < 0.01, "{}", energies.mismatch());
+    }
+
+    #[test]
+    fn names_that_no_tree_has_are_refused() {
+        let arguments = Arguments {
+            known: vec![("mass_3".to_owned(), 1.0)],
+            ..Arguments::default()
+        };
+        let measurement = Measurement::new::<Chain>(&arguments).unwrap();
+        let refused = Study::<Chain>::new(&arguments, &measurement);
+        assert!(matches!(refused, Err(Failure::Identification(_))));
+    }
+}
