@@ -64,7 +64,7 @@ impl Unknowns<'_> {
             .iter()
             .fold(0.0, |most, &value| f64::max(most, value));
         let floor = f64::max(self.deviation, ZERO * largest);
-        let is_open = |value: f64| !(value > floor);
+        let is_open = |value: f64| value.is_nan() || value <= floor;
         let mut basis = DMatrix::zeros(count, values.iter().filter(|&&v| is_open(v)).count());
         if let Some(directions) = &decomposed.v_t {
             let open = values.iter().zip(directions.row_iter());
