@@ -138,7 +138,7 @@ fn within_others<T: Real, P: SmallDifferences<T>>(mut parts: &[T]) -> T {
     for (outer, of_outer) in &amplitudes {
         for (inner, of_inner) in &amplitudes {
             if outer.first < inner.first && inner.first < outer.first + outer.links {
-                sum = sum + T::from_f64(2.0) * *of_outer * *of_inner;
+                sum += T::from_f64(2.0) * *of_outer * *of_inner;
             }
         }
     }
