@@ -1,7 +1,7 @@
 //! Small differences that act back on the motion that they are beside.
 
 use super::by_reference::by_reference;
-use super::{LaneOde, Ode, Transverse, TransverseSector};
+use super::{CastOde, LaneOde, Ode, Transverse, TransverseSector};
 use crate::scalar::Scalar;
 
 /// A model of copies in phase whose small differences act back on the motion: `in_phase(…)`
@@ -145,6 +145,19 @@ impl<T: Scalar, P: SmallDifferences<T>> Ode<T> for SmallOde<P> {
                 model.small_accelerations_into(time, theta, omega, difference, rate, second);
             },
         );
+    }
+}
+
+impl<T: Scalar, S: Scalar, P> CastOde<T, S> for SmallOde<P>
+where
+    P: SmallDifferences<T>,
+    P::Of<S>: SmallDifferences<S>,
+{
+    type Of = SmallOde<P::Of<S>>;
+
+    fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
+        let Self(model) = self;
+        SmallOde(model.cast(convert))
     }
 }
 
