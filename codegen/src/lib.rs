@@ -36,6 +36,8 @@ mod pipeline;
 pub mod program;
 pub mod report;
 pub mod scene;
+#[cfg(feature = "symbolica")]
+mod translate;
 
 #[cfg(feature = "symbolica")]
 pub use cache::ExpansionCache;
@@ -43,3 +45,5 @@ pub use cache::ExpansionCache;
 pub use layout::layout;
 #[cfg(feature = "symbolica")]
 pub use pipeline::{Stages, expand, stages, stages_without};
+#[cfg(feature = "symbolica")]
+pub use translate::{Language, translate};

@@ -163,7 +163,6 @@ mod tests {
     use super::Failure;
     use crate::program::messages;
     use branched_pendulum::analysis::advice::AdviceError;
-    use branched_pendulum::analysis::growth::GrowthError;
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};
@@ -260,7 +259,7 @@ mod tests {
             Box::new(Failure::Linear(LinearError::NotFinite)),
             Box::new(Failure::Frames(Box::new(request()))),
             Box::new(Failure::Truncation(truncation())),
-            Box::new(Failure::Growth(GrowthError::Integration(request()))),
+            Box::new(Failure::Growth(request().into())),
             Box::new(Failure::Advice(AdviceError::Request("a start"))),
             Box::new(Failure::Advice(AdviceError::Reference(Box::new(
                 integration(),

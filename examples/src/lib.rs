@@ -9,7 +9,6 @@ pub mod analyse;
 pub mod branched_double;
 pub mod cascade;
 pub mod critical_angle;
-pub mod energy_cascade;
 pub mod failure;
 pub mod film;
 pub mod identify;

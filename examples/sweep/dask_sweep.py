@@ -22,9 +22,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("shards", type=int)
     parser.add_argument("--scheduler", help="address; without one, this machine's cores")
-    parser.add_argument("program", nargs=argparse.REMAINDER, help="-- program arguments")
-    given = parser.parse_args()
-    program = given.program[1:] if given.program[:1] == ["--"] else given.program
+    parser.usage = "%(prog)s [options] shards -- program arguments"
+    words = sys.argv[1:]
+    place = words.index("--") if "--" in words else len(words)
+    given, program = parser.parse_args(words[:place]), words[place + 1:]
+    if not program:
+        parser.error("no program behind --")
     with Client(given.scheduler) if given.scheduler else Client(threads_per_worker=1) as client:
         parts = [client.submit(shard, program, index, given.shards, pure=False, retries=2)
                  for index in range(given.shards)]

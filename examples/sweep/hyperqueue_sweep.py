@@ -21,9 +21,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("shards", type=int)
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("program", nargs=argparse.REMAINDER, help="-- program arguments")
-    given = parser.parse_args()
-    program = given.program[1:] if given.program[:1] == ["--"] else given.program
+    parser.usage = "%(prog)s [options] shards -- program arguments"
+    words = sys.argv[1:]
+    place = words.index("--") if "--" in words else len(words)
+    given, program = parser.parse_args(words[:place]), words[place + 1:]
+    if not program:
+        parser.error("no program behind --")
     with tempfile.TemporaryDirectory() as folder, LocalCluster() as cluster:
         for _ in range(given.workers):
             cluster.start_worker(WorkerConfig(cores=1))
@@ -31,7 +34,7 @@ def main():
         job = Job(default_workdir=Path(folder))
         for index in range(given.shards):
             shard = program + ["--shard", f"{index}/{given.shards}"]
-            job.program(shard, cwd=Path.cwd())
+            job.program(shard, cwd=Path.cwd(), stdout=None, stderr=None)
         client.wait_for_jobs([client.submit(job)])
     return subprocess.run(program + ["--merge", str(given.shards)]).returncode
 

@@ -1,4 +1,4 @@
-//! The program `cascade`: its budgets, its checkpoints, its shards.
+//! The program `cascade`: its checkpoints, its shards.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -7,83 +7,48 @@ use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
-use branched_pendulum::Sectors;
-use branched_pendulum::prelude::*;
-use branched_pendulum_examples::cascade::Arguments;
-use branched_pendulum_examples::cascade::budget::Budgets;
-use branched_pendulum_examples::cascade::motor::{Motor, Random};
-use branched_pendulum_examples::cascade::scene::{RodTree, Shape, binary_3};
-use clap::Parser;
+use branched_pendulum_examples::cascade::onset::scene::{Tree, TreeParameters, modes};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-/// Seven rods, written out link by link.
-#[branched_pendulum(
-    gravity = 9.80665,
-    parameters(torque, pace, mass_ratio, length_ratio, friction, friction_ratio),
-    arm: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,
-        mass_ratio = mass_ratio, length_ratio = length_ratio, friction = friction,
-        friction_ratio = friction_ratio, code = unrolled),
-    drive(torque = torque * cos(pace * t)),
-    emit(energies, budget(parseval)),
-)]
-struct Written;
-
-/// Budgets by scale, against those of all sectors that the compiler derived.
+/// A pair of outermost rods moves against each other on a pivot at rest.
 #[test]
-fn budgets_by_scale_are_those_of_the_sectors() {
-    let words = "cascade --generations 3 --mass-ratio 0.6 --length-ratio 0.8 --torque 0.3";
-    let arguments = Arguments::parse_from(words.split(' '));
-    let shape: Shape = arguments.shape();
-    let (friction, ratio) = (1e-3, 3.0);
-    let tree = binary_3::Tree::of(&shape, friction, ratio).unwrap();
-    let free = binary_3::Tree::of(&shape, 0.0, ratio).unwrap();
-    let written = Written::new(WrittenParameters {
-        torque: arguments.torque,
-        pace: std::f64::consts::TAU * arguments.frequency,
-        mass_ratio: shape.mass_ratio,
-        length_ratio: shape.length_ratio,
-        friction: friction / (ratio * ratio),
-        friction_ratio: ratio,
-    })
-    .unwrap();
-    // The number of each link of the one in the other.
-    let names = <Written as Pendulum<f64>>::LINK_NAMES;
-    let places: Vec<usize> = (0..7)
-        .map(|link| {
-            let name = <binary_3::Tree as Pendulum<f64>>::link_name(link)
-                .unwrap()
-                .to_string();
-            names.iter().position(|other| **other == name).unwrap()
-        })
-        .collect();
-    let mut random = Random::of_start(3, 0);
-    let motor = Motor::new(&arguments, &mut random);
-    let mut budgets = Budgets::new(shape, &tree, &free);
-    for _ in 0..20 {
-        let time = random.within(10.0);
-        let state: Vec<f64> = (0..14).map(|_| random.within(3.0)).collect();
-        let (mut theta, mut omega) = ([0.0; 7], [0.0; 7]);
-        for (link, &place) in places.iter().enumerate() {
-            (theta[place], omega[place]) = (state[link], state[7 + link]);
-        }
-        let derived = written.budget_parseval(time, &theta, &omega);
-        let mut expected = [[0.0; 3]; 3];
-        for (index, sector) in <Written as Sectors>::SECTORS.iter().enumerate() {
-            let scale = match sector.name.split('_').nth(1) {
-                Some("phase") => 0,
-                generation => generation.unwrap().parse::<usize>().unwrap() - 1,
-            };
-            expected[scale][0] += derived.energies[index];
-            expected[scale][1] += derived.transfers[index];
-            expected[scale][2] += derived.powers[index];
-        }
-        for (found, expected) in budgets.at(&motor, time, &state).iter().zip(expected) {
-            let found = [found.energy, found.received, found.friction + found.drive];
-            for (found, expected) in found.into_iter().zip(expected) {
-                assert!((found - expected).abs() < 1e-12, "{found} {expected}");
-            }
-        }
+fn the_outermost_sectors_have_the_frequency_of_a_rod() {
+    let still = TreeParameters {
+        torque: 0.0,
+        pace: 0.0,
+    };
+    let modes = modes(&Tree::new(still).unwrap()).unwrap();
+    assert!(modes.mass_off_block < 1e-15 && modes.stiffness_off_block < 1e-15);
+    let length = 0.3 * 0.7_f64.powi(3);
+    let rod = (1.5 * 9.80665 / length).sqrt() / std::f64::consts::TAU;
+    let outermost = modes
+        .blocks
+        .iter()
+        .filter(|block| block.name.starts_with("arm_4"));
+    let mut seen = 0;
+    for block in outermost {
+        let [frequency] = block.modes.frequencies_hz[..] else {
+            panic!("{} modes", block.modes.frequencies_hz.len());
+        };
+        assert!((frequency / rod - 1.0).abs() < 1e-13, "{frequency}, {rod}");
+        seen += 1;
+    }
+    assert_eq!(seen, 4);
+}
+
+#[test]
+fn the_onset_leaves_table_and_charts() {
+    let folder = folder("onset");
+    let output = command(&folder, &["--onset", "0.2"]).output().unwrap();
+    finished(&output);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("| `in_phase` | 4 | 0."), "{text}");
+    let csv = fs::read_to_string(folder.join("onset.csv")).unwrap();
+    // The header and one sample each fiftieth of a second from 0 to 0.2 s.
+    assert_eq!(csv.lines().count(), 12);
+    for chart in ["onset.svg", "onset.png"] {
+        assert!(folder.join(chart).metadata().unwrap().len() > 1000);
     }
 }
 
@@ -113,13 +78,17 @@ fn folder(name: &str) -> PathBuf {
     path
 }
 
+/// The options of the short run, but for those that `more` has.
+fn options<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    let others = SHORT.chunks(2).filter(|option| !more.contains(&option[0]));
+    others.flatten().chain(more).copied().collect()
+}
+
 fn command(folder: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_cascade"));
-    command.args(SHORT).args(more).arg("--output").arg(folder);
-    command
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
+    command.args(options(more)).arg("--output").arg(folder);
+    command.stdin(Stdio::null());
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
 
@@ -308,7 +277,7 @@ fn hyperqueue_makes_the_tables_of_one_process() {
         "--",
         env!("CARGO_BIN_EXE_cascade"),
     ];
-    words.extend(SHORT.iter().chain(STARTS));
+    words.extend(options(STARTS));
     words.extend(["--output", swept_path]);
     // Killed halfway, engine, workers and all, and started again.
     let mut engine = python(&words).spawn().unwrap();
@@ -337,19 +306,20 @@ fn hyperqueue_makes_the_tables_of_one_process() {
 
 #[test]
 fn what_is_asleep_is_called_so() {
-    let folder = folder("asleep");
-    let output = command(
-        &folder,
-        &["--torque", "0", "--spread", "0", "--starts", "4"],
-    )
-    .output()
-    .unwrap();
-    finished(&output);
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(
-        text.contains("NOT steady") || text.contains("asleep"),
-        "{text}"
-    );
+    // Too much friction, and a tree that hangs still.
+    for (number, more) in [
+        ["--torque", "0.05", "--friction", "1e-2"],
+        ["--torque", "0", "--spread", "0"],
+    ]
+    .iter()
+    .enumerate()
+    {
+        let folder = folder(&format!("asleep-{number}"));
+        let output = command(&folder, more).output().unwrap();
+        finished(&output);
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(text.contains("| 2 | 2 | asleep ("), "{text}");
+    }
 }
 
 #[test]

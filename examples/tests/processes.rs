@@ -25,8 +25,8 @@ const PROGRAMS: [Program; 12] = [
         arguments: &["--angles", "40:43:0.2", "--duration", "4", "--rate", "50"],
     },
     Program {
-        path: env!("CARGO_BIN_EXE_energy-cascade"),
-        arguments: &["--duration", "1"],
+        path: env!("CARGO_BIN_EXE_cascade"),
+        arguments: &["--onset", "1"],
     },
     Program {
         path: env!("CARGO_BIN_EXE_advise"),
@@ -270,7 +270,7 @@ fn a_file_that_cannot_be_written_is_told_and_leaves_no_part() {
         let name = match program.name() {
             "branched-double" => "samples-40.0deg.csv",
             "advise" => "advice.csv",
-            _ => "energy-cascade.csv",
+            _ => "onset.csv",
         };
         fs::create_dir_all(folder.join(name)).unwrap();
         let output = program.command(&folder).output().unwrap();
@@ -285,7 +285,7 @@ fn a_file_that_cannot_be_written_is_told_and_leaves_no_part() {
 #[test]
 fn a_run_is_repeated_from_its_record() {
     repeated(quick());
-    let other = Command::new(env!("CARGO_BIN_EXE_energy-cascade"))
+    let other = Command::new(env!("CARGO_BIN_EXE_cascade"))
         .arg("--repeat")
         .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("first-branched-double/run.json"))
         .output()

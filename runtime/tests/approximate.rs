@@ -8,6 +8,8 @@ mod energy;
 mod error;
 #[path = "approximate/frames.rs"]
 mod frames;
+#[path = "approximate/nearly.rs"]
+mod nearly;
 #[path = "approximate/propagator.rs"]
 mod propagator;
 #[path = "approximate/scenes.rs"]

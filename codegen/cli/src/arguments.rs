@@ -25,6 +25,9 @@ pub(crate) struct Arguments {
     /// shows a stage in place of code
     #[arg(long)]
     pub(crate) stage: Option<Stage>,
+    /// writes the functions in another language in place of Rust, or the formulas
+    #[arg(long, value_name = "LANGUAGE", conflicts_with = "stage")]
+    pub(crate) emit: Option<Output>,
     /// leaves out a pass over programs, to compare
     #[arg(long, value_name = "PASS", value_parser = pass())]
     pub(crate) without: Option<Pass>,
@@ -43,6 +46,19 @@ pub(crate) enum Stage {
     Program,
     /// the worth of the passes over programs
     Passes,
+}
+
+/// A language beside Rust.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Output {
+    /// C99
+    C,
+    /// Python with NumPy
+    Numpy,
+    /// Julia
+    Julia,
+    /// the formulas, as a LaTeX document
+    Latex,
 }
 
 fn pass() -> impl TypedValueParser<Value = Pass> {

@@ -8,8 +8,10 @@ mod arguments;
 mod diagnostics;
 mod source;
 
-use arguments::{Arguments, Stage};
-use branched_pendulum_codegen::{Stages, layout, program, stages_without};
+use arguments::{Arguments, Output, Stage};
+use branched_pendulum_codegen::{
+    Language, Stages, emit, layout, program, stages_without, translate,
+};
 use clap::Parser;
 use source::{Finder, replace};
 use std::io::{self, ErrorKind, IsTerminal, Read, Write};
@@ -48,12 +50,19 @@ fn run(arguments: &Arguments) -> Result<ExitCode, String> {
         let stages = stages.map_err(|(report, _)| {
             diagnostics::all(&path, &source, &found.range, &report, is_styled())
         })?;
-        match arguments.stage {
-            Some(stage) => shown.push_str(&show(&stages, stage)),
-            None => replacements.push((found.range, format_tokens(&stages)?)),
+        match (arguments.stage, arguments.emit) {
+            (Some(stage), _) => shown.push_str(&show(&stages, stage)),
+            (None, Some(output)) => {
+                let written = translated(&stages, output);
+                shown.push_str(&written.ok_or_else(|| {
+                    let title = "loops have no functions in other languages";
+                    error(found.range, title) + "\nhelp: write `code = unrolled`"
+                })?);
+            }
+            (None, None) => replacements.push((found.range, format_tokens(&stages)?)),
         }
     }
-    if arguments.stage.is_none() {
+    if arguments.stage.is_none() && arguments.emit.is_none() {
         shown = replace(&source, replacements, &arguments.source);
     }
     deliver(arguments, &shown)
@@ -121,6 +130,27 @@ fn show(stages: &Stages, stage: Stage) -> String {
         Stage::Program => stages.program.to_string(),
         Stage::Passes => program::worth(&stages.scene, &stages.mechanics),
     }
+}
+
+/// The functions in another language; `None` where they are loops.
+fn translated(stages: &Stages, output: Output) -> Option<String> {
+    let Stages {
+        description,
+        scene,
+        mechanics,
+        program,
+        ..
+    } = stages;
+    let language = match output {
+        Output::C => Language::C,
+        Output::Numpy => Language::Numpy,
+        Output::Julia => Language::Julia,
+        Output::Latex => {
+            let item = &description.item;
+            return Some(emit::latex_document(item, scene, mechanics, program));
+        }
+    };
+    translate(language, scene, program)
 }
 
 fn format_tokens(stages: &Stages) -> Result<String, String> {

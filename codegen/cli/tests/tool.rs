@@ -30,7 +30,7 @@ fn temporary(name: &str, contents: &str) -> PathBuf {
 #[test]
 fn committed_expansions_are_fresh() {
     let trees = fixture("../../runtime/trees");
-    let equations = ["general.rs", "straight.rs"].map(|name| {
+    let equations = ["general.rs", "rough.rs", "straight.rs"].map(|name| {
         let expanded = trees.join("src/equations").join(name);
         (expanded, trees.join("equations").join(name))
     });
@@ -181,6 +181,33 @@ fn passes_are_left_out_by_name() {
     for pass in Pass::ALL {
         assert!(help.contains(pass.name()), "{}", pass.name());
     }
+}
+
+#[test]
+fn functions_are_written_in_other_languages() {
+    let emit = |language: &str, scene: &str| {
+        expand(&[
+            "--emit".as_ref(),
+            language.as_ref(),
+            fixture(scene).as_ref(),
+        ])
+    };
+    for (language, head) in [
+        ("c", "void paper_accelerations(const double *k, "),
+        ("numpy", "def accelerations(k, theta, omega):"),
+        ("julia", "function accelerations(k, theta, omega)"),
+        ("latex", "\\subsection*{accelerations}"),
+    ] {
+        let output = emit(language, "scenes/paper.rs");
+        let shown = text(&output.stdout);
+        assert!(
+            output.status.success() && shown.contains(head),
+            "{language}"
+        );
+    }
+    let loops = emit("c", "scenes/driven_loops.rs");
+    assert_eq!(loops.status.code(), Some(1));
+    assert!(text(&loops.stderr).contains("help: write `code = unrolled`"));
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod expressions;
 mod formulas;
 mod function;
 mod gather;
+mod latex;
 mod model;
 mod names;
 mod observables;
@@ -37,6 +38,7 @@ mod transfer_forms;
 mod transverse;
 mod whole;
 
+pub use latex::latex_document;
 pub use stub::stub;
 
 use crate::description::StructItem;

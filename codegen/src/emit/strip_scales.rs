@@ -22,8 +22,8 @@ impl Emission<'_> {
         let functions = ScaleFunction::ALL.map(|function| self.scale_function(function));
         let any = |force: fn(&Link) -> bool| self.scene.links.iter().any(force);
         let springs = any(|link| link.spring.is_some());
-        let friction = any(|link| link.friction.is_some());
-        let drag = any(|link| link.drag.is_some());
+        let friction = any(Link::has_friction);
+        let drag = any(Link::has_drag);
         let moved = self.mechanics.drive.as_ref();
         let moved = moved.is_some_and(|drive| !drive.pivot.is_empty());
         let drive = match self.mechanics.drive {

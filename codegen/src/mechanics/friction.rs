@@ -1,4 +1,4 @@
-//! Friction that is not viscous (physics §16): its torques are symbols of their own, which
+//! Friction that is not viscous (physics §17): its torques are symbols of their own, which
 //! stand in the equations of motion as viscous torques do.
 
 use super::algebra::Formula;
@@ -34,8 +34,8 @@ pub enum FrictionPlace {
 pub struct BrakingTorque {
     /// The symbol that stands for it.
     pub symbol: SymbolId,
-    /// Its derivative by w; of single links.
-    pub slope: SymbolId,
+    /// Its first and second derivative by w; of single links.
+    pub slopes: [SymbolId; 2],
     /// The part of the links that it acts on.
     pub place: FrictionPlace,
     /// Whose torque it is.
@@ -52,7 +52,7 @@ pub enum TorqueSource {
         /// Its rate w in the frame's velocities.
         rate: Expr,
         /// Its law.
-        law: LawConstants,
+        law: Box<LawConstants>,
         /// The speed s, a symbol for formulas alone.
         speed: SymbolId,
     },
@@ -64,7 +64,7 @@ pub enum TorqueSource {
 #[derive(Clone)]
 pub(super) struct DerivedTorque {
     pub(super) symbol: SymbolId,
-    pub(super) slope: SymbolId,
+    pub(super) slopes: [SymbolId; 2],
     pub(super) place: FrictionPlace,
     pub(super) source: DerivedSource,
 }
@@ -168,7 +168,10 @@ impl Derivation<'_> {
         };
         DerivedTorque {
             symbol: intern("", "", ""),
-            slope: intern("_slope", "′", "{}'"),
+            slopes: [
+                intern("_slope", "′", "{}'"),
+                intern("_curvature", "″", "{}''"),
+            ],
             place,
             source,
         }
@@ -270,8 +273,11 @@ impl Derivation<'_> {
         let mut slopes = vec![function.derivative(velocity)];
         for torque in &frame.torques {
             if let DerivedSource::Link { rate, .. } = &torque.source {
-                let own = &rate.derivative(velocity) * &Formula::symbol(torque.slope);
-                slopes.push(&function.derivative(torque.symbol) * &own);
+                let [slope, curvature] = torque.slopes;
+                for (symbol, slope) in [(torque.symbol, slope), (slope, curvature)] {
+                    let own = &rate.derivative(velocity) * &Formula::symbol(slope);
+                    slopes.push(&function.derivative(symbol) * &own);
+                }
             }
         }
         slopes.into_iter().sum()
@@ -288,14 +294,14 @@ impl Derivation<'_> {
                         link: *link,
                         speed: self.speed(*link, &rate, &law.width),
                         rate,
-                        law,
+                        law: Box::new(law),
                     }
                 }
                 DerivedSource::Coordinate(index) => TorqueSource::Coordinate(*index),
             };
             BrakingTorque {
                 symbol: torque.symbol,
-                slope: torque.slope,
+                slopes: torque.slopes,
                 place: torque.place,
                 source,
             }

@@ -30,6 +30,7 @@ mod scales;
 pub mod sectors;
 mod series;
 mod show;
+mod show_transverse;
 mod small;
 mod symmetric;
 mod transfer;

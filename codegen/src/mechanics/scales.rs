@@ -1,4 +1,4 @@
-//! Energies by scale, of one link in a tree whose copies are equal (physics §16).
+//! Energies by scale, of one link in a tree whose copies are equal (physics §18).
 //!
 //! The part of a quantity in a scale is linear in it, and constants are those of a whole
 //! generation: what is derived here for one link holds for parts as for the whole. The

@@ -3,8 +3,7 @@
 use super::expression::{Expr, SymbolId};
 use super::{
     Counting, DriveTerms, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree,
-    Mechanics, OrbitMechanics, RelativePosition, SmallFormulas, SmallMechanics, Temporal,
-    TransferParts, TransverseFormulas, TransverseMechanics, text,
+    Mechanics, OrbitMechanics, RelativePosition, Temporal, TransferParts, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
@@ -116,68 +115,6 @@ impl fmt::Display for Mechanics {
 }
 
 impl Mechanics {
-    /// The equations of each sector, M δ̈ + r = 0, and its energy.
-    fn transverse(&self, f: &mut fmt::Formatter<'_>, all: &TransverseMechanics) -> fmt::Result {
-        for formulas in &all.sectors {
-            let TransverseFormulas {
-                sector,
-                differences,
-                mass,
-                residual,
-                energy,
-                transfer,
-                friction,
-                ..
-            } = formulas;
-            writeln!(f, "small differences of {}", sector.name)?;
-            self.matrix(f, "M", mass)?;
-            for (&symbol, value) in differences.iter().zip(residual) {
-                self.line(f, &format!("r of {}", self.name(symbol)), value)?;
-            }
-            self.line(f, "energy", energy)?;
-            self.line(f, "transfer", transfer)?;
-            if !friction.is_zero() {
-                self.line(f, "power of friction", friction)?;
-            }
-        }
-        all.small
-            .iter()
-            .try_for_each(|small| self.small(f, all, small))
-    }
-
-    /// What the differences that act back add to the equations of the in-phase motion.
-    fn small(
-        &self,
-        f: &mut fmt::Formatter<'_>,
-        all: &TransverseMechanics,
-        small: &SmallMechanics,
-    ) -> fmt::Result {
-        for formulas in &small.sectors {
-            let SmallFormulas {
-                sector,
-                mass,
-                coupling,
-                bias,
-                difference_bias,
-                energy,
-            } = formulas;
-            writeln!(
-                f,
-                "differences of {} act back",
-                all.sectors[*sector].sector.name
-            )?;
-            self.matrix(f, "M₂", mass)?;
-            self.matrix(f, "M₁", coupling)?;
-            for (name, terms) in [("b₂", bias), ("b₁", difference_bias)] {
-                for (index, term) in terms.iter().enumerate() {
-                    self.line(f, &format!("{name}[{}]", index + 1), term)?;
-                }
-            }
-            self.line(f, "E₂", energy)?;
-        }
-        Ok(())
-    }
-
     /// Each point from the pivot that it is measured from, with its rates.
     fn positions(&self, f: &mut fmt::Formatter<'_>, links: &[LinkPositions]) -> fmt::Result {
         writeln!(f, "positions from the pivot of the link that they are on")?;
@@ -201,7 +138,7 @@ impl Mechanics {
         Ok(())
     }
 
-    fn name(&self, symbol: SymbolId) -> String {
+    pub(super) fn name(&self, symbol: SymbolId) -> String {
         self.symbols.get(symbol).text.clone()
     }
 
@@ -209,11 +146,11 @@ impl Mechanics {
         text(expr, &self.symbols)
     }
 
-    fn line(&self, f: &mut fmt::Formatter<'_>, left: &str, right: &Expr) -> fmt::Result {
+    pub(super) fn line(&self, f: &mut fmt::Formatter<'_>, left: &str, right: &Expr) -> fmt::Result {
         writeln!(f, "  {left} = {}", self.text(right))
     }
 
-    fn matrix(
+    pub(super) fn matrix(
         &self,
         f: &mut fmt::Formatter<'_>,
         name: &str,

@@ -151,7 +151,7 @@ impl Derivation<'_> {
             braked: frame
                 .torques
                 .iter()
-                .any(|torque| friction.symbols().contains(&torque.slope)),
+                .any(|torque| friction.symbols().contains(&torque.slopes[0])),
             sector,
         }
     }

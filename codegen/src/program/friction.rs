@@ -1,4 +1,4 @@
-//! Torques of friction that is not viscous (physics §16).
+//! Torques of friction that is not viscous (physics §17).
 //!
 //! One function forms them for single links, written out and in loops. In symmetric
 //! coordinates of equal copies they are formed on means and differences.
@@ -63,6 +63,26 @@ impl Builder {
         let quadratic = self.mul(law.quadratic, sum);
         self.add(coulomb, quadratic)
     }
+
+    /// The second derivative, [q (3 − w²/s²) − 3 C ε²/s⁴] w/s.
+    fn braking_curvature(&mut self, law: &Law, rate: ValueId, suffix: &str) -> ValueId {
+        let speed = self.speed(law, rate, suffix);
+        let one = self.integer(1);
+        let inverse = self.div(one, speed);
+        let relative = self.mul(rate, inverse);
+        let square = self.mul(relative, relative);
+        let three = self.integer(3);
+        let rest = self.sub(three, square);
+        let quadratic = self.mul(law.quadratic, rest);
+        let width = self.mul(law.width, inverse);
+        let narrow = self.mul(width, width);
+        let narrow = self.mul(law.coulomb, narrow);
+        let narrow = self.mul(three, narrow);
+        let squared = self.mul(inverse, inverse);
+        let coulomb = self.mul(narrow, squared);
+        let sum = self.sub(quadratic, coulomb);
+        self.mul(sum, relative)
+    }
 }
 
 impl Lowering<'_> {
@@ -83,7 +103,8 @@ impl Lowering<'_> {
     ) -> Option<ValueId> {
         let frame = environment.frame;
         let mut torques = frame.torques.iter();
-        let torque = torques.find(|known| [known.symbol, known.slope].contains(&symbol))?;
+        let torque =
+            torques.find(|known| known.symbol == symbol || known.slopes.contains(&symbol))?;
         match &torque.source {
             TorqueSource::Coordinate(_) => {
                 self.braking_fields(environment, torque.place);
@@ -95,10 +116,12 @@ impl Lowering<'_> {
                 let code = &self.mechanics.symbols.get(symbol).code;
                 let link = &self.mechanics.symbols.get(torque.symbol).code;
                 let suffix = link.replacen("braking", "", 1);
-                let value = match symbol == torque.slope {
-                    true => self.builder.braking_slope(&law, rate, &suffix),
-                    false => self.builder.braking_torque(&law, rate, &suffix),
+                let form = match torque.slopes.iter().position(|slope| *slope == symbol) {
+                    None => Builder::braking_torque,
+                    Some(0) => Builder::braking_slope,
+                    Some(_) => Builder::braking_curvature,
                 };
+                let value = form(&mut self.builder, &law, rate, &suffix);
                 Some(self.builder.name(value, code))
             }
         }

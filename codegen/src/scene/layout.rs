@@ -93,7 +93,7 @@ pub(super) fn of_rule(
         return Ok(Layout::Unrolled);
     }
     match obstacle(templates, asked) {
-        Some(what) if rule.code.is_some() => {
+        Some(what) if rule.code.is_some() || asked.resolved.requests.scales() => {
             report.error(rule.span, SizeMessage::NoLoops { what });
             Err(())
         }

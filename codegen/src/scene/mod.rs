@@ -34,6 +34,7 @@ mod rule;
 mod run_time;
 mod sectors;
 mod singular;
+mod small_sectors;
 mod symbols;
 mod template;
 mod text;

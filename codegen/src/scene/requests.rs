@@ -5,10 +5,9 @@ use std::ops::RangeInclusive;
 
 use proc_macro2::{Ident, Span};
 
-use super::coordinates::symmetric_coordinates;
 use super::expand::ExpandedTree;
-use super::sectors::sectors;
-use super::{BudgetRequest, LinkId, Requests, Scene, Solve, TransferRequest};
+use super::small_sectors::acting;
+use super::{BudgetRequest, LinkId, Requests, Solve, TransferRequest};
 use crate::description::{Request, RequestForm};
 use crate::report::{OutputMessage, Report, SyntaxMessage, UnequalUse, nearest};
 
@@ -147,57 +146,6 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
     resolved
 }
 
-/// Reads the sectors whose differences act back: none where all shall.
-fn acting(
-    span: Span,
-    forms: Option<&[RequestForm]>,
-    damaged: bool,
-    report: &mut Report,
-) -> Vec<Ident> {
-    let Some(forms) = forms else {
-        return Vec::new();
-    };
-    if forms.is_empty() && !damaged {
-        report.error(span, OutputMessage::NoSmallSector);
-    }
-    for RequestForm {
-        name,
-        value,
-        members,
-    } in forms
-    {
-        if value.is_some() || members.is_some() {
-            let name = name.to_string();
-            report.error(span, OutputMessage::RequestForms { name });
-        }
-    }
-    forms.iter().map(|form| form.name.clone()).collect()
-}
-
-/// Finds the sectors whose differences act back; what is wrong goes to `report`.
-pub(super) fn resolve_acting(
-    resolved: &Option<(Span, Vec<Ident>)>,
-    scene: &mut Scene,
-    report: &mut Report,
-) {
-    let Some((_, named)) = resolved else {
-        return;
-    };
-    let sectors = scene.transverse_sectors();
-    if named.is_empty() {
-        scene.requests.small = (0..sectors.len()).collect();
-        return;
-    }
-    let names: Vec<&str> = sectors.iter().map(|sector| sector.name.as_str()).collect();
-    let small = resolve_sectors(
-        named,
-        &names,
-        |name| names.iter().position(|known| *known == name),
-        report,
-    );
-    scene.requests.small = small;
-}
-
 /// Reads `solve = ...`.
 pub(super) fn resolve_solve(
     written: Option<&(Ident, Ident)>,
@@ -308,56 +256,6 @@ fn budget(
         report.error(name.span(), OutputMessage::SmallWithoutOrder);
     }
     request
-}
-
-/// Finds the sectors that are named as small; what is wrong goes to `report`.
-pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut Report) {
-    if resolved.is_empty() {
-        return;
-    }
-    let known = sectors(&symmetric_coordinates(scene));
-    let differences = known.iter().filter(|sector| sector.difference.is_some());
-    let names: Vec<&str> = differences.map(|sector| sector.name.as_str()).collect();
-    let find = |name: &str| {
-        let found = known.iter().find(|sector| sector.name == name);
-        found.and_then(|sector| sector.difference)
-    };
-    let small = resolve_sectors(resolved, &names, find, report);
-    if let Some(budget) = &mut scene.requests.budget {
-        budget.small = small;
-    }
-}
-
-/// Finds each of the named sectors, known by `names`, once.
-fn resolve_sectors<S: PartialEq>(
-    written: &[Ident],
-    names: &[&str],
-    find: impl Fn(&str) -> Option<S>,
-    report: &mut Report,
-) -> Vec<S> {
-    let mut sectors = Vec::new();
-    for ident in written {
-        let name = ident.to_string();
-        match find(&name) {
-            Some(sector) if sectors.contains(&sector) => {
-                report.error(ident.span(), OutputMessage::DuplicateRequest { name });
-            }
-            Some(sector) => sectors.push(sector),
-            None => {
-                let nearest = nearest(&name, names).map(str::to_owned);
-                let known = names.join("`, `");
-                report.error(
-                    ident.span(),
-                    OutputMessage::UnknownSector {
-                        name,
-                        nearest,
-                        known,
-                    },
-                );
-            }
-        }
-    }
-    sectors
 }
 
 /// Reads the forms of the transfer; all of them if none is named.

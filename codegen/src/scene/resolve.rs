@@ -6,11 +6,10 @@ use super::layout::{self, Asked, Layout};
 use super::observables::resolve_observables;
 use super::prescribed::resolve_prescribed;
 use super::reduction::reduce;
-use super::requests::{
-    check_symmetry, resolve_acting, resolve_requests, resolve_small, resolve_solve,
-};
+use super::requests::{check_symmetry, resolve_requests, resolve_solve};
 use super::rule::resolve_code;
 use super::singular::check_regular;
+use super::small_sectors::{resolve_acting, resolve_small};
 use super::template::TreeBuilder;
 use super::values::{Usage, Values, check_used};
 use super::{CratePath, Quantity, Scene, Sign};

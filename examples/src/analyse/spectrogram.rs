@@ -101,7 +101,7 @@ impl Spectrogram {
         job.csv("lines.csv", &columns, |file| {
             for passage in &self.lines {
                 for line in &passage.found.lines {
-                    file.row(&[
+                    file.row([
                         passage.middle,
                         line.frequency_hz,
                         line.deviation_hz,

@@ -46,7 +46,7 @@ pub struct Arguments {
     #[arg(long, value_name = "R", default_value = "1e6", value_parser = number(1e-2..=1e9, ""), verbatim_doc_comment)]
     pub friction_ratio: f64,
     /// independent starts, 4 to 100000
-    #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(4..=100_000))]
+    #[arg(long, value_name = "N", default_value = "32", value_parser = clap::value_parser!(u32).range(4..=100_000))]
     pub starts: u32,
     /// time that each start is followed, s from 1 to 1e6
     #[arg(long, value_name = "S", default_value = "400", value_parser = number(1.0..=1e6, "s"))]
@@ -55,7 +55,7 @@ pub struct Arguments {
     #[arg(long, value_name = "RAD", default_value = "0.5", value_parser = number(0.0..=3.0, "rad"))]
     pub spread: f64,
     /// samples of the budgets in a period of the torque, 4 to 1000
-    #[arg(long, value_name = "N", default_value = "32", value_parser = clap::value_parser!(u32).range(4..=1000))]
+    #[arg(long, value_name = "N", default_value = "128", value_parser = clap::value_parser!(u32).range(4..=1000))]
     pub samples: u32,
     /// steps of the integrator in a period of the torque, a multiple of the samples, 16 to
     /// 100000
@@ -70,6 +70,10 @@ pub struct Arguments {
     /// seconds between two checkpoints, 0 to 1e6
     #[arg(long, value_name = "S", default_value = "5", value_parser = number(0.0..=1e6, "s"))]
     pub checkpoint: f64,
+    /// in place of all this, the onset in fifteen rods released almost in phase, sector by
+    /// sector, for so many s from 0.1 to 1000
+    #[arg(long, value_name = "S", value_parser = number(0.1..=1e3, "s"), conflicts_with_all = ["shard", "merge"], verbatim_doc_comment)]
+    pub onset: Option<f64>,
     /// Which part of the starts.
     #[command(flatten)]
     pub sharding: Sharding,
@@ -129,7 +133,7 @@ impl crate::program::Arguments for Arguments {
                 "there is no tree of {generations} generations by {branching}"
             ));
         }
-        if self.steps % self.samples != 0 {
+        if !self.steps.is_multiple_of(self.samples) {
             return Err("`--steps` must be a multiple of `--samples`".to_owned());
         }
         if self.bandwidth > 0.9 * self.frequency {

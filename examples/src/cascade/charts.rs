@@ -1,10 +1,13 @@
-//! Charts: the course of the energies, the scales, the densities of the fluxes.
+//! Charts: the course of the energies, the scales, the densities of the fluxes; and the
+//! tree in motion.
 
-use branched_pendulum_charts::{Axis, Chart, Panel};
+use branched_pendulum::analysis::statistics::Average;
+use branched_pendulum_charts::{Axis, Chart, ChartError, Film, FilmLink, Panel, Series};
 
 use super::arguments::Arguments;
 use super::findings::{Findings, Scale};
 use super::report::name;
+use super::scene::Shape;
 
 /// Energies of the scales against time, averaged over the starts.
 pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
@@ -17,10 +20,10 @@ pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
         .flatten()
         .copied()
         .fold(0.0, f64::max);
-    let mut panel = Panel::new(Axis::log("energy (J)").range(1e-6 * largest, 2.0 * largest));
+    let mut panel = Panel::new(Axis::log("energy (J)").range(1e-4 * largest, 2.0 * largest));
     for (scale, energies) in findings.course.iter().enumerate() {
         // A level that sleeps lies below the axis.
-        if energies.iter().any(|energy| *energy > 1e-6 * largest) {
+        if energies.iter().any(|energy| *energy > 1e-4 * largest) {
             panel = panel.line(name(scale), &times, energies);
         }
     }
@@ -30,8 +33,8 @@ pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
     Chart::new("Energy by scale, mean of all starts", Axis::linear("t (s)")).panel(panel)
 }
 
-/// Energy per degree of freedom, and flux, by scale.
-pub fn scales(arguments: &Arguments, findings: &Findings) -> Chart {
+/// Energy per degree of freedom, and flux, by scale; none where nothing has settled.
+pub fn scales(arguments: &Arguments, findings: &Findings) -> Option<Chart> {
     let shape = arguments.shape();
     let (mut places, mut energies) = (Vec::new(), Vec::new());
     for (scale, state) in findings.scales.iter().enumerate() {
@@ -51,11 +54,9 @@ pub fn scales(arguments: &Arguments, findings: &Findings) -> Chart {
     let mut energy = Panel::new(Axis::log("energy per degree of freedom (J)"));
     if !places.is_empty() {
         let [low, middle, high] = columns(&energies);
-        energy = energy.band("", &places, &low, &high).line(
-            "energy per degree of freedom",
-            &places,
-            &middle,
-        );
+        energy = energy
+            .band("", &places, &low, &high)
+            .series(Series::line("energy per degree of freedom", &places, &middle).with_symbols());
     }
     let mut flux = Panel::new(Axis::linear("power (mW)")).zero_line();
     let known: Vec<(f64, [f64; 3], [f64; 3])> = findings
@@ -64,9 +65,8 @@ pub fn scales(arguments: &Arguments, findings: &Findings) -> Chart {
         .enumerate()
         .filter_map(|(index, flux)| {
             let flux = flux.as_ref().ok()?;
-            let bar = |a: &branched_pendulum::analysis::statistics::Average| {
-                [a.mean - a.error, a.mean, a.mean + a.error].map(|power| 1e3 * power)
-            };
+            let bar =
+                |a: &Average| [a.mean - a.error, a.mean, a.mean + a.error].map(|power| 1e3 * power);
             Some((
                 index as f64 + 1.0,
                 bar(&flux.transferred),
@@ -79,22 +79,26 @@ pub fn scales(arguments: &Arguments, findings: &Findings) -> Chart {
         let [low, middle, high] = columns(&known.iter().map(|(_, w, _)| *w).collect::<Vec<_>>());
         flux = flux
             .band("", &x, &low, &high)
-            .line("flux into the scale by W", &x, &middle);
+            .series(Series::line("flux into the scale by W", &x, &middle).with_symbols());
         let [low, middle, high] = columns(&known.iter().map(|(.., d)| *d).collect::<Vec<_>>());
         flux = flux
             .band("", &x, &low, &high)
-            .line("dissipated there and below", &x, &middle);
+            .series(Series::line("dissipated there and below", &x, &middle).with_symbols());
+    }
+    if places.is_empty() || x.is_empty() {
+        return None;
     }
     if let Ok(input) = &findings.input {
         flux = flux.points("motor", &[0.0], &[1e3 * input.mean]);
     }
-    Chart::new(
+    let chart = Chart::new(
         "The steady state by scale; bands: one standard error",
         Axis::linear("generation in which the branches differ (0: means)"),
     )
     .size(900.0, 760.0)
     .panel(energy)
-    .panel(flux)
+    .panel(flux);
+    Some(chart)
 }
 
 fn columns(rows: &[[f64; 3]]) -> [Vec<f64>; 3] {
@@ -122,4 +126,26 @@ pub fn densities(findings: &Findings) -> Chart {
         Axis::linear("(W − mean)/σ").range(-20.0, 20.0),
     )
     .panel(panel)
+}
+
+/// The tree through states that follow each other by `interval` seconds.
+///
+/// # Errors
+/// [`ChartError`] if there is nothing to be seen.
+pub fn film(shape: &Shape, states: &[Vec<f64>], interval: f64) -> Result<Film, ChartError> {
+    let mut links = Vec::new();
+    for generation in 0..shape.generations {
+        for place in 0..shape.width(generation) {
+            let above = generation.checked_sub(1);
+            let joint = above.map_or(0.0, |above| shape.length(above));
+            links.push(FilmLink {
+                parent: above.map(|above| shape.link(above, place % shape.width(above))),
+                pivot: [joint, 0.0],
+                end: [shape.length(generation), 0.0],
+            });
+        }
+    }
+    let pictures: Vec<&[f64]> = states.iter().map(|state| &state[..links.len()]).collect();
+    let title = format!("{} rods, the root driven by a motor", links.len());
+    Film::new(title, interval).tree("", &links, &pictures)
 }

@@ -74,6 +74,8 @@ pub struct Findings {
     pub input: Result<Average, StatisticsError>,
     /// Power of all friction, W, positive.
     pub dissipation: Result<Average, StatisticsError>,
+    /// The one less the other, W: what the steps of the integrator have lost.
+    pub loss: Result<Average, StatisticsError>,
     /// What passes into scale s and all younger ones, s = 1, 2, ….
     pub fluxes: Vec<Result<Flux, StatisticsError>>,
     /// Densities of the fluxes.
@@ -110,7 +112,7 @@ impl Findings {
         let per_mean = series.mean(0) / shape.degrees_of_freedom(0) as f64;
         let scales = all.clone().map(|scale| {
             let mean = series.mean(scale);
-            if mean < ASLEEP * per_mean * shape.degrees_of_freedom(scale) as f64 {
+            if mean <= ASLEEP * per_mean * shape.degrees_of_freedom(scale) as f64 {
                 return Scale::Asleep(mean);
             }
             match Average::of(&of(Quantity::Energy, scale..scale + 1, 1.0)) {
@@ -147,6 +149,10 @@ impl Findings {
         Self {
             drift: Drift::of(&energy),
             input: Average::of(&of(Quantity::Drive, all.clone(), 1.0)),
+            loss: Average::of(&series.sums(|row| {
+                let power = |s| at(row, s, Quantity::Friction) + at(row, s, Quantity::Drive);
+                all.clone().map(power).sum::<f64>()
+            })),
             dissipation: Average::of(&of(Quantity::Friction, all, -1.0)),
             fluxes: fluxes.collect(),
             law: power_law(shape, &scales, &series),
@@ -155,6 +161,12 @@ impl Findings {
             scales,
             densities,
         }
+    }
+
+    /// True if what the motor gives is what friction takes, within three bars.
+    pub fn is_balanced(&self) -> bool {
+        self.loss
+            .is_ok_and(|loss| loss.mean.abs() <= 3.0 * loss.error)
     }
 
     /// True if the transient has ended and the energy does not drift.

@@ -3,18 +3,18 @@
 //!
 //! - [`arguments`]: the command line, [`scene`]: the trees, [`motor`]: the torque,
 //! - [`motion`]: all starts, window by window, with checkpoints, [`together`]: in lanes,
-//! - [`budget`]: energies and powers by scale, [`density`]: how often a flux has which value,
-//! - [`findings`]: averages with errors, [`report`]: tables, [`charts`]: charts,
-//!   [`picture`]: the tree in motion.
+//! - [`density`]: how often a flux has which value,
+//! - [`findings`]: averages with errors, [`report`]: tables, [`charts`]: charts
+//!   and a film,
+//! - [`onset`]: a small tree, sector by sector, from a release almost in phase.
 
 pub mod arguments;
-pub mod budget;
 pub mod charts;
 pub mod density;
 pub mod findings;
 pub mod motion;
 pub mod motor;
-pub mod picture;
+pub mod onset;
 pub mod report;
 pub mod scene;
 pub mod together;
@@ -37,6 +37,15 @@ const INTERVAL: f64 = 0.05;
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    if let Some(duration) = arguments.onset {
+        let release = onset::Release {
+            duration,
+            torque: arguments.torque,
+            frequency: arguments.frequency,
+            ..onset::Release::default()
+        };
+        return onset::run(&release, job);
+    }
     let shape = arguments.shape();
     let starts = sweep::results(
         job,
@@ -51,15 +60,21 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         let text = report::report(arguments, &starts, &findings);
         job.print(&text)?;
         job.write("report.md", text.as_bytes())?;
-        job.chart("course", &charts::course(arguments, &findings))?;
-        job.chart("scales", &charts::scales(arguments, &findings))?;
-        job.chart("densities", &charts::densities(&findings))?;
+        // A tree that hangs still has nothing to show.
+        if findings.course.iter().flatten().any(|energy| *energy > 0.0) {
+            job.chart("course", &charts::course(arguments, &findings))?;
+            if let Some(chart) = charts::scales(arguments, &findings) {
+                job.chart("scales", &chart)?;
+            }
+            job.chart("densities", &charts::densities(&findings))?;
+        }
         if let Some(first) = starts.first() {
             let (states, interval) = of_shape!(shape, film(arguments, first, FRAMES, INTERVAL))?;
-            let svg = picture::animated(&shape, &states, interval);
-            job.write("tree.svg", svg.as_bytes())?;
+            let film = charts::film(&shape, &states, interval)?;
+            job.write("tree.svg", film.to_svg()?.as_bytes())?;
         }
         job.report("steady", findings.is_steady());
+        job.report("balanced", findings.is_balanced());
     }
     Checkpoint::new(job, 0.0).discard();
     Ok(())

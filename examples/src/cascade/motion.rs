@@ -2,11 +2,12 @@
 
 use std::num::NonZeroUsize;
 
+use branched_pendulum::ScaleBudget;
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::Workspace;
 use serde::{Deserialize, Serialize};
 
 use super::arguments::Arguments;
-use super::budget::{Budgets, ScaleBudget};
 use super::density::Density;
 use super::motor::{Motor, Random};
 use super::scene::RodTree;
@@ -55,7 +56,6 @@ pub fn follow<P: RodTree>(
 ) -> Result<Vec<Followed>, Failure> {
     let shape = arguments.shape();
     let tree = P::of(&shape, arguments.friction, arguments.friction_ratio)?;
-    let free = P::of(&shape, 0.0, arguments.friction_ratio)?;
     let (starts, motors): (Vec<_>, Vec<_>) = items
         .iter()
         .map(|&item| Followed::new(arguments, item))
@@ -91,16 +91,27 @@ pub fn follow<P: RodTree>(
                 .zip(*motors)
                 .collect();
             let mut together = Together::new(&tree, &starts);
-            let mut budgets = Budgets::new(shape, &tree, &free);
+            let (mut workspace, mut budget) = (Workspace::new(), ScaleBudget::new());
+            let mut torques = vec![0.0; P::LINKS];
             let mut means = vec![Window::new(shape.generations); starts.len()];
             for step in 0..arguments.steps {
                 let place = u64::from(arguments.steps) * window as u64 + u64::from(step);
                 together.step(arguments.time(place), arguments.step());
-                if (step + 1) % (arguments.steps / arguments.samples) == 0 {
+                if (step + 1).is_multiple_of(arguments.steps / arguments.samples) {
                     for (start, (means, motor)) in means.iter_mut().zip(*motors).enumerate() {
+                        let time = arguments.time(place + 1);
                         let state = together.state(start);
-                        let budgets = budgets.at(motor, arguments.time(place + 1), &state);
-                        means.add(budgets, counts);
+                        let (theta, omega) = state.split_at(P::LINKS);
+                        torques[0] = motor.torque(time);
+                        tree.budget_by_scale_under(
+                            &mut workspace,
+                            time,
+                            theta,
+                            omega,
+                            &torques,
+                            &mut budget,
+                        );
+                        means.add(&budget, counts);
                     }
                 }
             }
@@ -181,25 +192,22 @@ impl Window {
         }
     }
 
-    fn add(&mut self, budgets: &[ScaleBudget], counts: bool) {
+    fn add(&mut self, budget: &ScaleBudget<f64>, counts: bool) {
         self.samples += 1.0;
-        for (sums, budget) in self.sums.iter_mut().zip(budgets) {
-            let ScaleBudget {
-                energy,
-                received,
-                friction,
-                drive,
-            } = *budget;
-            for (sum, value) in sums.iter_mut().zip([energy, received, friction, drive]) {
+        for (scale, sums) in self.sums.iter_mut().enumerate() {
+            let values = [
+                budget.energy(scale),
+                budget.received(scale),
+                budget.friction_power(scale),
+                budget.outside_power(scale),
+            ];
+            for (sum, value) in sums.iter_mut().zip(values) {
                 *sum += value;
             }
         }
         if counts {
-            let mut flux = 0.0;
-            let densities = self.densities.iter_mut().rev();
-            for (density, budget) in densities.zip(budgets.iter().rev()) {
-                flux += budget.received;
-                density.count(flux);
+            for (scale, density) in (1..).zip(&mut self.densities) {
+                density.count(budget.flux(scale));
             }
         }
     }

@@ -137,11 +137,17 @@ fn balance(findings: &Findings) -> String {
         Err(error) => error.to_string(),
     };
     let mut text = format!(
-        "Motor: {} mW; friction: {} mW.\n\n\
+        "Motor: {} mW; friction: {} mW; the one less the other {} mW: {}.\n\n\
          | into scale | from W (mW) | dissipated there and below (mW) | difference (mW) | skewness of W |\n\
          |---|---:|---:|---:|---:|\n",
         watts(&findings.input),
-        watts(&findings.dissipation)
+        watts(&findings.dissipation),
+        watts(&findings.loss),
+        if findings.is_balanced() {
+            "balanced"
+        } else {
+            "NOT balanced, take more `--steps`"
+        },
     );
     for (index, flux) in findings.fluxes.iter().enumerate() {
         push(&mut text, format_args!("| {} |", index + 1));
@@ -156,7 +162,8 @@ fn balance(findings: &Findings) -> String {
                     flux.skewness.map_or(String::new(), |skewness| format!(
                         "{:.2} ± {:.2}",
                         skewness.value, skewness.error
-                    ))
+                    )
+                    .replace('-', "−"))
                 ),
             ),
             Err(error) => push(&mut text, format_args!(" {error} | | | |\n")),

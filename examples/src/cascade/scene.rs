@@ -2,15 +2,10 @@
 
 use branched_pendulum::ParameterError;
 use branched_pendulum::prelude::*;
-
-/// Mass of the root, kg.
-const MASS: f64 = 0.12;
+use branched_pendulum::sectors::{Scales, degrees_of_freedom};
 
 /// Length of the root, m.
 const LENGTH: f64 = 0.3;
-
-/// Standard gravity, m/s².
-const GRAVITY: f64 = 9.80665;
 
 /// A tree by rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,42 +31,27 @@ impl Shape {
         (0..self.generations).map(|g| self.width(g)).sum()
     }
 
-    /// Number of the first rod of a generation.
-    pub fn first(&self, generation: usize) -> usize {
-        (0..generation).map(|g| self.width(g)).sum()
-    }
-
-    /// Mass of a rod, kg.
-    pub fn mass(&self, generation: usize) -> f64 {
-        MASS * self.mass_ratio.powi(generation as i32)
-    }
-
     /// Length of a rod, m.
     pub fn length(&self, generation: usize) -> f64 {
         LENGTH * self.length_ratio.powi(generation as i32)
     }
 
-    /// Potential energy of a rod that lies flat, and of all that hangs from it where it ends, over that of
-    /// the hanging one: g (m/2 + mass below) ℓ, J.
-    pub fn weight(&self, generation: usize) -> f64 {
-        let below = (generation + 1..self.generations)
-            .map(|g| self.mass(g) * self.width(g - generation) as f64)
-            .sum::<f64>();
-        GRAVITY * (0.5 * self.mass(generation) + below) * self.length(generation)
+    /// Number of the rod at a place of a generation.
+    pub fn link(&self, generation: usize, place: usize) -> usize {
+        (0..generation).map(|g| self.width(g)).sum::<usize>() + place
     }
 
     /// Degrees of freedom of a scale: 0 the means, s the differences between rods of
     /// generation s under one parent, with all that hangs from them.
     pub fn degrees_of_freedom(&self, scale: usize) -> usize {
-        match scale {
-            0 => self.generations,
-            s => self.width(s - 1) * (self.branching - 1) * (self.generations - s),
-        }
+        let mut copies = vec![self.branching; self.generations];
+        copies[0] = 1;
+        degrees_of_freedom(&copies, scale)
     }
 }
 
 /// A model of such trees, with friction.
-pub trait RodTree: Forced<f64> + Sync + std::fmt::Debug {
+pub trait RodTree: Forced<f64> + Scales<f64> + Sync + std::fmt::Debug {
     /// The tree whose youngest pivots have the friction `friction`, N m s, and those of
     /// every generation `ratio` times that of the one above.
     ///
@@ -107,7 +87,7 @@ macro_rules! tree {
                             mass = 0.12, length = 0.3, mass_ratio = mass_ratio,
                             length_ratio = length_ratio, friction = friction,
                             friction_ratio = friction_ratio, code = loops),
-                        emit(energies, forces),
+                        emit(energies, forces, budget(parseval, scales)),
                     )]
             pub struct Tree;
         }

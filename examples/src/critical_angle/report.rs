@@ -105,7 +105,7 @@ fn told(factor: Checked) -> String {
     }
 }
 
-/// What follows for the paper's threshold.
+/// Consequences for the paper's threshold.
 fn conclusions(arguments: &Arguments, scans: &[Scan]) -> String {
     let (Some(level), Some(first)) = (arguments.levels.first(), scans.first()) else {
         return String::new();

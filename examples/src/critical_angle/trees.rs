@@ -92,11 +92,15 @@ type Factor = (f64, bool);
 /// pendulum.
 const PERIODS: f64 = 12.58;
 
+/// Angles that are computed at a time.
+const BLOCK: usize = 16;
+
 /// Ratios of masses and of lengths.
 const MASSES: [f64; 3] = [0.25, 0.5, 1.0];
 const LENGTHS: [f64; 3] = [0.5, 0.7, 1.0];
 
-/// Releases from rest, the root at every angle and all others vertical.
+/// Releases from rest, the root at every angle and all others vertical, by ascending
+/// angle and not far beyond the threshold: above it motions are chaotic, and dear.
 fn along<P: Transverse<f64> + Sync>(
     model: impl Fn() -> Result<P, ParameterError>,
     arguments: &Arguments,
@@ -118,15 +122,27 @@ fn along<P: Transverse<f64> + Sync>(
         horizons: vec![PERIODS / frequency_hz],
         tolerance: arguments.tolerance,
     };
-    let grown = growth.in_lanes(&Ensemble::new(), &releases).into_iter();
-    // A motion that cannot be followed is not determined.
-    let factors = grown.map(
-        |grown| match grown.ok().and_then(|g| g.factors.first().copied()) {
-            Some(factor) => (factor.value, factor.is_determined()),
-            None => (f64::INFINITY, false),
-        },
-    );
-    Ok(factors.collect())
+    let mut factors: Vec<Factor> = Vec::new();
+    for block in releases.chunks(BLOCK) {
+        if factors
+            .iter()
+            .any(|(factor, _)| *factor >= level(arguments))
+        {
+            break;
+        }
+        let grown = growth.in_lanes(&Ensemble::new(), block).into_iter();
+        // A motion that cannot be followed is not determined.
+        factors.extend(grown.map(|grown| {
+            let factor = grown.ok().and_then(|grown| grown.factors.first().copied());
+            factor.map_or((f64::INFINITY, false), |f| (f.value, f.is_determined()))
+        }));
+    }
+    Ok(factors)
+}
+
+/// The growth factor that makes a threshold.
+fn level(arguments: &Arguments) -> f64 {
+    arguments.levels.first().copied().unwrap_or(f64::INFINITY)
 }
 
 /// Finds the threshold of a tree: the first level of the command line.
@@ -134,7 +150,7 @@ fn along<P: Transverse<f64> + Sync>(
 /// # Errors
 /// [`Failure`].
 pub fn threshold(rule: Rule, arguments: &Arguments) -> Result<Threshold, Failure> {
-    let level = arguments.levels.first().copied().unwrap_or(f64::INFINITY);
+    let level = level(arguments);
     let factors = factors(rule, arguments)?;
     let both = arguments.angles_deg.iter().zip(&factors);
     let first = both.into_iter().find(|(_, (factor, _))| *factor >= level);
@@ -206,7 +222,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 }
 
 fn report(arguments: &Arguments, thresholds: &[Threshold]) -> String {
-    let level = arguments.levels.first().copied().unwrap_or(f64::INFINITY);
+    let level = level(arguments);
     let mut text = format!(
         "Smallest angle of the root, all others vertical, from which differences of the first\n\
          branching grow {level}-fold within {PERIODS} periods of theirs at rest\n\n\

@@ -84,7 +84,7 @@ impl<'j> Checkpoint<'j> {
         })?;
         // Ctrl-C waits for the file to be whole.
         let ledger = locked(&self.job.ledger);
-        replace(path, &bytes).map_err(|source| Failure::File {
+        replace(path, "", &bytes).map_err(|source| Failure::File {
             path: path.clone(),
             source,
         })?;

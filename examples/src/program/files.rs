@@ -23,10 +23,10 @@ pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 /// Replaces a file by these bytes: whoever reads it finds the old one or the new one,
-/// even after the power has failed.
-pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// even after the power has failed. `writer` tells processes apart that write at once.
+pub(super) fn replace(path: &Path, writer: &str, bytes: &[u8]) -> io::Result<()> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let part = path.with_file_name(format!(".{name}.part"));
+    let part = path.with_file_name(format!(".{name}{writer}.part"));
     let written = File::create(&part).and_then(|mut file| {
         file.write_all(bytes)?;
         file.sync_all()?;

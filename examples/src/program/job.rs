@@ -99,7 +99,7 @@ impl Record {
             "files": files,
         });
         let path = folder.join(RECORD);
-        replace(&path, format!("{record:#}\n").as_bytes())
+        replace(&path, "", format!("{record:#}\n").as_bytes())
             .map_err(|source| Failure::File { path, source })?;
         ledger.files.push(RECORD.to_owned());
         Ok(Some(left))
@@ -210,7 +210,7 @@ impl Job {
         }
     }
 
-    /// What a run of a test would have printed.
+    /// Text that a run of a test would have printed.
     pub fn printed(&self) -> String {
         let kept = self.kept.as_ref();
         kept.map_or(String::new(), |kept| kept.borrow().clone())

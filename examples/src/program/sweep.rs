@@ -178,9 +178,12 @@ fn agree(job: &Job, folder: &Path, shards: u32, items: usize) -> Result<(), Fail
         Ok(found) if found == expected => Ok(()),
         Ok(found) => Err(SweepError::Manifest { found, expected }.into()),
         // Shards that begin together write the same.
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            replace(&path, expected.as_bytes()).map_err(|source| Failure::File { path, source })
-        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => replace(
+            &path,
+            &format!(".{}", std::process::id()),
+            expected.as_bytes(),
+        )
+        .map_err(|source| Failure::File { path, source }),
         Err(source) => Err(Failure::Unread { path, source }),
     }
 }

@@ -65,10 +65,9 @@ impl ColorBar {
     /// Colour of a value, the nearest one for those beyond the ends; none for what the
     /// scale does not have.
     fn class(&self, value: f64) -> Option<usize> {
-        let place = self.scale.fraction(value).unwrap_or_else(|| {
-            // Zero and less are below all that a logarithmic scale has.
-            if value <= 0.0 { 0.0 } else { f64::NAN }
-        });
+        // Zero and less are below all that a logarithmic scale has.
+        let beyond = if value <= 0.0 { 0.0 } else { f64::NAN };
+        let place = self.scale.fraction(value).unwrap_or(beyond);
         let class = (place.clamp(0.0, 1.0) * COLORS as f64) as usize;
         (!place.is_nan()).then_some(class.min(COLORS - 1))
     }

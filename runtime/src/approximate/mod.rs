@@ -13,6 +13,7 @@ mod linear;
 mod matrix;
 mod measured;
 mod nearly;
+mod small_error;
 mod switched;
 
 pub use error::LinearError;

@@ -4,8 +4,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::Approximation;
+use super::small_error::SmallError;
 use crate::integrate::{Frames, InputError};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Real;
 use crate::system::{DifferencePatterns, SmallDifferences, SmallOde, State};
 
 /// A tree whose copies are nearly in phase, by the model of small differences that act
@@ -17,13 +18,20 @@ use crate::system::{DifferencePatterns, SmallDifferences, SmallOde, State};
 ///
 /// # Estimate of the error
 ///
-/// A difference of amplitude b, b² = δ² + (δ̇/Ω)² with Ω² = ∂²E/∂δ² / ∂²E/∂δ̇², swings
-/// more slowly by b²/16 than the model has it: over a second that is an error of
-/// (Ω/16) b³. With B² = Σ b², the highest Ω, and the rates ω of the angles in phase, which
-/// add to stiffness, the estimate is (Ω² + ω²)^½ B³/8; patterns with uneven
-/// weights drive other differences, by B² and the angles in phase. It is between 0.3 and
-/// 30 times the error for releases of the paper's pendulum up to 60°, with differences up to
-/// 0.5 rad.
+/// A difference of amplitude b, b² = δ² + (δ̇/Ω)² with Ω² = (∂²E/∂δ²)/(∂²E/∂δ̇²), swings
+/// slower by the part b²/16 than the model has it: over a second that is an error of (Ω/16) b³.
+/// With B² = Σ b², the highest Ω, and the rates ω of the angles in phase, which add to
+/// stiffness, the estimate is (Ω² + ω²)^½ B³/4. Where the energy of the motion in phase is x
+/// times what lifts the copies' links to the horizontal, x > 1, differences may grow
+/// manifold in a second: times e^(6x − 6). Patterns with uneven weights drive
+/// other differences, by B² and the angles in phase, and so do differences of copies within
+/// copies that differ, by 2 B_s B_t. Errors of the sub-steps come on top.
+///
+/// For 400 states in disorder of the paper's pendulum, whose motion in phase has up to the energy
+/// of a release from 30° (x = 1), with differences up to 0.01, 0.05, 0.2 and 0.5 rad, the
+/// estimate is between 0.8 and 30 times the error, and for as many of a binary tree of seven
+/// links between 0.3 and 30 times; a test asks for that. Beyond x = 1.5 it is no bound: motions
+/// that turn copies over can multiply differences by a thousand in a second.
 ///
 /// # Examples
 ///
@@ -62,7 +70,7 @@ use crate::system::{DifferencePatterns, SmallDifferences, SmallOde, State};
 ///     full.advance(1.0 / 60.0);
 /// }
 /// let error = (state[1] - full.state()[1]).abs();
-/// assert!(error < estimate && estimate < 3e-3);
+/// assert!(error < estimate && estimate < 1e-2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -70,10 +78,7 @@ pub struct NearlyInPhase<P, T> {
     frames: Frames<SmallOde<P>, T>,
     patterns: DifferencePatterns,
     frame: T,
-    /// Ω² of each difference.
-    squares: Vec<T>,
-    /// Largest [`DifferencePatterns::unevenness`] of a sector.
-    unevenness: T,
+    error: SmallError<T>,
     /// State of the model.
     small: Vec<T>,
 }
@@ -97,107 +102,16 @@ impl<P: SmallDifferences<T>, T: Real> NearlyInPhase<P, T> {
                 value: frame,
             });
         }
-        let sectors = 0..P::SMALL.len();
-        let uneven = sectors.map(|sector| patterns.unevenness(sector));
-        let unevenness = T::from_f64(uneven.fold(0.0, f64::max));
-        let squares = squares(&model);
         let small = vec![T::ZERO; 2 * patterns.half()];
         let rest = State::new(T::ZERO, small.clone());
         Ok(Self {
+            error: SmallError::new(&model, &patterns),
             frames: Frames::new(SmallOde(model), &rest, sub_step)?,
             patterns,
             frame,
-            squares,
-            unevenness,
             small,
         })
     }
-
-    /// Returns the error of an angle over a second, and the amplitude of all angles.
-    fn estimate(&self, state: &[T]) -> [T; 2] {
-        let small = self.patterns.to_small(state);
-        let (Some(&slowest), false) = (
-            self.squares
-                .iter()
-                .min_by(|a, b| a.to_f64().total_cmp(&b.to_f64())),
-            small.is_empty(),
-        ) else {
-            return [T::NAN; 2];
-        };
-        let (angles, rates) = small.split_at(self.patterns.half());
-        let (theta, difference) = angles.split_at(self.patterns.links());
-        let (omega, difference_rate) = rates.split_at(self.patterns.links());
-        let square = |value: T| value * value;
-        let sum = |values: &[T]| {
-            values
-                .iter()
-                .fold(T::ZERO, |sum, &value| sum + value * value)
-        };
-        let differences = difference.iter().zip(difference_rate).zip(&self.squares);
-        let amplitudes =
-            differences.map(|((&angle, &rate), &of)| square(angle) + square(rate) / of);
-        let small_square = amplitudes.fold(T::ZERO, |sum, part| sum + part);
-        let swing_square = sum(theta) + sum(omega) / slowest;
-        let fastest = self
-            .squares
-            .iter()
-            .fold(slowest, |most, &of| Real::max(most, of));
-        let pace = omega
-            .iter()
-            .fold(T::ZERO, |most, &rate| Real::max(most, square(rate)));
-        let rate = Scalar::sqrt(fastest + pace);
-        let amplitude = Scalar::sqrt(small_square);
-        let even = T::from_f64(0.125) * rate * amplitude * small_square;
-        let swing = Real::min(Scalar::sqrt(swing_square), T::ONE);
-        let uneven = self.unevenness * small_square * swing;
-        let dropped = self.dropped(state, &small, slowest);
-        [
-            even + uneven + dropped,
-            Scalar::sqrt(small_square + swing_square),
-        ]
-    }
-
-    /// Amplitude of what the patterns leave out, the largest of an angle.
-    fn dropped(&self, state: &[T], small: &[T], slowest: T) -> T {
-        let (angles, rates) = small.split_at(self.patterns.half());
-        let (whole_angles, whole_rates) = state.split_at(state.len() / 2);
-        let links = whole_angles.iter().zip(whole_rates).enumerate();
-        let largest = links.fold(T::ZERO, |largest, (link, (&angle, &rate))| {
-            let angle = angle
-                - T::from_f64(self.patterns.angle(link))
-                - self.patterns.of_link(link, angles);
-            let rate = rate - self.patterns.of_link(link, rates);
-            Real::max(largest, angle * angle + rate * rate / slowest)
-        });
-        // Below the rounding of means there is nothing.
-        let left = Scalar::sqrt(largest);
-        let rounding = T::from_f64(8.0) * T::EPSILON;
-        if left <= rounding { T::ZERO } else { left }
-    }
-}
-
-/// Ω² of each difference where all hang, as energies have it.
-fn squares<T: Real, P: SmallDifferences<T>>(model: &P) -> Vec<T> {
-    let hanging = vec![T::ZERO; P::LINKS];
-    let sectors = P::SMALL.iter().flat_map(|&sector| {
-        let links = P::TRANSVERSE[sector].links;
-        let energy = move |angle: Option<usize>, rate: Option<usize>| -> (Vec<T>, Vec<T>) {
-            let unit = |place: Option<usize>| {
-                let at = |link| if Some(link) == place { T::ONE } else { T::ZERO };
-                (0..links).map(at).collect()
-            };
-            (unit(angle), unit(rate))
-        };
-        (0..links).map(move |link| (sector, energy(Some(link), None), energy(None, Some(link))))
-    });
-    let square = |(sector, held, moving): (usize, (Vec<T>, Vec<T>), (Vec<T>, Vec<T>))| {
-        let energy = |(difference, rate): &(Vec<T>, Vec<T>)| {
-            model.transverse_energy_of(sector, &hanging, difference, rate)
-        };
-        // Without stiffness, or with less than none, rates count as angles in a second.
-        Real::max(energy(&held) / energy(&moving), T::ONE)
-    };
-    sectors.map(square).collect()
 }
 
 impl<P: SmallDifferences<T>, T: Real> Approximation<T> for NearlyInPhase<P, T> {
@@ -228,7 +142,9 @@ impl<P: SmallDifferences<T>, T: Real> Approximation<T> for NearlyInPhase<P, T> {
     }
 
     fn validity(&self, state: &[T]) -> T {
-        let [error, amplitude] = self.estimate(state);
+        let [error, amplitude] = self
+            .error
+            .estimate(self.frames.ode(), &self.patterns, state);
         if error == T::ZERO {
             error
         } else {
@@ -237,7 +153,9 @@ impl<P: SmallDifferences<T>, T: Real> Approximation<T> for NearlyInPhase<P, T> {
     }
 
     fn error(&self, state: &[T]) -> T {
-        let [error, _] = self.estimate(state);
+        let [error, _] = self
+            .error
+            .estimate(self.frames.ode(), &self.patterns, state);
         error
     }
 }

@@ -9,7 +9,7 @@ use crate::system::Workspace;
 ///
 /// Scale 0 is the sector of the means, scale s ≥ 1 are all sectors that branch into
 /// links of generation s, the root being generation 0: as many scales as generations.
-/// Energies are those by Parseval, which sum to K + U (`docs/physics.md`, section 16).
+/// Energies are those by Parseval, which sum to K + U (`docs/physics.md`, section 18).
 ///
 /// Slices have one number for each link, in the order of the model's links; all results
 /// are NaN for slices of another length. On [`Lanes`](crate::scalar::Lanes) one call
@@ -53,8 +53,9 @@ pub trait Scales<T: Scalar> {
     /// Copies of each generation under each link of the one before, 1 for the root.
     const COPIES: &'static [usize];
 
-    /// Computes energies, transfers and powers by scale, with O(n log n) operations for
-    /// each of n links, and two more for each pair of scales. Allocates the first time.
+    /// Computes energies, transfers and powers by scale, with O(n) operations for each
+    /// scale of n links and two products a link for each pair of scales. Allocates the
+    /// first time.
     fn budget_by_scale(
         &self,
         workspace: &mut Workspace<T>,
@@ -275,8 +276,10 @@ impl<T: Scalar> ScaleBudget<T> {
         put(&mut self.transfers, from * self.scales + to, -value);
     }
 
-    pub(crate) fn set_power(&mut self, kind: PowerKind, scale: usize, value: T) {
-        put(&mut self.powers, kind as usize * self.scales + scale, value);
+    pub(crate) fn add_power(&mut self, kind: PowerKind, scale: usize, value: T) {
+        if let Some(power) = self.powers.get_mut(kind as usize * self.scales + scale) {
+            *power = *power + value;
+        }
     }
 }
 

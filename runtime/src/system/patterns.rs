@@ -291,11 +291,6 @@ impl DifferencePatterns {
         let count = squares.clone().count() as f64;
         Scalar::sqrt(squares.sum::<f64>() / count)
     }
-
-    /// Number of the model's links.
-    pub(crate) fn links(&self) -> usize {
-        self.links
-    }
 }
 
 /// Checks weights of a sector's copies, and makes their squares add up to the number of

@@ -1,7 +1,7 @@
 //! Small differences that act back on the motion that they are beside.
 
 use super::by_reference::by_reference;
-use super::{LaneOde, Ode, Transverse, TransverseSector};
+use super::{CastOde, LaneOde, Ode, Transverse, TransverseSector};
 use crate::scalar::Scalar;
 
 /// A model of copies in phase whose small differences act back on the motion: `in_phase(…)`
@@ -16,7 +16,9 @@ use crate::scalar::Scalar;
 /// Copies have the angles θ + e δ as in [`Transverse`]; δ belongs to the copies under one
 /// holder, or to those of all holders with squares of e that add up to the number of
 /// copies under one. For pairs the error of δ̈ is of third order in δ, and that of θ̈ of
-/// fourth; for more copies one order less.
+/// fourth; for more copies one order less. Differences of a radian and more are far beyond
+/// it: the kinetic energy through second order is not positive there, and the motion may
+/// end.
 ///
 /// Values are NaN for slices of other lengths.
 pub trait SmallDifferences<T: Scalar>: Transverse<T> {
@@ -143,6 +145,19 @@ impl<T: Scalar, P: SmallDifferences<T>> Ode<T> for SmallOde<P> {
                 model.small_accelerations_into(time, theta, omega, difference, rate, second);
             },
         );
+    }
+}
+
+impl<T: Scalar, S: Scalar, P> CastOde<T, S> for SmallOde<P>
+where
+    P: SmallDifferences<T>,
+    P::Of<S>: SmallDifferences<S>,
+{
+    type Of = SmallOde<P::Of<S>>;
+
+    fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
+        let Self(model) = self;
+        SmallOde(model.cast(convert))
     }
 }
 

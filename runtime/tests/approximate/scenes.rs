@@ -12,6 +12,17 @@ use branched_pendulum::prelude::*;
 )]
 pub struct Branched;
 
+/// Its children in phase, but for small differences.
+#[branched_pendulum(
+    gravity = 9.80665,
+    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27, friction = friction) [
+        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3, friction = friction) * 2
+    ],
+    in_phase(child),
+    emit(small),
+)]
+pub struct BranchedSmall;
+
 /// A binary tree of three generations.
 #[branched_pendulum(
     gravity = 9.80665,
@@ -20,6 +31,16 @@ pub struct Branched;
     emit(energies),
 )]
 pub struct Tree;
+
+/// Its copies in phase, but for small differences.
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7, friction = 2e-3, friction_ratio = 0.3),
+    in_phase(tree),
+    emit(small),
+)]
+pub struct TreeSmall;
 
 /// The same tree in loops.
 #[branched_pendulum(

@@ -1,17 +1,18 @@
 //! The forms of the equations: those of straight trees without torques in their joints
-//! are shorter.
+//! are shorter, those of rough ones, with friction that is not viscous, longer.
 
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::tree::{LinkEquations, LinkStates, RootDrive, SmallTree, Tree};
 
-use crate::equations::{GeneralEquations, StraightEquations};
+use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
 
 /// A tree in one of the forms.
 #[derive(Clone, Debug)]
 pub(crate) enum Equations<T> {
     Straight(Ways<StraightEquations, T>),
     General(Ways<GeneralEquations, T>),
+    Rough(Ways<RoughEquations, T>),
 }
 
 /// Ways through a tree: in strips, for many states and large trees, and link by link, for
@@ -60,14 +61,24 @@ impl<T: Scalar> Equations<T> {
         Self::General(Ways::new(parents, rows, gravity, SMALL_GENERAL))
     }
 
-    pub(crate) fn is_general(&self) -> bool {
-        matches!(self, Self::General(_))
+    pub(crate) fn rough(parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
+        Self::Rough(Ways::new(parents, rows, gravity, SMALL_GENERAL))
+    }
+
+    /// Returns a number by which the forms differ.
+    pub(crate) fn form(&self) -> usize {
+        match self {
+            Self::Straight(_) => 0,
+            Self::General(_) => 1,
+            Self::Rough(_) => 2,
+        }
     }
 
     pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Equations<S> {
         match self {
             Self::Straight(tree) => Equations::Straight(tree.cast(convert)),
             Self::General(tree) => Equations::General(tree.cast(convert)),
+            Self::Rough(tree) => Equations::Rough(tree.cast(convert)),
         }
     }
 
@@ -82,6 +93,7 @@ impl<T: Scalar> Equations<T> {
         match self {
             Self::Straight(tree) => accelerate(tree, workspace, acting, given, alpha),
             Self::General(tree) => accelerate(tree, workspace, acting, given, alpha),
+            Self::Rough(tree) => accelerate(tree, workspace, acting, given, alpha),
         }
     }
 
@@ -92,6 +104,7 @@ impl<T: Scalar> Equations<T> {
         match self {
             Self::Straight(ways) => evaluate(&ways.strips, acting, given, alpha),
             Self::General(ways) => evaluate(&ways.strips, acting, given, alpha),
+            Self::Rough(ways) => evaluate(&ways.strips, acting, given, alpha),
         }
     }
 }

@@ -3,7 +3,9 @@
 
 use branched_pendulum::emitted::{LinkBody, free_link};
 use branched_pendulum::scalar::{Double, Scalar};
-use branched_pendulum_codegen::scene::{Layout, Link, LinkId, Offset, Quantity, Scene, Sign};
+use branched_pendulum_codegen::scene::{
+    FrictionLaw, Layout, Link, LinkId, Offset, Quantity, Scene, Sign,
+};
 
 use crate::error::TreeError;
 
@@ -20,6 +22,9 @@ pub(crate) struct LinkNumbers {
     pub(crate) drag: Double,
     pub(crate) spring: Double,
     pub(crate) rest: Double,
+    /// C, q and ε in the pivot, q and ε against the ground; widths are one where there is no
+    /// law, since they divide.
+    pub(crate) laws: [Double; 5],
 }
 
 /// The value of a quantity.
@@ -188,10 +193,23 @@ fn numbers(link: &Link, parameters: &[Double]) -> LinkNumbers {
         drag: optional(&link.drag),
         spring: optional(&link.spring),
         rest: optional(&link.rest),
+        laws: laws(link, parameters),
     }
 }
 
-fn named(link: &LinkNumbers) -> [(&'static str, f64); 12] {
+fn laws(link: &Link, parameters: &[Double]) -> [Double; 5] {
+    let none = [0.0, 0.0, 1.0].map(Double::from_f64);
+    let law = |law: &Option<FrictionLaw>| match law {
+        Some(law) => [&law.coulomb, &law.quadratic, &law.width].map(|part| value(part, parameters)),
+        None => none,
+    };
+    let [coulomb, quadratic, width] = law(&link.nonlinear.joint);
+    // No Coulomb friction acts against the ground.
+    let [_, drag, drag_width] = law(&link.nonlinear.ground);
+    [coulomb, quadratic, width, drag, drag_width]
+}
+
+fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
     let LinkNumbers {
         parent: _,
         mass,
@@ -203,6 +221,7 @@ fn named(link: &LinkNumbers) -> [(&'static str, f64); 12] {
         drag,
         spring,
         rest,
+        laws,
     } = link;
     [
         ("mass", mass),
@@ -217,6 +236,11 @@ fn named(link: &LinkNumbers) -> [(&'static str, f64); 12] {
         ("drag", drag),
         ("spring", spring),
         ("rest", rest),
+        ("Coulomb friction", &laws[0]),
+        ("quadratic friction", &laws[1]),
+        ("width of friction", &laws[2]),
+        ("quadratic drag", &laws[3]),
+        ("width of drag", &laws[4]),
     ]
     .map(|(name, value)| (name, value.high()))
 }

@@ -90,9 +90,46 @@ pub(crate) fn general(links: &[LinkNumbers], carries: &[bool]) -> Vec<[Double; 1
     .collect()
 }
 
+/// Returns true if some friction is not viscous.
+pub(crate) fn are_rough(links: &[LinkNumbers]) -> bool {
+    let zero = Double::from_f64(0.0);
+    links.iter().any(|link| {
+        let [coulomb, quadratic, _, drag, _] = link.laws;
+        [coulomb, quadratic, drag].iter().any(|law| *law != zero)
+    })
+}
+
+/// Rows of the rough equations, if some friction is not viscous.
+pub(crate) fn rough(links: &[LinkNumbers], carries: &[bool]) -> Option<Vec<[Double; 19]>> {
+    let zero = Double::from_f64(0.0);
+    if !are_rough(links) {
+        return None;
+    }
+    let rows = general(links, carries).into_iter().zip(links);
+    let rows = rows.map(|(general, link)| {
+        let mut row = [zero; 19];
+        for (place, value) in row
+            .iter_mut()
+            .zip(general.iter().take(13).chain(&link.laws))
+        {
+            *place = *value;
+        }
+        row
+    });
+    Some(rows.collect())
+}
+
+/// Rows of laws of friction of [`Bodies`](branched_pendulum::tree::Bodies).
+pub(crate) fn laws(links: &[LinkNumbers]) -> Vec<[Double; 5]> {
+    links.iter().map(|link| link.laws).collect()
+}
+
 /// Rows of the straight equations, if all links have what these know.
 pub(crate) fn straight(links: &[LinkNumbers], carries: &[bool]) -> Option<Vec<[Double; 6]>> {
     let zero = Double::from_f64(0.0);
+    if are_rough(links) {
+        return None;
+    }
     let mut places: Vec<Option<Double>> = vec![None; links.len()];
     for link in links {
         let (com, pivot) = (link.com, link.pivot);

@@ -111,17 +111,18 @@ impl<T: Scalar> PendulumTree<T> {
         let gravity = numbers::value(&scene.gravity, &parameters);
         let (parents, carries) = rows::parents(&links);
         let drive = scene.drive.as_ref();
-        let equations = match rows::straight(&links, &carries) {
-            Some(rows) if drive.is_none() => {
-                Equations::straight(&parents, in_numbers(&rows), constant(-gravity))
-            }
+        let above = constant(-gravity);
+        let straight = rows::straight(&links, &carries).filter(|_| drive.is_none());
+        let equations = match (straight, rows::rough(&links, &carries)) {
+            (Some(rows), _) => Equations::straight(&parents, in_numbers(&rows), above),
+            (_, Some(rows)) => Equations::rough(&parents, in_numbers(&rows), above),
             _ => {
-                let rows = rows::general(&links, &carries);
-                Equations::general(&parents, in_numbers(&rows), constant(-gravity))
+                let rows = in_numbers(&rows::general(&links, &carries));
+                Equations::general(&parents, rows, above)
             }
         };
         let mut hasher = DefaultHasher::new();
-        (&parents, equations.is_general()).hash(&mut hasher);
+        (&parents, equations.form()).hash(&mut hasher);
         let shape = Shape::Shared(parents.into());
         let described = Described {
             names: numbers::names(scene),
@@ -235,9 +236,13 @@ impl<T: Scalar> PendulumTree<T> {
 fn bodies<T: Scalar>(links: &[LinkNumbers], gravity: Double, shape: &Shape) -> Bodies<T> {
     let bodies = Bodies::new(shape.clone(), in_numbers(&rows::bodies(links, gravity)));
     let rests: Vec<Double> = links.iter().map(|link| link.rest).collect();
-    match rests.iter().all(|rest| rest.high() == 0.0) {
+    let bodies = match rests.iter().all(|rest| rest.high() == 0.0) {
         true => bodies,
         false => bodies.with_rests(rests.into_iter().map(constant).collect()),
+    };
+    match rows::are_rough(links) {
+        true => bodies.with_laws(in_numbers(&rows::laws(links))),
+        false => bodies,
     }
 }
 

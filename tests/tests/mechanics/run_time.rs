@@ -90,3 +90,33 @@ fn linear_modes_agree_with_the_derived_matrices() {
         }
     }
 }
+
+/// All laws of friction, in pivots at several places and against the ground.
+#[test]
+fn rough_trees_agree_with_their_programs() {
+    let text = "gravity = 9.80665,
+        limb(mass = 0.4, com = (0.2, 0.03), inertia = 2e-3, joint = 0.5,
+            friction(viscous = 1e-3, coulomb = 0.05, quadratic = 2e-3, width = 0.3)) [
+            twig: rod(mass = 0.1, length = 0.3, at = (0.4, 0.05), drag(quadratic = 1e-3)) * 2,
+            leaf: rod(mass = 0.05, length = 0.2, spring = 0.02, friction(coulomb = 0.01)),
+        ]";
+    let compiled = compile(&format!("{text}, emit(forces, energies)"));
+    let tree = PendulumTree::parse(text).expect("it is right");
+    let mut random = Random::new(3);
+    for _ in 0..50 {
+        let (theta, omega) = (random.around_zero(4, PI), random.around_zero(4, 10.0));
+        let torques = random.around_zero(4, 0.1);
+        let own = tree.accelerations(0.0, &theta, &omega);
+        let derived = compiled.evaluate("accelerations", &[&theta, &omega]);
+        let size = derived.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+        for (own, derived) in own.iter().zip(derived) {
+            assert!((own - derived).abs() < 1e-12 * size, "{own} {derived}");
+        }
+        let power = compiled.evaluate("friction_power", &[&omega])[0];
+        let own = tree.friction_power(&omega);
+        assert!((own - power).abs() < 1e-14 * power.abs(), "{own} {power}");
+        let power = compiled.evaluate("outside_power", &[&omega, &torques])[0];
+        let own = tree.outside_power(&omega, &torques);
+        assert!((own - power).abs() < 1e-14, "{own} {power}");
+    }
+}

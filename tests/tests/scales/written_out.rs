@@ -172,3 +172,8 @@ fn thirty_one_links() {
 fn thirteen_links_in_threes() {
     agree(&Thirteen::new(), THIRTEEN, 50);
 }
+
+#[test]
+fn thirteen_links_with_friction_of_all_kinds() {
+    agree(&Braked::new(), BRAKED, 50);
+}

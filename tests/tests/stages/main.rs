@@ -5,6 +5,7 @@ mod architecture;
 mod book;
 mod determinism;
 mod ladder;
+mod languages;
 mod lengths;
 mod loops;
 mod pages;

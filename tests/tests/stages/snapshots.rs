@@ -159,6 +159,27 @@ fn paper() {
     );
 }
 
+/// Two copies with every law of friction.
+#[test]
+fn braked() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(gravity = 9.80665, \
+         trunk: rod(mass = 1, length = 1, friction(viscous = c, coulomb = dry, width = 0.1)) [ \
+             twig: rod(mass = 0.5, length = 0.5, friction(coulomb = dry, quadratic = 1e-3), \
+                 drag(quadratic = 2e-3)) * 2 ], \
+         emit(energies, symmetric, forces))] struct Braked;",
+    );
+    insta::assert_snapshot!("braked_description", stages.description.to_string());
+    insta::assert_snapshot!("braked_scene", stages.scene.to_string());
+    insta::assert_snapshot!("braked_mechanics", stages.mechanics.to_string());
+    for name in ["accelerations", "symmetric_accelerations", "friction_power"] {
+        insta::assert_snapshot!(
+            format!("braked_code_{name}"),
+            function(&stages.tokens, name)
+        );
+    }
+}
+
 /// The pendulum of one rod: one order of its Taylor coefficients.
 #[test]
 fn taylor() {
@@ -255,4 +276,24 @@ fn transverse() {
     insta::assert_snapshot!("transverse_mechanics", stages.mechanics.to_string());
     insta::assert_snapshot!("transverse_program", stages.program.to_string());
     insta::assert_snapshot!("transverse_code", pretty(stages.tokens));
+}
+
+/// Small differences that act back: what they add to the in-phase motion, and its energy.
+#[test]
+fn small() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(
+            gravity = 9.80665,
+            parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+                child(mass = 0.10531, com = 0.043, inertia = 0.516e-3, friction = 1e-5) * 2
+            ],
+            in_phase(child),
+            emit(small)
+        )] pub struct Sample;",
+    );
+    insta::assert_snapshot!("small_mechanics", stages.mechanics.to_string());
+    for wanted in ["small_accelerations", "small_energy"] {
+        let text = function(&stages.tokens, wanted);
+        insta::assert_snapshot!(format!("{wanted}_code"), text);
+    }
 }

@@ -69,18 +69,13 @@ impl Functions<'_> {
             Kind::Child => Kind::Inner,
             kind => kind,
         };
-        let zero = list.lowering.builder.integer(0);
         let mut at = |column| self.column(list, own, column);
         let moment = [at(Column::Moment), at(Column::LateralMoment)];
         let (inertia, mass) = (at(Column::Inertia), at(Column::Mass));
         let (length, inverse_length) = (at(Column::Length), at(Column::InverseLength));
         let drag = at(Column::Drag);
-        let air = Law {
-            coulomb: zero,
-            quadratic: at(Column::QuadraticDrag),
-            width: at(Column::DragWidth),
-        };
         let driven = at(Column::DriveTorque);
+        let air = self.ground_law(list, own);
         let joint = self.joint_torque(list, own);
         let outside = self.outside_torque(list, own);
         let builder = &mut list.lowering.builder;
@@ -108,14 +103,28 @@ impl Functions<'_> {
         (link, joint)
     }
 
-    /// The torque of the joint on the parent, c (ω − ω_π) + D + κ (θ − θ_π − ρ).
-    fn joint_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
-        let friction = self.column(list, kind, Column::Friction);
-        let law = Law {
+    /// The law of friction in the joint over m l².
+    pub(super) fn joint_law(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> Law {
+        Law {
             coulomb: self.column(list, kind, Column::Coulomb),
             quadratic: self.column(list, kind, Column::QuadraticFriction),
             width: self.column(list, kind, Column::FrictionWidth),
-        };
+        }
+    }
+
+    /// The law of drag against the ground over m l².
+    pub(super) fn ground_law(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> Law {
+        Law {
+            coulomb: list.lowering.builder.integer(0),
+            quadratic: self.column(list, kind, Column::QuadraticDrag),
+            width: self.column(list, kind, Column::DragWidth),
+        }
+    }
+
+    /// The torque of the joint on the parent, c (ω − ω_π) + D + κ (θ − θ_π − ρ).
+    fn joint_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
+        let friction = self.column(list, kind, Column::Friction);
+        let law = self.joint_law(list, kind);
         let spring = self.column(list, kind, Column::Spring);
         let rate = self.motion(list, Motion::JointRate);
         let mut angle = self.motion(list, Motion::JointAngle);

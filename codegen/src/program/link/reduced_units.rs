@@ -2,6 +2,7 @@
 //! link measures its turning by the acceleration of the pivot that it carries,
 //! and mass and length are those of the commonest leaf.
 
+use crate::mechanics::expression::Expr;
 use crate::program::ValueId;
 use crate::program::builder::Builder;
 use crate::program::lower::{Environment, Lowering};
@@ -62,7 +63,6 @@ impl Lowering<'_> {
     pub(super) fn units(&mut self, scene: &Scene, environment: &mut Environment<'_>) -> Units {
         let mechanics = self.mechanics;
         let mut given = Vec::new();
-        let zero = self.builder.integer(0);
         for joint in &mechanics.articulation.joints {
             let mut at = |expr| self.expr(environment, expr);
             given.push(Given {
@@ -72,7 +72,7 @@ impl Lowering<'_> {
                 forces: [at(&joint.friction), at(&joint.drag), at(&joint.spring)],
                 rest: at(&joint.rest),
                 // Their torques are symbols.
-                laws: [zero; 5],
+                laws: [at(&Expr::zero()); 5],
             });
         }
         let gravity = self.expr(environment, &mechanics.articulation.gravity);

@@ -117,7 +117,7 @@ impl ScaleFunction {
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Torques => {
-                "Strain ε of the spring in the link's pivot, and the torques κ ε, c (ω − ω_parent) on the parent and k ω on the ground."
+                "Strain ε of the spring in the link's pivot, the torques κ ε and c (ω − ω_parent) of the joint on the parent, and k ω on the ground; with friction that is not viscous where there is any."
             }
             Self::Velocity => {
                 "Velocity **V** of the centre of mass and **P**' of the children's pivot, given that of the link's own."

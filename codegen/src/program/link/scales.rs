@@ -27,7 +27,8 @@ impl EntryList<'_, '_> {
                 ScaleFunction::Eliminate => functions.eliminate(self, link, scales),
                 ScaleFunction::Flow => functions.flow(self, link, scales),
                 ScaleFunction::Torques => {
-                    functions.derived(self, link, scales, function, &scales.torques)
+                    let torques = functions.derived(self, link, scales, function, &scales.torques);
+                    functions.with_braking(self, torques)
                 }
                 ScaleFunction::Velocity => {
                     functions.derived(self, link, scales, function, &scales.velocity)
@@ -80,6 +81,27 @@ impl Functions<'_> {
         exprs
             .map(|expr| list.lowering.at_values(expr, &known))
             .collect()
+    }
+
+    /// Torques of friction and drag with those that are not viscous, in N m.
+    fn with_braking(&self, list: &mut EntryList<'_, '_>, torques: Vec<ValueId>) -> Vec<ValueId> {
+        let per_torque = self.column(list, Kind::Any, Column::PerTorque);
+        let laws = [
+            self.joint_law(list, Kind::Any),
+            self.ground_law(list, Kind::Any),
+        ];
+        let rates = [Motion::JointRate, Motion::Omega].map(|rate| self.motion(list, rate));
+        let builder = &mut list.lowering.builder;
+        let mut torques = torques;
+        // Behind the strain and the torque of the spring.
+        for ((torque, law), rate) in torques.iter_mut().skip(2).zip(laws).zip(rates) {
+            let braking = builder.braking_torque(&law, rate, "");
+            if !builder.is(braking, 0) {
+                let braking = builder.div(braking, per_torque);
+                *torque = builder.add(*torque, braking);
+            }
+        }
+        torques
     }
 
     fn known(

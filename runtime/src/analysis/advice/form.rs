@@ -5,7 +5,7 @@ use std::fmt;
 use std::rc::Rc;
 
 use crate::integrate::{GaussOrder, Method};
-use crate::system::WholeTree;
+use crate::system::{DifferencePatterns, WholeTree};
 
 /// Takes a state of the scene to one of the model, or back.
 pub(super) type Passage<'a> = Rc<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
@@ -109,6 +109,18 @@ impl<'a> ModelForm<'a> {
                 let rates = back.iter().map(|&(link, _)| at(count + link));
                 angles.chain(rates).collect()
             },
+        )
+    }
+
+    /// The model has small differences that act back, [`SmallOde`](crate::system::SmallOde):
+    /// a start enters as means and differences of these patterns; what else it has of
+    /// differences shows as an error.
+    #[must_use]
+    pub fn nearly_in_phase(self, patterns: DifferencePatterns) -> Self {
+        let back = patterns.clone();
+        self.system("SmallOde(&model)").through(
+            move |state| patterns.to_small(state),
+            move |own| back.to_whole(own),
         )
     }
 

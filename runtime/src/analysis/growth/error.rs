@@ -21,7 +21,7 @@ pub enum GrowthError {
     /// No periodic motion was found beside the mode.
     NoOrbit,
     /// The integration failed.
-    Integration(IntegrationError<f64>),
+    Integration(Box<IntegrationError<f64>>),
 }
 
 impl fmt::Display for GrowthError {
@@ -60,6 +60,6 @@ impl std::error::Error for GrowthError {
 
 impl From<IntegrationError<f64>> for GrowthError {
     fn from(error: IntegrationError<f64>) -> Self {
-        Self::Integration(error)
+        Self::Integration(Box::new(error))
     }
 }

@@ -1,4 +1,4 @@
-//! What is seen of differences along one motion.
+//! Sizes of differences along one motion, as they are looked at.
 
 use std::f64::consts::TAU;
 

@@ -56,11 +56,12 @@ pub(super) fn climb(
                     at[index] = (before + side).max(low);
                     let value = function(&at);
                     // NaN is no gain.
-                    if at[index] == before || !(value > best) {
+                    if value > best && at[index] != before {
+                        (best, gains) = (value, true);
+                    } else {
                         at[index] = before;
                         break;
                     }
-                    (best, gains) = (value, true);
                 }
             }
         }

@@ -60,17 +60,22 @@ impl Average {
     pub fn of<S: AsRef<[f64]>>(series: &[S]) -> Result<Self, StatisticsError> {
         let samples = check(series, 2)?;
         let mean = mean(series, samples);
-        // The variance of equal samples would be that of the mean's rounding.
-        let variance = if fluctuates(series) {
-            covariance(series, mean, 0)
-        } else {
-            0.0
-        };
+        if !fluctuates(series) {
+            // Their variance would be that of the mean's rounding.
+            return Ok(Self {
+                mean,
+                error: 0.0,
+                deviation: 0.0,
+                correlation_time: 1.0,
+                samples,
+            });
+        }
+        let variance = covariance(series, mean, 0);
         let longest = series.iter().map(|values| values.as_ref().len()).max();
         let farthest = longest.unwrap_or(0) / 2;
         let mut time = 1.0;
         let mut lag = 1;
-        while variance > 0.0 {
+        loop {
             if lag > farthest {
                 return Err(StatisticsError::Correlated { samples, lag });
             }

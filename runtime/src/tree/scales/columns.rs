@@ -1,6 +1,6 @@
 //! Columns of numbers of all links, one behind the other.
 
-use super::parts::at;
+use super::parts::load;
 use super::shape::ScaleGeneration;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
@@ -50,7 +50,7 @@ impl<T: Scalar> ScaleColumns<'_, T> {
     pub(super) fn read<V: Simd<T>, const N: usize>(&self, first: usize, place: usize) -> [V; N] {
         let mut row = [V::from_f64(0.0); N];
         for (index, number) in row.iter_mut().enumerate() {
-            *number = at(self.numbers, (first + index) * self.length + place);
+            *number = load(self.numbers, (first + index) * self.length + place);
         }
         row
     }
@@ -101,34 +101,11 @@ impl<T: Scalar> ScaleColumns<'_, T> {
         }
     }
 
-    /// A column.
-    #[inline(always)]
-    pub(super) fn column(&self, number: usize) -> &[T] {
-        let start = number * self.length;
-        self.numbers
-            .get(start..start + self.length)
-            .unwrap_or_default()
-    }
-
     /// Part of a column.
     pub(super) fn part_mut(&mut self, number: usize, place: usize, length: usize) -> &mut [T] {
         let start = number * self.length + place;
         self.numbers
             .get_mut(start..start + length)
             .unwrap_or_default()
-    }
-
-    /// Writes zeros behind the last links of all generations.
-    pub(super) fn clear_beyond(&mut self, number: usize, shape: &super::shape::ScaleShape) {
-        for generation in 0..shape.count() {
-            let own = shape.at(generation);
-            let end = own.slot + own.count;
-            let next = match generation + 1 < shape.count() {
-                true => shape.at(generation + 1).slot,
-                false => self.length,
-            };
-            let beyond = self.part_mut(number, end, next.saturating_sub(end));
-            beyond.fill(T::from_f64(0.0));
-        }
     }
 }

@@ -7,7 +7,7 @@ use crate::tree::{LinkEquations, LinkMotion};
 /// many links (or states) side by side as a value has lanes. Every function is
 /// `#[inline(always)]`; what `given` holds stands in the docs of emitted code.
 ///
-/// `docs/physics.md`, section 16.
+/// `docs/physics.md`, section 18.
 pub trait ScaleEquations: LinkEquations {
     /// A joint has a spring.
     const SPRINGS: bool;

@@ -8,51 +8,42 @@ use crate::simd::Simd;
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     /// From the leaves to the root: bias forces and offsets.
     #[inline(always)]
-    pub(super) fn eliminate<V: Simd<T>>(&mut self, scale: usize) {
-        for generation in (0..self.shape.count()).rev() {
+    pub(super) fn eliminate<V: Simd<T>>(&mut self, part: usize) {
+        for generation in (0..self.end).rev() {
             let constants = self.constants::<V>(generation);
             let (own, below) = (self.shape.at(generation), self.shape.at(generation + 1));
-            let (start, period) = self.part_start(scale, generation);
-            let mut first = 0;
-            while first < own.count {
-                let mut place = 0;
-                while place < period {
-                    let slot = own.slot + first + place;
-                    let [x, y]: [V; 2] =
-                        self.columns
-                            .of_children(CARRIED, first + place, own.count, below);
-                    let [gain_x, gain_y, inverse]: [V; 3] = self.columns.read(GAIN, slot);
-                    let [moment_x, moment_y]: [V; 2] = self.part(field::MOMENT, start, place);
-                    let [omega]: [V; 1] = self.part(field::OMEGA, start, place);
-                    let link = self.columns.motion(slot);
-                    let given = [gain_x, gain_y, inverse, moment_x, moment_y, omega, x, y];
-                    let [x, y, offset] = E::scale_eliminate(&constants, link, given);
-                    self.columns.write(CARRIED, slot, [x, y]);
-                    self.columns.write(OFFSET, slot, [offset]);
-                    place += V::LANES;
-                }
-                first += period;
+            let (start, period) = self.part_start(part, generation);
+            let (mut place, mut at) = (0, 0);
+            while place < own.count {
+                let slot = own.slot + place;
+                let [x, y]: [V; 2] = self.columns.of_children(CARRIED, place, own.count, below);
+                let [gain_x, gain_y, inverse]: [V; 3] = self.columns.read(GAIN, slot);
+                let [moment_x, moment_y]: [V; 2] = self.part(field::MOMENT, start, at);
+                let [omega]: [V; 1] = self.part(field::OMEGA, start, at);
+                let link = self.columns.motion(slot);
+                let given = [gain_x, gain_y, inverse, moment_x, moment_y, omega, x, y];
+                let [x, y, offset] = E::scale_eliminate(&constants, link, given);
+                self.columns.write(CARRIED, slot, [x, y]);
+                self.columns.write(OFFSET, slot, [offset]);
+                (place, at) = next::<T, V>(place, at, period);
             }
         }
     }
 
-    /// From the root to the leaves: u, and what it changes in velocities.
+    /// From the root to the leaves: u, and what it changes in velocities. In the places
+    /// of the first generation stands what is handed down from above.
     #[inline(always)]
     pub(super) fn flow<V: Simd<T>>(&mut self, scale: usize) {
-        for generation in 0..self.shape.count() {
+        for generation in 0..self.end {
             let constants = self.constants::<V>(generation);
             let (own, above) = self.pair(generation);
             for copy in 0..own.count / above.count {
                 let mut place = 0;
                 while place < above.count {
                     let slot = own.slot + copy * above.count + place;
-                    let ([x, y], [shift_x, shift_y]) = match generation {
-                        0 => ([V::from_f64(0.0); 2], [V::from_f64(0.0); 2]),
-                        _ => (
-                            self.columns.read(PIVOT, above.slot + place),
-                            self.columns.read(SHIFT + 2, above.slot + place),
-                        ),
-                    };
+                    let above = above.slot + place;
+                    let [x, y]: [V; 2] = self.columns.read(PIVOT, above);
+                    let [shift_x, shift_y]: [V; 2] = self.columns.read(SHIFT + 2, above);
                     let [gain_x, gain_y]: [V; 2] = self.columns.read(GAIN, slot);
                     let [offset]: [V; 1] = self.columns.read(OFFSET, slot);
                     let link = self.columns.motion(slot);
@@ -67,47 +58,49 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
                 }
             }
         }
-        self.columns.clear_beyond(FLOW + 2 * scale, &self.shape);
     }
 
     /// From the leaves to the root: slopes, with the momenta that the flow changes.
     #[inline(always)]
-    pub(super) fn slopes<V: Simd<T>>(&mut self, scale: usize) {
+    pub(super) fn slopes<V: Simd<T>>(&mut self, part: usize, scale: usize) {
         let means = V::from_f64(if scale == 0 { 1.0 } else { 0.0 });
-        for generation in (0..self.shape.count()).rev() {
+        for generation in (0..self.end).rev() {
             let constants = self.constants::<V>(generation);
             let (own, below) = (self.shape.at(generation), self.shape.at(generation + 1));
-            let (start, period) = self.part_start(scale, generation);
-            let mut first = 0;
-            while first < own.count {
-                let mut place = 0;
-                while place < period {
-                    let slot = own.slot + first + place;
-                    let [x, y]: [V; 2] = self.columns.read(SHIFT, slot);
-                    let [below_x, below_y]: [V; 2] =
-                        self.columns
-                            .of_children(CARRIED, first + place, own.count, below);
-                    let link = self.columns.motion(slot);
-                    let given = [x, y, below_x, below_y];
-                    let [shift_x, shift_y, x, y] = E::scale_moment(&constants, link, given);
-                    self.columns.write(CARRIED, slot, [x, y]);
-                    let [moment_x, moment_y]: [V; 2] = self.part(field::MOMENT, start, place);
-                    let [rise, side]: [V; 2] = self.part(field::RISE, start, place);
-                    let spring = match E::SPRINGS {
-                        true => self.part(field::SPRING, start, place),
-                        false => [V::from_f64(0.0)],
-                    };
-                    let [spring] = spring;
-                    let given = [
-                        moment_x, moment_y, rise, side, spring, means, shift_x, shift_y,
-                    ];
-                    let slope = E::scale_slope(&constants, link, given);
-                    self.columns.write(FLOW + 2 * scale + 1, slot, slope);
-                    place += V::LANES;
-                }
-                first += period;
+            let (start, period) = self.part_start(part, generation);
+            let (mut place, mut at) = (0, 0);
+            while place < own.count {
+                let slot = own.slot + place;
+                let [x, y]: [V; 2] = self.columns.read(SHIFT, slot);
+                let [below_x, below_y]: [V; 2] =
+                    self.columns.of_children(CARRIED, place, own.count, below);
+                let link = self.columns.motion(slot);
+                let given = [x, y, below_x, below_y];
+                let [shift_x, shift_y, x, y] = E::scale_moment(&constants, link, given);
+                self.columns.write(CARRIED, slot, [x, y]);
+                let [moment_x, moment_y]: [V; 2] = self.part(field::MOMENT, start, at);
+                let [rise, side]: [V; 2] = self.part(field::RISE, start, at);
+                let [spring] = match E::SPRINGS {
+                    true => self.part(field::SPRING, start, at),
+                    false => [V::from_f64(0.0)],
+                };
+                let given = [
+                    moment_x, moment_y, rise, side, spring, means, shift_x, shift_y,
+                ];
+                let slope = E::scale_slope(&constants, link, given);
+                self.columns.write(FLOW + 2 * scale + 1, slot, slope);
+                (place, at) = next::<T, V>(place, at, period);
             }
         }
-        self.columns.clear_beyond(FLOW + 2 * scale + 1, &self.shape);
     }
+}
+
+/// The next place, and the place of its part.
+#[inline(always)]
+fn next<T: Scalar, V: Simd<T>>(place: usize, part: usize, period: usize) -> (usize, usize) {
+    let part = part + V::LANES;
+    (
+        place + V::LANES,
+        if part >= period { part - period } else { part },
+    )
 }

@@ -1,9 +1,10 @@
-//! Energies by scale and the transfers between scales (`docs/physics.md`, section 16).
+//! Energies by scale and the transfers between scales (`docs/physics.md`, section 18).
 //!
 //! Parts of all quantities in all scales come from fast means; the flow of a scale's
 //! energy is one solve with the mass matrix, whose factors all scales share. All of it
 //! is sums along the tree, for registers of neighbours: O(n) for each scale.
 
+mod blocks;
 mod columns;
 mod energies;
 mod equations;
@@ -105,7 +106,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         [theta, omega, torques]: [&[T]; 3],
         mut wanted: Wanted<'_, T>,
     ) {
-        let shape = ScaleShape::new(E::COPIES);
+        let shape = ScaleShape::new(E::COPIES.iter().copied());
         let shape = shape.filter(|shape| [theta.len(), omega.len()] == [shape.links; 2]);
         wanted.start(
             E::COPIES.len(),
@@ -120,16 +121,30 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
             _ => FLOW,
         };
         let columns = columns * shape.column;
-        let mut numbers = workspace.numbers(columns + field::ALL * shape.parts);
+        let cut = match wanted {
+            Wanted::Budget(_) => shape.cut(),
+            _ => (0, 1),
+        };
+        let parts = field::ALL * shape.parts;
+        let kept = blocks::room(E::COPIES, &shape, cut);
+        let mut numbers = workspace.numbers(columns + parts + kept);
         let own = take(&mut numbers, columns);
+        let parts = take(&mut numbers, parts);
+        let end = match cut.0 {
+            0 => shape.count(),
+            cut => cut,
+        };
         in_widest::<T, _>(ByScale::<E, T> {
             skeleton: &self.skeleton,
             columns: ScaleColumns {
                 numbers: own,
                 length: shape.column,
             },
-            parts: numbers,
+            parts,
+            kept: numbers,
             shape,
+            first: 0,
+            end,
             drive,
             theta,
             omega,
@@ -164,6 +179,12 @@ struct ByScale<'a, E, T: 'static> {
     columns: ScaleColumns<'a, T>,
     /// Columns of parts.
     parts: &'a mut [T],
+    /// Room for blocks of a large tree, and for what they hand each other.
+    kept: &'a mut [T],
+    /// Generation of the tree that is the first one here, and how many are computed:
+    /// behind them comes what blocks hand up.
+    first: usize,
+    end: usize,
     drive: Option<[T; 3]>,
     theta: &'a [T],
     omega: &'a [T],
@@ -177,31 +198,21 @@ impl<E: ScaleEquations, T: Scalar> Kernel<T> for ByScale<'_, E, T> {
 
     #[inline(always)]
     fn run<V: Simd<T>>(mut self) {
+        let all = matches!(self.wanted, Wanted::Budget(_));
         self.motions::<V>();
         self.velocities::<V>();
+        if all {
+            self.torques_of_drive::<V>();
+            self.moments::<V>();
+        }
+        self.split_all::<V>(all);
         match self.wanted {
-            Wanted::Energies(_) => {
-                self.split_all::<V>(false);
-                self.energies::<V>();
-            }
-            Wanted::Sectors(_) => {
-                self.split_all::<V>(false);
-                self.sectors();
-            }
-            Wanted::Budget(_) => {
-                self.torques_of_drive::<V>();
-                self.moments::<V>();
-                self.split_all::<V>(true);
-                self.energies::<V>();
-                self.factors::<V>();
-                for scale in 0..self.shape.count() {
-                    self.eliminate::<V>(scale);
-                    self.flow::<V>(scale);
-                    self.slopes::<V>(scale);
-                }
-                self.transfers::<V>();
-                self.powers::<V>();
-            }
+            Wanted::Sectors(_) => self.sectors(),
+            _ => self.energies::<V>(),
+        }
+        if all {
+            self.factors::<V>();
+            self.all_scales::<V>();
         }
     }
 }
@@ -212,7 +223,10 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     fn constants<V: Simd<T>>(&self, generation: usize) -> E::Constants<V> {
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
         let length = <E::Constants<V> as Row<V>>::LENGTH;
-        let numbers = self.skeleton.constants.get(generation * length..);
+        let numbers = self
+            .skeleton
+            .constants
+            .get((self.first + generation) * length..);
         for (place, &number) in row.as_mut().iter_mut().zip(numbers.unwrap_or_default()) {
             *place = V::splat(number);
         }
@@ -232,7 +246,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         let Some(start) = start else { return row };
         for (index, number) in row.iter_mut().enumerate() {
             let column = (first + index) * self.shape.parts;
-            *number = parts::at(self.parts, column + start + place);
+            *number = parts::load(self.parts, column + start + place);
         }
         row
     }

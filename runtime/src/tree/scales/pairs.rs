@@ -1,43 +1,66 @@
 //! Transfers between scales and powers on them: sums of products over all links.
 
-use super::columns::{DRAG, DRIVE, FLOW, FRICTION, OUTSIDE};
+use super::columns::{DRAG, DRIVE, FLOW, FRICTION, OUTSIDE, ScaleColumns};
 use super::energies::in_all_lanes;
-use super::parts::at;
+use super::parts::load;
 use super::{ByScale, ScaleEquations, Wanted};
 use crate::scalar::Scalar;
 use crate::sectors::PowerKind;
 use crate::simd::Simd;
 
-/// Links whose flows and slopes stay in the first cache while all pairs are taken.
-const TOGETHER: usize = 128;
+/// Scales that are paired with one at a time: their sums stay in registers.
+const TOGETHER: usize = 4;
 
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
-    /// {E_s, E_r} = Σ z_s u_r − u_s z_r of all pairs.
+    /// Adds what links of a block have in {E_s, E_r} = Σ z_s u_r − u_s z_r of all pairs,
+    /// and in the powers Σ u_s Q.
     #[inline(always)]
-    pub(super) fn transfers<V: Simd<T>>(&mut self) {
-        let length = self.columns.length;
-        let Wanted::Budget(budget) = &mut self.wanted else {
-            return;
-        };
-        let mut start = 0;
-        while start < length {
-            let end = (start + TOGETHER).min(length);
-            for to in 1..self.shape.count() {
-                for from in 0..to {
-                    let [u_s, z_s] = [0, 1].map(|part| FLOW + 2 * to + part);
-                    let [u_r, z_r] = [0, 1].map(|part| FLOW + 2 * from + part);
-                    let columns = [u_s, z_s, u_r, z_r].map(|number| self.columns.column(number));
-                    let part = bracket::<T, V>(columns, start, end);
-                    budget.set_transfer(from, to, budget.transfer(from, to) + part);
-                }
+    pub(super) fn products<V: Simd<T>>(&mut self) {
+        for to in 0..E::COPIES.len() {
+            let mut from = 0;
+            while from + TOGETHER <= to {
+                self.transfers::<V, TOGETHER>(from, to);
+                from += TOGETHER;
             }
-            start = end;
+            while from < to {
+                self.transfers::<V, 1>(from, to);
+                from += 1;
+            }
+            self.powers::<V>(to);
         }
     }
 
-    /// Σ u_s Q of all torques Q.
+    /// Transfers from `N` scales to one.
     #[inline(always)]
-    pub(super) fn powers<V: Simd<T>>(&mut self) {
+    fn transfers<V: Simd<T>, const N: usize>(&mut self, from: usize, to: usize) {
+        let mut sums = [V::from_f64(0.0); N];
+        for generation in 0..self.end {
+            let own = self.shape.at(generation);
+            let mut place = 0;
+            while place < own.count {
+                let (slot, left) = (own.slot + place, own.count - place);
+                let [u_s, z_s]: [V; 2] = meant(&self.columns, FLOW + 2 * to, slot, left);
+                for (index, sum) in sums.iter_mut().enumerate() {
+                    let column = FLOW + 2 * (from + index);
+                    let [u_r, z_r]: [V; 2] = meant(&self.columns, column, slot, left);
+                    *sum = sum.plus_product(z_s, u_r).minus_product(u_s, z_r);
+                }
+                place += V::LANES;
+            }
+        }
+        let Wanted::Budget(budget) = &mut self.wanted else {
+            return;
+        };
+        for (index, sum) in sums.into_iter().enumerate() {
+            let from = from + index;
+            let transfer = budget.transfer(from, to) + in_all_lanes::<T, V>(sum);
+            budget.set_transfer(from, to, transfer);
+        }
+    }
+
+    /// Powers of all that acts on a scale.
+    #[inline(always)]
+    fn powers<V: Simd<T>>(&mut self, scale: usize) {
         let columns = [
             (PowerKind::Friction, FRICTION, E::FRICTION),
             (PowerKind::Drag, DRAG, E::DRAG),
@@ -48,53 +71,47 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
             if !acts {
                 continue;
             }
-            self.columns.clear_beyond(column, &self.shape);
-            for scale in 0..self.shape.count() {
-                let flow = self.columns.column(FLOW + 2 * scale);
-                let power = product::<T, V>(flow, self.columns.column(column));
-                if let Wanted::Budget(budget) = &mut self.wanted {
-                    budget.set_power(kind, scale, power);
+            let mut sum = V::from_f64(0.0);
+            for generation in 0..self.end {
+                let own = self.shape.at(generation);
+                let mut place = 0;
+                while place < own.count {
+                    let (slot, left) = (own.slot + place, own.count - place);
+                    let [flow]: [V; 1] = meant(&self.columns, FLOW + 2 * scale, slot, left);
+                    let [torque]: [V; 1] = meant(&self.columns, column, slot, left);
+                    sum = sum.plus_product(flow, torque);
+                    place += V::LANES;
                 }
             }
+            self.add_power(kind, scale, in_all_lanes::<T, V>(sum));
         }
         // A torque on the root alone.
-        let (Some([.., torque]), false) = (self.drive, E::MOVED) else {
-            return;
-        };
-        for scale in 0..self.shape.count() {
+        if let (Some([.., torque]), false, 0) = (self.drive, E::MOVED, self.first) {
             let [flow]: [T; 1] = self.columns.read(FLOW + 2 * scale, 0);
-            if let Wanted::Budget(budget) = &mut self.wanted {
-                budget.set_power(PowerKind::Drive, scale, flow * torque);
-            }
+            self.add_power(PowerKind::Drive, scale, flow * torque);
+        }
+    }
+
+    #[inline(always)]
+    fn add_power(&mut self, kind: PowerKind, scale: usize, power: T) {
+        if let Wanted::Budget(budget) = &mut self.wanted {
+            budget.add_power(kind, scale, power);
         }
     }
 }
 
+/// The numbers of consecutive columns from a place on, and zero where none is left.
 #[inline(always)]
-fn bracket<T: Scalar, V: Simd<T>>([u_s, z_s, u_r, z_r]: [&[T]; 4], start: usize, end: usize) -> T {
-    let mut sum = V::from_f64(0.0);
-    let mut place = start;
-    while place < end {
-        let (u_s, z_s): (V, V) = (at(u_s, place), at(z_s, place));
-        let (u_r, z_r): (V, V) = (at(u_r, place), at(z_r, place));
-        sum = sum.plus_product(z_s, u_r).minus_product(u_s, z_r);
-        place += V::LANES;
+fn meant<T: Scalar, V: Simd<T>, const N: usize>(
+    columns: &ScaleColumns<'_, T>,
+    first: usize,
+    place: usize,
+    left: usize,
+) -> [V; N] {
+    let mut row = [V::from_f64(0.0); N];
+    for (index, number) in row.iter_mut().enumerate() {
+        let value: V = load(columns.numbers, (first + index) * columns.length + place);
+        *number = value.in_first_lanes(left, *number);
     }
-    in_all_lanes::<T, V>(sum)
-}
-
-#[inline(always)]
-fn product<T: Scalar, V: Simd<T>>(flow: &[T], torques: &[T]) -> T {
-    let (mut sum, mut start) = (T::from_f64(0.0), 0);
-    while start < flow.len() {
-        let end = (start + TOGETHER).min(flow.len());
-        let (mut part, mut place) = (V::from_f64(0.0), start);
-        while place < end {
-            part = part.plus_product(at(flow, place), at(torques, place));
-            place += V::LANES;
-        }
-        sum = sum + in_all_lanes::<T, V>(part);
-        start = end;
-    }
-    sum
+    row
 }

@@ -82,7 +82,16 @@ fn means<T: Scalar, V: Simd<T>>(
     (first + mean).store(values.get_mut(parent..).unwrap_or_default());
 }
 
-/// The numbers from a place on.
+/// The numbers from a place where there are enough.
+#[inline(always)]
+pub(super) fn load<T: Scalar, V: Simd<T>>(numbers: &[T], place: usize) -> V {
+    match V::load(numbers.get(place..).unwrap_or_default()) {
+        Some(row) => row,
+        None => V::from_f64(f64::NAN),
+    }
+}
+
+/// The numbers from a place on, and zeros behind the end.
 #[inline(always)]
 pub(super) fn at<T: Scalar, V: Simd<T>>(numbers: &[T], place: usize) -> V {
     V::load_front(numbers.get(place..).unwrap_or_default())

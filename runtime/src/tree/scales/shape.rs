@@ -23,6 +23,7 @@ pub(super) struct ScaleGeneration {
 }
 
 /// The generations of a tree.
+#[derive(Clone, Copy)]
 pub(super) struct ScaleShape {
     generations: [ScaleGeneration; MOST],
     count: usize,
@@ -34,8 +35,9 @@ pub(super) struct ScaleShape {
 }
 
 impl ScaleShape {
-    /// None where there are too many generations.
-    pub(super) fn new(copies: &[usize]) -> Option<Self> {
+    /// Of so many neighbours with all below them. The neighbours are the first of the
+    /// copies, 1 for a whole tree. None where there are too many generations.
+    pub(super) fn new(copies: impl ExactSizeIterator<Item = usize>) -> Option<Self> {
         let mut shape = Self {
             generations: [ScaleGeneration::default(); MOST],
             count: copies.len(),
@@ -43,11 +45,11 @@ impl ScaleShape {
             column: 0,
             parts: 0,
         };
-        if copies.is_empty() || copies.len() > MOST {
+        if copies.len() == 0 || copies.len() > MOST {
             return None;
         }
         let mut count = 1;
-        for (number, &copies) in copies.iter().enumerate() {
+        for (number, copies) in copies.enumerate() {
             count *= copies;
             let place = shape.generations.get_mut(number)?;
             *place = ScaleGeneration {
@@ -104,4 +106,32 @@ impl ScaleShape {
         let before = (0..scale).map(|scale| self.stride(scale, generation));
         self.at(generation).part + before.sum::<usize>()
     }
+
+    /// The generation where large trees are cut, and how many neighbours of it make one
+    /// block with all below them: one that fits into the second cache, whose
+    /// neighbours' parents are neighbours. Small trees are not cut: 0, 1.
+    pub(super) fn cut(&self) -> (usize, usize) {
+        let wide = (0..self.count).find(|&number| self.at(number).count >= WIDE);
+        let Some(wide) = wide.filter(|_| self.links > WHOLE) else {
+            return (0, 1);
+        };
+        let width = self.at(wide).count;
+        let fits = |&number: &usize| {
+            let first = self.at(number);
+            (self.links - first.whole) / first.count * width <= BLOCK
+        };
+        let last = self.count - 1;
+        match (wide + 1..self.count).find(fits) {
+            Some(generation) => (generation, width),
+            None if last > wide => (last, width),
+            None => (0, 1),
+        }
+    }
 }
+
+/// Trees of more links are cut into blocks of about so many.
+const WHOLE: usize = 4096;
+const BLOCK: usize = 1536;
+
+/// Neighbours of a block's first generation: pieces that are copied to it are so long.
+const WIDE: usize = 64;

@@ -32,7 +32,10 @@ pub struct General<T = f64> {
 
 /// Parameters of [`General`]. SI units.
 #[derive(
-    ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq,
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
 )]
 pub struct GeneralParameters<T = f64> {
     /// gravity, m/s².
@@ -103,46 +106,123 @@ impl<T: ::branched_pendulum::scalar::Real> General<T> {
         ::branched_pendulum::emitted::require_finite("parameter `l`", parameters.l)?;
         ::branched_pendulum::emitted::require_finite("parameter `w`", parameters.w)?;
         ::branched_pendulum::emitted::require_finite("parameter `q`", parameters.q)?;
-        ::branched_pendulum::emitted::require_non_negative("mass of `trunk`", parameters.m)?;
-        ::branched_pendulum::emitted::require_non_negative("inertia of `trunk`", parameters.i)?;
-        ::branched_pendulum::emitted::require_non_negative("friction of `trunk`", parameters.c)?;
-        ::branched_pendulum::emitted::require_non_negative("drag of `trunk`", parameters.k)?;
-        ::branched_pendulum::emitted::require_non_negative("spring of `trunk`", parameters.s)?;
-        ::branched_pendulum::emitted::require_regular(&[
-            ::branched_pendulum::emitted::LinkBody {
-                what: "moment of inertia of `trunk` about its pivot, in some configuration,",
-                parent: ::core::option::Option::None,
-                mass: parameters.m,
-                inertia: parameters.i,
-                com: [parameters.d, parameters.e],
-                pivot: [0.0, 0.0],
-            },
-            ::branched_pendulum::emitted::LinkBody {
-                what: "moment of inertia of `bough` about its pivot, in some configuration,",
-                parent: ::core::option::Option::Some(0),
-                mass: parameters.m,
-                inertia: parameters.i,
-                com: [parameters.d, parameters.e],
-                pivot: [parameters.l, parameters.w],
-            },
-            ::branched_pendulum::emitted::LinkBody {
-                what: "moment of inertia of `twig` about its pivot, in some configuration,",
-                parent: ::core::option::Option::Some(1),
-                mass: parameters.m,
-                inertia: parameters.i,
-                com: [parameters.d, parameters.e],
-                pivot: [parameters.l, parameters.w],
-            },
-            ::branched_pendulum::emitted::LinkBody {
-                what: "moment of inertia of `leaf` about its pivot, in some configuration,",
-                parent: ::core::option::Option::Some(0),
-                mass: parameters.m,
-                inertia: parameters.i,
-                com: [parameters.d, parameters.e],
-                pivot: [parameters.w, parameters.l],
-            },
-        ])?;
+        ::branched_pendulum::emitted::require_non_negative(
+            "mass of `trunk`",
+            parameters.m,
+        )?;
+        ::branched_pendulum::emitted::require_non_negative(
+            "inertia of `trunk`",
+            parameters.i,
+        )?;
+        ::branched_pendulum::emitted::require_non_negative(
+            "friction of `trunk`",
+            parameters.c,
+        )?;
+        ::branched_pendulum::emitted::require_non_negative(
+            "drag of `trunk`",
+            parameters.k,
+        )?;
+        ::branched_pendulum::emitted::require_non_negative(
+            "spring of `trunk`",
+            parameters.s,
+        )?;
+        ::branched_pendulum::emitted::require_regular(
+            &[
+                ::branched_pendulum::emitted::LinkBody {
+                    what: "moment of inertia of `trunk` about its pivot, in some configuration,",
+                    parent: ::core::option::Option::None,
+                    mass: parameters.m,
+                    inertia: parameters.i,
+                    com: [parameters.d, parameters.e],
+                    pivot: [0.0, 0.0],
+                },
+                ::branched_pendulum::emitted::LinkBody {
+                    what: "moment of inertia of `bough` about its pivot, in some configuration,",
+                    parent: ::core::option::Option::Some(0),
+                    mass: parameters.m,
+                    inertia: parameters.i,
+                    com: [parameters.d, parameters.e],
+                    pivot: [parameters.l, parameters.w],
+                },
+                ::branched_pendulum::emitted::LinkBody {
+                    what: "moment of inertia of `twig` about its pivot, in some configuration,",
+                    parent: ::core::option::Option::Some(1),
+                    mass: parameters.m,
+                    inertia: parameters.i,
+                    com: [parameters.d, parameters.e],
+                    pivot: [parameters.l, parameters.w],
+                },
+                ::branched_pendulum::emitted::LinkBody {
+                    what: "moment of inertia of `leaf` about its pivot, in some configuration,",
+                    parent: ::core::option::Option::Some(0),
+                    mass: parameters.m,
+                    inertia: parameters.i,
+                    com: [parameters.d, parameters.e],
+                    pivot: [parameters.w, parameters.l],
+                },
+            ],
+        )?;
         ::core::result::Result::Ok(Self::from_parameters_unchecked(given))
+    }
+}
+
+impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Parametric<T> for General<T> {
+    const PARAMETERS: &'static [&'static str] = &[
+        "g",
+        "m",
+        "d",
+        "e",
+        "i",
+        "c",
+        "k",
+        "s",
+        "r",
+        "l",
+        "w",
+        "q",
+    ];
+
+    fn with_parameters<S: ::branched_pendulum::Scalar>(
+        values: impl ::core::ops::Fn(usize) -> S,
+    ) -> General<S> {
+        General::from_parameters_unchecked(GeneralParameters {
+            g: values(0),
+            m: values(1),
+            d: values(2),
+            e: values(3),
+            i: values(4),
+            c: values(5),
+            k: values(6),
+            s: values(7),
+            r: values(8),
+            l: values(9),
+            w: values(10),
+            q: values(11),
+        })
+    }
+
+    fn check_parameters(
+        values: impl ::core::ops::Fn(usize) -> f64,
+    ) -> ::core::result::Result<(), ::branched_pendulum::ParameterError> {
+        ::core::result::Result::map(
+            General::<
+                f64,
+            >::new(GeneralParameters {
+                g: values(0),
+                m: values(1),
+                d: values(2),
+                e: values(3),
+                i: values(4),
+                c: values(5),
+                k: values(6),
+                s: values(7),
+                r: values(8),
+                l: values(9),
+                w: values(10),
+                q: values(11),
+            }),
+            |_| (),
+        )
     }
 }
 
@@ -192,7 +272,10 @@ impl<T: ::branched_pendulum::scalar::Real> General<T> {
 /// a'_y,i = ℓ cos θ_i ω_i² + ℓ sin θ_i α_i + w cos θ_i α_i − w sin θ_i ω_i² + a_y,i
 /// ```
 #[derive(
-    ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq,
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
 )]
 pub struct GeneralEquations;
 
@@ -219,20 +302,8 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
         link: ::branched_pendulum::tree::LinkMotion<T>,
     ) -> Self::Response<T> {
         let [
-            inertia,
-            _,
-            _,
-            _,
-            gain_along,
-            gain_across,
-            _,
-            _,
-            _,
-            friction,
-            drag,
-            spring,
-            rest,
-            _,
+            inertia, _, _, _, gain_along, gain_across, _, _, _, friction, drag, spring,
+            rest, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -252,16 +323,11 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
         let deficit_xx = first_moment_x * gain_x;
         let deficit_xy = first_moment_x * gain_y;
         let deficit_yy = first_moment_y * gain_y;
-        let bias_force_x = sum_with_outside_torque * gain_x - omega_squared * first_moment_y;
-        let bias_force_y = sum_with_outside_torque.mul_add(gain_y, omega_squared * first_moment_x);
-        [
-            deficit_xx,
-            deficit_xy,
-            deficit_yy,
-            bias_force_x,
-            bias_force_y,
-            joint_torque,
-        ]
+        let bias_force_x = sum_with_outside_torque * gain_x
+            - omega_squared * first_moment_y;
+        let bias_force_y = sum_with_outside_torque
+            .mul_add(gain_y, omega_squared * first_moment_x);
+        [deficit_xx, deficit_xy, deficit_yy, bias_force_x, bias_force_y, joint_torque]
     }
 
     /// The response of a child about the pivot of its parent, whose motion is given: as
@@ -275,19 +341,10 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
         response: Self::Response<T>,
     ) -> Self::Sums<T> {
         let [_, _, _, _, _, _, _, along, across, _, _, _, _, _] = *constants;
-        let ::branched_pendulum::tree::LinkMotion {
-            sine,
-            cosine,
-            omega,
-            ..
-        } = link;
+        let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [
-            deficit_xx_child,
-            deficit_xy_child,
-            deficit_yy_child,
-            bias_force_x_child,
-            bias_force_y_child,
-            joint_torque_child,
+            deficit_xx_child, deficit_xy_child, deficit_yy_child, bias_force_x_child,
+            bias_force_y_child, joint_torque_child,
         ] = response;
         let omega_squared = omega * omega;
         let attachment_x = along * cosine - across * sine;
@@ -295,20 +352,23 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
         let deficit_trace = deficit_xx_child + deficit_yy_child;
         let minus_centrifugal_moment = deficit_trace * along;
         let minus_lateral_centrifugal_moment = deficit_trace * across;
-        let deficit_moment_x =
-            deficit_xy_child.mul_add(attachment_y, deficit_xx_child * attachment_x);
-        let deficit_moment_y =
-            deficit_yy_child.mul_add(attachment_y, deficit_xy_child * attachment_x);
-        let sum_with_bias_force_x_child = (-omega_squared).mul_add(
-            deficit_moment_y
-                - minus_lateral_centrifugal_moment.mul_add(cosine, minus_centrifugal_moment * sine),
-            bias_force_x_child,
-        );
-        let sum_with_bias_force_y_child = omega_squared.mul_add(
-            minus_lateral_centrifugal_moment * sine - minus_centrifugal_moment * cosine
-                + deficit_moment_x,
-            bias_force_y_child,
-        );
+        let deficit_moment_x = deficit_xy_child
+            .mul_add(attachment_y, deficit_xx_child * attachment_x);
+        let deficit_moment_y = deficit_yy_child
+            .mul_add(attachment_y, deficit_xy_child * attachment_x);
+        let sum_with_bias_force_x_child = (-omega_squared)
+            .mul_add(
+                deficit_moment_y
+                    - minus_lateral_centrifugal_moment
+                        .mul_add(cosine, minus_centrifugal_moment * sine),
+                bias_force_x_child,
+            );
+        let sum_with_bias_force_y_child = omega_squared
+            .mul_add(
+                minus_lateral_centrifugal_moment * sine
+                    - minus_centrifugal_moment * cosine + deficit_moment_x,
+                bias_force_y_child,
+            );
         [
             deficit_xx_child,
             deficit_xy_child,
@@ -318,10 +378,11 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
             attachment_y.mul_add(deficit_moment_y, attachment_x * deficit_moment_x),
             sum_with_bias_force_x_child,
             sum_with_bias_force_y_child,
-            attachment_y.mul_add(
-                sum_with_bias_force_y_child,
-                attachment_x * sum_with_bias_force_x_child,
-            ),
+            attachment_y
+                .mul_add(
+                    sum_with_bias_force_y_child,
+                    attachment_x * sum_with_bias_force_x_child,
+                ),
             joint_torque_child,
         ]
     }
@@ -337,20 +398,8 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
         below: Self::Sums<T>,
     ) -> (Self::Response<T>, Self::Elimination<T>) {
         let [
-            inertia,
-            moment,
-            lateral_moment,
-            mass,
-            _,
-            _,
-            _,
-            _,
-            _,
-            friction,
-            drag,
-            spring,
-            rest,
-            drive_torque,
+            inertia, moment, lateral_moment, mass, _, _, _, _, _, friction, drag, spring,
+            rest, drive_torque,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -361,15 +410,8 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
             outside_torque,
         } = link;
         let [
-            deficit_xx_below,
-            deficit_xy_below,
-            deficit_yy_below,
-            moment_x_below,
-            moment_y_below,
-            inertia_below,
-            force_x_below,
-            force_y_below,
-            torque_below,
+            deficit_xx_below, deficit_xy_below, deficit_yy_below, moment_x_below,
+            moment_y_below, inertia_below, force_x_below, force_y_below, torque_below,
             joint_torque_below,
         ] = below;
         let joint_torque = spring.mul_add(joint_angle - rest, friction * joint_rate);
@@ -382,8 +424,7 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
         let held_force_x = (-omega_squared).mul_add(sum_with_moment_2, force_x_below);
         let held_force_y = omega_squared.mul_add(sum_with_moment, force_y_below);
         let torque = joint_torque_below + drive_torque + outside_torque
-            - drag.mul_add(omega, joint_torque)
-            - torque_below;
+            - drag.mul_add(omega, joint_torque) - torque_below;
         let inverse_joint_inertia = T::from_f64(1.0) / joint_inertia;
         let gain_x = inverse_joint_inertia * first_moment_x;
         let gain_y = inverse_joint_inertia * first_moment_y;
@@ -436,12 +477,7 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
         pivot: [T; 2],
     ) -> (T, Self::Carried<T>) {
         let _ = constants;
-        let ::branched_pendulum::tree::LinkMotion {
-            sine,
-            cosine,
-            omega,
-            ..
-        } = link;
+        let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [gain_x, gain_y, offset] = elimination;
         let [gravity_x, gravity_y] = pivot;
         let omega_squared = omega * omega;
@@ -468,20 +504,8 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
         pivot: [T; 2],
     ) -> T {
         let [
-            _,
-            _,
-            _,
-            _,
-            gain_along,
-            gain_across,
-            inverse_inertia,
-            _,
-            _,
-            friction,
-            drag,
-            spring,
-            rest,
-            _,
+            _, _, _, _, gain_along, gain_across, inverse_inertia, _, _, friction, drag,
+            spring, rest, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -495,7 +519,8 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
         let joint_torque = spring.mul_add(joint_angle - rest, friction * joint_rate);
         let gain_x = gain_along * cosine - gain_across * sine;
         let gain_y = gain_across.mul_add(cosine, gain_along * sine);
-        let minus_offset = (outside_torque - drag.mul_add(omega, joint_torque)) * inverse_inertia;
+        let minus_offset = (outside_torque - drag.mul_add(omega, joint_torque))
+            * inverse_inertia;
         gain_y.mul_add(gravity_y, gain_x.mul_add(gravity_x, minus_offset))
     }
 }
@@ -509,12 +534,13 @@ impl<T: ::branched_pendulum::Scalar> General<T> {
     #[must_use]
     pub fn accelerations(&self, time: T, theta: &[T; 4], omega: &[T; 4]) -> [T; 4] {
         let mut alpha = [T::from_f64(0.0); 4];
-        self.tree.accelerations_into(
-            ::core::option::Option::Some(self.root_drive(time)),
-            theta,
-            omega,
-            &mut alpha,
-        );
+        self.tree
+            .accelerations_into(
+                ::core::option::Option::Some(self.root_drive(time)),
+                theta,
+                omega,
+                &mut alpha,
+            );
         alpha
     }
 
@@ -536,12 +562,13 @@ impl<T: ::branched_pendulum::Scalar> General<T> {
         let mut alpha = [T::from_f64(0.0); 4];
         let mut workspace = ::branched_pendulum::system::Workspace::new();
         let given: [&[T]; 3] = [theta, omega, torques];
-        self.tree.accelerations_under_with(
-            &mut workspace,
-            ::core::option::Option::Some(self.root_drive(time)),
-            given,
-            &mut alpha,
-        );
+        self.tree
+            .accelerations_under_with(
+                &mut workspace,
+                ::core::option::Option::Some(self.root_drive(time)),
+                given,
+                &mut alpha,
+            );
         alpha
     }
 
@@ -601,12 +628,13 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Pendulum<T> for Genera
     const LINK_NAMES: &'static [&'static str] = &["trunk", "bough", "twig", "leaf"];
 
     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        self.tree.accelerations_into(
-            ::core::option::Option::Some(self.root_drive(time)),
-            theta,
-            omega,
-            alpha,
-        );
+        self.tree
+            .accelerations_into(
+                ::core::option::Option::Some(self.root_drive(time)),
+                theta,
+                omega,
+                alpha,
+            );
     }
 
     fn accelerations_with(
@@ -617,13 +645,14 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Pendulum<T> for Genera
         omega: &[T],
         alpha: &mut [T],
     ) {
-        self.tree.accelerations_with(
-            workspace,
-            ::core::option::Option::Some(self.root_drive(time)),
-            theta,
-            omega,
-            alpha,
-        );
+        self.tree
+            .accelerations_with(
+                workspace,
+                ::core::option::Option::Some(self.root_drive(time)),
+                theta,
+                omega,
+                alpha,
+            );
     }
 }
 
@@ -648,12 +677,13 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Cast<T> for General<T>
         omega: impl ::core::ops::Fn(usize) -> T,
         alpha: impl ::core::ops::FnMut(usize, T),
     ) {
-        self.tree.evaluate(
-            ::core::option::Option::Some(self.root_drive(time)),
-            theta,
-            omega,
-            alpha,
-        );
+        self.tree
+            .evaluate(
+                ::core::option::Option::Some(self.root_drive(time)),
+                theta,
+                omega,
+                alpha,
+            );
     }
 
     fn room(&self) -> usize {
@@ -666,8 +696,7 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Cast<T> for General<T>
         time: T,
         room: &mut [T],
     ) -> impl ::branched_pendulum::system::InRegisters<R> {
-        self.tree
-            .in_registers(::core::option::Option::Some(self.root_drive(time)), room)
+        self.tree.in_registers(::core::option::Option::Some(self.root_drive(time)), room)
     }
 }
 
@@ -702,12 +731,13 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Forced<T> for General<
         alpha: &mut [T],
     ) {
         let given = [theta, omega, torques];
-        self.tree.accelerations_under_with(
-            workspace,
-            ::core::option::Option::Some(self.root_drive(time)),
-            given,
-            alpha,
-        );
+        self.tree
+            .accelerations_under_with(
+                workspace,
+                ::core::option::Option::Some(self.root_drive(time)),
+                given,
+                alpha,
+            );
     }
 
     #[inline(always)]
@@ -719,11 +749,13 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Forced<T> for General<
         torques: &[S],
         alpha: &mut [S],
     ) {
-        pendulum.tree.evaluate_under(
-            ::core::option::Option::Some(pendulum.root_drive(time)),
-            [theta, omega, torques],
-            alpha,
-        );
+        pendulum
+            .tree
+            .evaluate_under(
+                ::core::option::Option::Some(pendulum.root_drive(time)),
+                [theta, omega, torques],
+                alpha,
+            );
     }
 }
 
@@ -823,47 +855,48 @@ impl<T: ::branched_pendulum::Scalar> General<T> {
         let m_d_squared = parameters.m * parameters.d * parameters.d;
         let m_e_squared = parameters.m * parameters.e * parameters.e;
         let m_d_squared_plus_m_e_squared = m_d_squared + m_e_squared;
-        let m_d_squared_plus_m_e_squared_plus_i = m_d_squared_plus_m_e_squared + parameters.i;
+        let m_d_squared_plus_m_e_squared_plus_i = m_d_squared_plus_m_e_squared
+            + parameters.i;
         let m_d = parameters.m * parameters.d;
         let m_e = parameters.m * parameters.e;
         let w_squared_m = parameters.w * parameters.w * parameters.m;
         let l_squared_m = parameters.l * parameters.l * parameters.m;
         let w_squared_m_plus_l_squared_m = w_squared_m + l_squared_m;
-        let m_d_squared_plus_m_e_squared_plus_i_plus_w_squared_m_plus_l_squared_m =
-            m_d_squared_plus_m_e_squared_plus_i + w_squared_m_plus_l_squared_m;
+        let m_d_squared_plus_m_e_squared_plus_i_plus_w_squared_m_plus_l_squared_m = m_d_squared_plus_m_e_squared_plus_i
+            + w_squared_m_plus_l_squared_m;
         let w_m = parameters.w * parameters.m;
         let m_d_plus_w_m = m_d + w_m;
         let l_m = parameters.l * parameters.m;
         let m_e_plus_l_m = m_e + l_m;
         let twice_m = T::from_f64(2.0) * parameters.m;
         let l_squared_m_plus_w_squared_m = l_squared_m + w_squared_m;
-        let m_d_squared_plus_m_e_squared_plus_i_plus_l_squared_m_plus_w_squared_m =
-            m_d_squared_plus_m_e_squared_plus_i + l_squared_m_plus_w_squared_m;
+        let m_d_squared_plus_m_e_squared_plus_i_plus_l_squared_m_plus_w_squared_m = m_d_squared_plus_m_e_squared_plus_i
+            + l_squared_m_plus_w_squared_m;
         let m_d_plus_l_m = m_d + l_m;
         let m_e_plus_w_m = m_e + w_m;
         let reduced_moment_trunk = m_d_plus_w_m;
         let reduced_lateral_moment_trunk = m_e_plus_l_m;
-        let reduced_inertia_trunk =
-            m_d_squared_plus_m_e_squared_plus_i_plus_w_squared_m_plus_l_squared_m;
+        let reduced_inertia_trunk = m_d_squared_plus_m_e_squared_plus_i_plus_w_squared_m_plus_l_squared_m;
         let reduced_moment_bough = m_d_plus_l_m;
         let reduced_lateral_moment_bough = m_e_plus_w_m;
-        let reduced_inertia_bough =
-            m_d_squared_plus_m_e_squared_plus_i_plus_l_squared_m_plus_w_squared_m;
+        let reduced_inertia_bough = m_d_squared_plus_m_e_squared_plus_i_plus_l_squared_m_plus_w_squared_m;
         let reduced_moment_twig = m_d;
         let reduced_lateral_moment_twig = m_e;
         let reduced_inertia_twig = m_d_squared_plus_m_e_squared_plus_i;
         let reduced_gravity = parameters.g;
-        let reduced_moment_twig_over_reduced_inertia_twig =
-            reduced_moment_twig / reduced_inertia_twig;
-        let reduced_lateral_moment_twig_over_reduced_inertia_twig =
-            reduced_lateral_moment_twig / reduced_inertia_twig;
+        let reduced_moment_twig_over_reduced_inertia_twig = reduced_moment_twig
+            / reduced_inertia_twig;
+        let reduced_lateral_moment_twig_over_reduced_inertia_twig = reduced_lateral_moment_twig
+            / reduced_inertia_twig;
         let inverse_reduced_inertia_twig = T::from_f64(1.0) / reduced_inertia_twig;
         let minus_reduced_gravity = T::from_f64(-1.0) * reduced_gravity;
         Self {
             tree: ::branched_pendulum::tree::Tree::with_parents(
                 &PARENTS,
                 &{
-                    let mut strips = ::branched_pendulum::tree::numbers(STRIPS.as_flattened());
+                    let mut strips = ::branched_pendulum::tree::numbers(
+                        STRIPS.as_flattened(),
+                    );
                     strips[0] = reduced_inertia_trunk;
                     strips[1] = reduced_moment_trunk;
                     strips[2] = reduced_lateral_moment_trunk;

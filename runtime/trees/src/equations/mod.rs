@@ -10,7 +10,11 @@
 mod general;
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub)]
+mod rough;
+#[rustfmt::skip]
+#[allow(dead_code, unreachable_pub)]
 mod straight;
 
 pub(crate) use general::GeneralEquations;
+pub(crate) use rough::RoughEquations;
 pub(crate) use straight::StraightEquations;

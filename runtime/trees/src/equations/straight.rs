@@ -19,7 +19,10 @@ pub struct Straight<T = f64> {
 
 /// Parameters of [`Straight`]. SI units.
 #[derive(
-    ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq,
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq
 )]
 pub struct StraightParameters<T = f64> {
     /// gravity, m/s².
@@ -58,35 +61,76 @@ impl<T: ::branched_pendulum::scalar::Real> Straight<T> {
         ::branched_pendulum::emitted::require_finite("parameter `g`", parameters.g)?;
         ::branched_pendulum::emitted::require_finite("parameter `d`", parameters.d)?;
         ::branched_pendulum::emitted::require_finite("parameter `l`", parameters.l)?;
-        ::branched_pendulum::emitted::require_non_negative("mass of `trunk`", parameters.m)?;
-        ::branched_pendulum::emitted::require_non_negative("inertia of `trunk`", parameters.i)?;
-        ::branched_pendulum::emitted::require_regular(&[
-            ::branched_pendulum::emitted::LinkBody {
-                what: "moment of inertia of `trunk` about its pivot, in some configuration,",
-                parent: ::core::option::Option::None,
-                mass: parameters.m,
-                inertia: parameters.i,
-                com: [parameters.d, 0.0],
-                pivot: [0.0, 0.0],
-            },
-            ::branched_pendulum::emitted::LinkBody {
-                what: "moment of inertia of `bough` about its pivot, in some configuration,",
-                parent: ::core::option::Option::Some(0),
-                mass: parameters.m,
-                inertia: parameters.i,
-                com: [parameters.d, 0.0],
-                pivot: [parameters.l, 0.0],
-            },
-            ::branched_pendulum::emitted::LinkBody {
-                what: "moment of inertia of `twig` about its pivot, in some configuration,",
-                parent: ::core::option::Option::Some(1),
-                mass: parameters.m,
-                inertia: parameters.i,
-                com: [parameters.d, 0.0],
-                pivot: [parameters.l, 0.0],
-            },
-        ])?;
+        ::branched_pendulum::emitted::require_non_negative(
+            "mass of `trunk`",
+            parameters.m,
+        )?;
+        ::branched_pendulum::emitted::require_non_negative(
+            "inertia of `trunk`",
+            parameters.i,
+        )?;
+        ::branched_pendulum::emitted::require_regular(
+            &[
+                ::branched_pendulum::emitted::LinkBody {
+                    what: "moment of inertia of `trunk` about its pivot, in some configuration,",
+                    parent: ::core::option::Option::None,
+                    mass: parameters.m,
+                    inertia: parameters.i,
+                    com: [parameters.d, 0.0],
+                    pivot: [0.0, 0.0],
+                },
+                ::branched_pendulum::emitted::LinkBody {
+                    what: "moment of inertia of `bough` about its pivot, in some configuration,",
+                    parent: ::core::option::Option::Some(0),
+                    mass: parameters.m,
+                    inertia: parameters.i,
+                    com: [parameters.d, 0.0],
+                    pivot: [parameters.l, 0.0],
+                },
+                ::branched_pendulum::emitted::LinkBody {
+                    what: "moment of inertia of `twig` about its pivot, in some configuration,",
+                    parent: ::core::option::Option::Some(1),
+                    mass: parameters.m,
+                    inertia: parameters.i,
+                    com: [parameters.d, 0.0],
+                    pivot: [parameters.l, 0.0],
+                },
+            ],
+        )?;
         ::core::result::Result::Ok(Self::from_parameters_unchecked(given))
+    }
+}
+
+impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Parametric<T> for Straight<T> {
+    const PARAMETERS: &'static [&'static str] = &["g", "m", "d", "i", "l"];
+
+    fn with_parameters<S: ::branched_pendulum::Scalar>(
+        values: impl ::core::ops::Fn(usize) -> S,
+    ) -> Straight<S> {
+        Straight::from_parameters_unchecked(StraightParameters {
+            g: values(0),
+            m: values(1),
+            d: values(2),
+            i: values(3),
+            l: values(4),
+        })
+    }
+
+    fn check_parameters(
+        values: impl ::core::ops::Fn(usize) -> f64,
+    ) -> ::core::result::Result<(), ::branched_pendulum::ParameterError> {
+        ::core::result::Result::map(
+            Straight::<
+                f64,
+            >::new(StraightParameters {
+                g: values(0),
+                m: values(1),
+                d: values(2),
+                i: values(3),
+                l: values(4),
+            }),
+            |_| (),
+        )
     }
 }
 
@@ -124,7 +168,10 @@ impl<T: ::branched_pendulum::scalar::Real> Straight<T> {
 /// a'_y,i = ℓ cos θ_i ω_i² + ℓ sin θ_i α_i + a_y,i
 /// ```
 #[derive(
-    ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq,
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
 )]
 pub struct StraightEquations;
 
@@ -167,14 +214,9 @@ impl ::branched_pendulum::tree::LinkEquations for StraightEquations {
         let deficit_xy = first_moment_x * gain_y;
         let deficit_yy = first_moment_y * gain_y;
         let bias_force_x = outside_torque * gain_x - omega_squared * first_moment_y;
-        let bias_force_y = outside_torque.mul_add(gain_y, omega_squared * first_moment_x);
-        [
-            deficit_xx,
-            deficit_xy,
-            deficit_yy,
-            bias_force_x,
-            bias_force_y,
-        ]
+        let bias_force_y = outside_torque
+            .mul_add(gain_y, omega_squared * first_moment_x);
+        [deficit_xx, deficit_xy, deficit_yy, bias_force_x, bias_force_y]
     }
 
     /// The response of a child about the pivot of its parent, whose motion is given: as
@@ -211,34 +253,34 @@ impl ::branched_pendulum::tree::LinkEquations for StraightEquations {
             ..
         } = link;
         let [
-            deficit_xx_below,
-            deficit_xy_below,
-            deficit_yy_below,
-            bias_force_x_below,
+            deficit_xx_below, deficit_xy_below, deficit_yy_below, bias_force_x_below,
             bias_force_y_below,
         ] = below;
         let omega_squared = omega * omega;
         let attachment_x = along * cosine;
         let attachment_y = along * sine;
-        let centrifugal_moment = (-(deficit_xx_below + deficit_yy_below)).mul_add(along, moment);
-        let deficit_moment_x =
-            deficit_xy_below.mul_add(attachment_y, deficit_xx_below * attachment_x);
-        let deficit_moment_y =
-            deficit_yy_below.mul_add(attachment_y, deficit_xy_below * attachment_x);
+        let centrifugal_moment = (-(deficit_xx_below + deficit_yy_below))
+            .mul_add(along, moment);
+        let deficit_moment_x = deficit_xy_below
+            .mul_add(attachment_y, deficit_xx_below * attachment_x);
+        let deficit_moment_y = deficit_yy_below
+            .mul_add(attachment_y, deficit_xy_below * attachment_x);
         let first_moment_x = moment.mul_add(cosine, -deficit_moment_x);
         let first_moment_y = moment.mul_add(sine, -deficit_moment_y);
         let joint_inertia = (-attachment_x).mul_add(deficit_moment_x, inertia);
         let joint_inertia = (-attachment_y).mul_add(deficit_moment_y, joint_inertia);
-        let held_force_x = (-omega_squared).mul_add(
-            centrifugal_moment.mul_add(sine, deficit_moment_y),
-            bias_force_x_below,
-        );
-        let held_force_y = omega_squared.mul_add(
-            centrifugal_moment.mul_add(cosine, deficit_moment_x),
-            bias_force_y_below,
-        );
-        let torque =
-            outside_torque - attachment_y.mul_add(held_force_y, attachment_x * held_force_x);
+        let held_force_x = (-omega_squared)
+            .mul_add(
+                centrifugal_moment.mul_add(sine, deficit_moment_y),
+                bias_force_x_below,
+            );
+        let held_force_y = omega_squared
+            .mul_add(
+                centrifugal_moment.mul_add(cosine, deficit_moment_x),
+                bias_force_y_below,
+            );
+        let torque = outside_torque
+            - attachment_y.mul_add(held_force_y, attachment_x * held_force_x);
         let inverse_joint_inertia = T::from_f64(1.0) / joint_inertia;
         let gain_x = inverse_joint_inertia * first_moment_x;
         let gain_y = inverse_joint_inertia * first_moment_y;
@@ -249,13 +291,7 @@ impl ::branched_pendulum::tree::LinkEquations for StraightEquations {
         let bias_force_x = torque.mul_add(gain_x, held_force_x);
         let bias_force_y = torque.mul_add(gain_y, held_force_y);
         (
-            [
-                deficit_xx,
-                deficit_xy,
-                deficit_yy,
-                bias_force_x,
-                bias_force_y,
-            ],
+            [deficit_xx, deficit_xy, deficit_yy, bias_force_x, bias_force_y],
             [gain_x, gain_y, -minus_offset],
         )
     }
@@ -286,12 +322,7 @@ impl ::branched_pendulum::tree::LinkEquations for StraightEquations {
         pivot: [T; 2],
     ) -> (T, Self::Carried<T>) {
         let [_, _, _, _, _, along] = *constants;
-        let ::branched_pendulum::tree::LinkMotion {
-            sine,
-            cosine,
-            omega,
-            ..
-        } = link;
+        let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [gain_x, gain_y, offset] = elimination;
         let [gravity_x, gravity_y] = pivot;
         let omega_squared = omega * omega;
@@ -302,11 +333,16 @@ impl ::branched_pendulum::tree::LinkEquations for StraightEquations {
         (
             tangential,
             [
-                (-tangential).mul_add(attachment_x, omega_squared.mul_add(attachment_y, gravity_x)),
-                (-tangential).mul_add(
-                    attachment_y,
-                    (-omega_squared).mul_add(attachment_x, gravity_y),
-                ),
+                (-tangential)
+                    .mul_add(
+                        attachment_x,
+                        omega_squared.mul_add(attachment_y, gravity_x),
+                    ),
+                (-tangential)
+                    .mul_add(
+                        attachment_y,
+                        (-omega_squared).mul_add(attachment_x, gravity_y),
+                    ),
             ],
         )
     }
@@ -321,12 +357,7 @@ impl ::branched_pendulum::tree::LinkEquations for StraightEquations {
         pivot: [T; 2],
     ) -> T {
         let [_, _, _, gain_along, inverse_inertia, _] = *constants;
-        let ::branched_pendulum::tree::LinkMotion {
-            sine,
-            cosine,
-            outside_torque,
-            ..
-        } = link;
+        let ::branched_pendulum::tree::LinkMotion { sine, cosine, outside_torque, .. } = link;
         let [gravity_x, gravity_y] = pivot;
         let gain_x = gain_along * cosine;
         let gain_y = gain_along * sine;
@@ -356,16 +387,22 @@ impl<T: ::branched_pendulum::Scalar> Straight<T> {
     /// The power of the torques is Q·ω. In canonical variables they add to the rates of
     /// the momenta.
     #[must_use]
-    pub fn accelerations_under(&self, theta: &[T; 3], omega: &[T; 3], torques: &[T; 3]) -> [T; 3] {
+    pub fn accelerations_under(
+        &self,
+        theta: &[T; 3],
+        omega: &[T; 3],
+        torques: &[T; 3],
+    ) -> [T; 3] {
         let mut alpha = [T::from_f64(0.0); 3];
         let mut workspace = ::branched_pendulum::system::Workspace::new();
         let given: [&[T]; 3] = [theta, omega, torques];
-        self.tree.accelerations_under_with(
-            &mut workspace,
-            ::core::option::Option::None,
-            given,
-            &mut alpha,
-        );
+        self.tree
+            .accelerations_under_with(
+                &mut workspace,
+                ::core::option::Option::None,
+                given,
+                &mut alpha,
+            );
         alpha
     }
 }
@@ -375,8 +412,7 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Pendulum<T> for Straig
     const LINK_NAMES: &'static [&'static str] = &["trunk", "bough", "twig"];
 
     fn accelerations_into(&self, _time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        self.tree
-            .accelerations_into(::core::option::Option::None, theta, omega, alpha);
+        self.tree.accelerations_into(::core::option::Option::None, theta, omega, alpha);
     }
 
     fn accelerations_with(
@@ -388,7 +424,13 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Pendulum<T> for Straig
         alpha: &mut [T],
     ) {
         self.tree
-            .accelerations_with(workspace, ::core::option::Option::None, theta, omega, alpha);
+            .accelerations_with(
+                workspace,
+                ::core::option::Option::None,
+                theta,
+                omega,
+                alpha,
+            );
     }
 }
 
@@ -412,8 +454,7 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Cast<T> for Straight<T
         omega: impl ::core::ops::Fn(usize) -> T,
         alpha: impl ::core::ops::FnMut(usize, T),
     ) {
-        self.tree
-            .evaluate(::core::option::Option::None, theta, omega, alpha);
+        self.tree.evaluate(::core::option::Option::None, theta, omega, alpha);
     }
 
     fn room(&self) -> usize {
@@ -462,7 +503,12 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Forced<T> for Straight
     ) {
         let given = [theta, omega, torques];
         self.tree
-            .accelerations_under_with(workspace, ::core::option::Option::None, given, alpha);
+            .accelerations_under_with(
+                workspace,
+                ::core::option::Option::None,
+                given,
+                alpha,
+            );
     }
 
     #[inline(always)]
@@ -476,7 +522,11 @@ impl<T: ::branched_pendulum::Scalar> ::branched_pendulum::Forced<T> for Straight
     ) {
         pendulum
             .tree
-            .evaluate_under(::core::option::Option::None, [theta, omega, torques], alpha);
+            .evaluate_under(
+                ::core::option::Option::None,
+                [theta, omega, torques],
+                alpha,
+            );
     }
 }
 
@@ -500,30 +550,9 @@ impl<T: ::branched_pendulum::Scalar> Straight<T> {
         /// 5. `inverse_inertia`: L² m/M of a leaf
         /// 6. `along`: place of the attachment along the link, over L
         static STRIPS: [[[f64; 2]; 6]; 3] = [
-            [
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-            ],
-            [
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-            ],
-            [
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-                [0.0, 0.0],
-            ],
+            [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]],
+            [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]],
+            [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]],
         ];
         let d_squared_m = parameters.d * parameters.d * parameters.m;
         let d_squared_m_plus_i = d_squared_m + parameters.i;
@@ -538,15 +567,17 @@ impl<T: ::branched_pendulum::Scalar> Straight<T> {
         let reduced_moment_bough = d_m_plus_l_m;
         let reduced_inertia_bough = d_squared_m_plus_i_plus_l_squared_m;
         let reduced_gravity = parameters.g;
-        let reduced_moment_trunk_over_reduced_inertia_trunk =
-            reduced_moment_trunk / reduced_inertia_trunk;
+        let reduced_moment_trunk_over_reduced_inertia_trunk = reduced_moment_trunk
+            / reduced_inertia_trunk;
         let inverse_reduced_inertia_trunk = T::from_f64(1.0) / reduced_inertia_trunk;
         let minus_reduced_gravity = T::from_f64(-1.0) * reduced_gravity;
         Self {
             tree: ::branched_pendulum::tree::Tree::with_parents(
                 &PARENTS,
                 &{
-                    let mut strips = ::branched_pendulum::tree::numbers(STRIPS.as_flattened());
+                    let mut strips = ::branched_pendulum::tree::numbers(
+                        STRIPS.as_flattened(),
+                    );
                     strips[0] = reduced_inertia_trunk;
                     strips[1] = reduced_moment_trunk;
                     strips[2] = parameters.m;

@@ -14,7 +14,8 @@ const BENT: &str = "gravity = 9.80665,
             joint = (0.25, 0.03), spring = 0.1, rest = 0.2) [
             twig: rod(mass = m, length = 0.3, drag = 1e-4) * 2
         ],
-        shoot(mass = 0.05, com = 0.1, inertia = 1e-4),
+        shoot(mass = 0.05, com = 0.1, inertia = 1e-4,
+            friction(viscous = 1e-3, coulomb = 0.02, quadratic = 1e-3), drag(quadratic = 1e-4)),
     ],
     drive(torque = 0.01 * cos(3 * t), x = 0.02 * sin(2 * t)^2)";
 

@@ -134,6 +134,27 @@ pub(super) const CASES: &[Case] = &[
 )] struct Pendulum;",
     ),
     (
+        "budget_beside_scales",
+        "#[branched_pendulum(gravity = 9.8,
+    tree: generations(count = 4, branching = 2, shape = rod, mass = 1, length = 1),
+    emit(budget(parseval, matrix, scales)),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_scales_without_rule",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1) [ b: rod(mass = 1, length = 1) * 2 ],
+    emit(budget(parseval, scales)),
+)] struct Pendulum;",
+    ),
+    (
+        "budget_scales_without_loops",
+        "#[branched_pendulum(gravity = 9.8,
+    tree: generations(count = 4, branching = 2, shape = rod, mass = 1, length = 1),
+    emit(momenta, budget(scales)),
+)] struct Pendulum;",
+    ),
+    (
         "budget_without_siblings",
         "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1), emit(budget))] struct Pendulum;",
     ),
@@ -230,6 +251,18 @@ pub(super) const CASES: &[Case] = &[
         "no_transverse",
         "#[branched_pendulum(gravity = 1,
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2], emit(transverse))] struct Pendulum;",
+    ),
+    (
+        "small",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [bone: rod(mass = 1, length = 1) * 2, c: rod(mass = 1, length = 1)],
+    in_phase(bone), emit(small(bon, c, bone, bone, bone(a))))] struct Pendulum;",
+    ),
+    (
+        "small_of_none",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    emit(small(), taylor))] struct Pendulum;",
     ),
     (
         "nothing_in_phase",

@@ -303,9 +303,8 @@ pub(super) const CASES: &[Case] = &[
         "#[branched_pendulum(gravity = 9.8,
     a: rod(mass = 1, length = 1, drag(quadratic = 1)) [
         b: rod(mass = 1, length = 1, drag(quadratic = 1, width = 0.1)),
-        c: rod(mass = 1, length = 1, friction(coulomb = 1)),
     ],
-    locked(b, 0.1), locked(c, 0.1))] struct Pendulum;",
+    locked(b, 0.1))] struct Pendulum;",
     ),
     (
         "declared_parameters",

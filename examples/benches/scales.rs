@@ -1,0 +1,96 @@
+//! `cargo bench --bench scales`: cost of budgets by scale in evaluations of the
+//! accelerations of the same tree.
+//!
+//! Binary trees of rods, one state, one thread. The two take turns, and the least of
+//! their times counts. The last column is the cost for each link and scale: it stays
+//! the same where the cost grows as n log n.
+
+use std::hint::black_box;
+use std::num::NonZeroUsize;
+use std::time::{Duration, Instant};
+
+use branched_pendulum::prelude::*;
+use branched_pendulum::sectors::{ScaleBudget, Scales};
+use branched_pendulum::system::Workspace;
+
+/// Full binary trees of rods.
+macro_rules! trees {
+    ($($name:ident $generations:literal),*) => {
+        $(#[branched_pendulum(
+            gravity = 9.80665,
+            tree: generations(count = $generations, branching = 2, shape = rod, mass = 0.12,
+                length = 0.3, mass_ratio = 0.5, length_ratio = 0.7, friction = 1e-4),
+            emit(energies, budget(parseval, scales)),
+        )]
+        struct $name;)*
+
+        fn rows() {
+            $({
+                let mut model = $name::<f64>::new();
+                model.set_threads(NonZeroUsize::MIN);
+                row(&model);
+            })*
+        }
+    };
+}
+
+trees!(Links31 5, Links127 7, Links1023 10, Links8191 13, Links131071 17);
+
+/// Least time of a pass, after so many rounds that it is one.
+struct Case<'a> {
+    pass: Box<dyn FnMut() + 'a>,
+    least: Duration,
+}
+
+fn row<M: Pendulum<f64> + Scales<f64>>(model: &M) {
+    let links = M::LINKS;
+    let angle = |link: usize| ((7 * link + 13) % 64) as f64 / 32.0 - 1.0;
+    let theta: Vec<f64> = (0..links).map(angle).collect();
+    let omega: Vec<f64> = (0..links).map(|link| 3.0 * angle(link + 5)).collect();
+    let (theta, omega) = (theta.as_slice(), omega.as_slice());
+    let mut alpha = vec![0.0; links];
+    let mut workspaces = [Workspace::new(), Workspace::new(), Workspace::new()];
+    let [first, second, third] = &mut workspaces;
+    let (mut budget, mut energies) = (ScaleBudget::new(), ScaleBudget::new());
+    let passes: [Box<dyn FnMut()>; 3] = [
+        Box::new(|| {
+            model.accelerations_with(first, 0.0, black_box(theta), omega, &mut alpha);
+            black_box(&mut alpha);
+        }),
+        Box::new(|| {
+            model.budget_by_scale(second, 0.0, black_box(theta), omega, &mut budget);
+            black_box(&mut budget);
+        }),
+        Box::new(|| {
+            model.energies_by_scale(third, black_box(theta), omega, &mut energies);
+            black_box(&mut energies);
+        }),
+    ];
+    let mut cases = passes.map(|pass| Case {
+        pass,
+        least: Duration::MAX,
+    });
+    let rounds = (4_000_000 / links).clamp(15, 2_000);
+    for _ in 0..rounds {
+        for Case { pass, least } in &mut cases {
+            let start = Instant::now();
+            pass();
+            *least = start.elapsed().min(*least);
+        }
+    }
+    let [evaluation, all, energies] = cases.map(|case| case.least.as_secs_f64());
+    let scales = M::COPIES.len() as f64;
+    println!(
+        "| {links} | {scales} | {:.2} | {:.1} | {:.1} | {:.2} |",
+        1e6 * evaluation,
+        energies / evaluation,
+        all / evaluation,
+        1e9 * all / (links as f64 * scales),
+    );
+}
+
+fn main() {
+    println!("| links | scales | accelerations (µs) | energies | budget | ns a link and scale |");
+    println!("|---:|---:|---:|---:|---:|---:|");
+    rows();
+}

@@ -1,0 +1,152 @@
+//! How far a model of small differences is from the full one.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::scalar::{Real, Scalar};
+use crate::system::{DifferencePatterns, SmallDifferences, SmallOde};
+
+/// Growth of the error with the energy in phase beyond what lifts copies to the horizontal,
+/// and its largest exponent.
+const GROWTH: f64 = 6.0;
+const MOST_GROWTH: f64 = 20.0;
+
+/// What the estimate of [`NearlyInPhase`](super::NearlyInPhase) is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SmallError<T> {
+    /// Least and largest Ω² of a difference.
+    slowest: T,
+    fastest: T,
+    /// Ω² of each difference.
+    squares: Vec<T>,
+    /// Energy that lifts all links of the lightest sector to the horizontal, J.
+    lift: T,
+    /// Energy where all hang, J.
+    rest: T,
+    /// Largest [`DifferencePatterns::unevenness`] of a sector.
+    unevenness: T,
+}
+
+impl<T: Real> SmallError<T> {
+    pub(super) fn new<P: SmallDifferences<T>>(model: &P, patterns: &DifferencePatterns) -> Self {
+        let hanging = vec![T::ZERO; P::LINKS];
+        let (mut squares, mut lift) = (Vec::new(), T::from_f64(f64::INFINITY));
+        for &number in P::SMALL {
+            let sector = P::TRANSVERSE[number];
+            let still = vec![T::ZERO; sector.links];
+            let mut stiffness = T::ZERO;
+            for link in 0..sector.links {
+                let mut unit = still.clone();
+                unit[link] = T::ONE;
+                let held = model.transverse_energy_of(number, &hanging, &unit, &still);
+                let moving = model.transverse_energy_of(number, &hanging, &still, &unit);
+                stiffness = stiffness + held + held;
+                // Without stiffness, or with less than none, rates count as angles in a
+                // second.
+                squares.push(Real::max(held / moving, T::ONE));
+            }
+            lift = Real::min(lift, T::from_f64(sector.holders as f64) * stiffness);
+        }
+        let none = vec![T::ZERO; squares.len()];
+        let sectors = 0..P::SMALL.len();
+        let uneven = sectors.map(|sector| patterns.unevenness(sector));
+        Self {
+            slowest: squares
+                .iter()
+                .copied()
+                .fold(T::from_f64(f64::INFINITY), Real::min),
+            fastest: squares.iter().copied().fold(T::ONE, Real::max),
+            squares,
+            lift: Real::max(lift, T::ZERO),
+            rest: model.small_energy_of(&hanging, &hanging, &none, &none),
+            unevenness: T::from_f64(uneven.fold(0.0, f64::max)),
+        }
+    }
+
+    /// Returns the error of an angle over a second, and the amplitude of all angles, for a
+    /// state of the whole tree.
+    pub(super) fn estimate<P: SmallDifferences<T>>(
+        &self,
+        SmallOde(model): &SmallOde<P>,
+        patterns: &DifferencePatterns,
+        state: &[T],
+    ) -> [T; 2] {
+        let small = patterns.to_small(state);
+        if small.is_empty() {
+            return [T::NAN; 2];
+        }
+        let (angles, rates) = small.split_at(patterns.half());
+        let (theta, difference) = angles.split_at(P::LINKS);
+        let (omega, difference_rate) = rates.split_at(P::LINKS);
+        let differences = difference.iter().zip(difference_rate).zip(&self.squares);
+        let parts =
+            differences.map(|((&angle, &rate), &square)| angle * angle + rate * rate / square);
+        let parts: Vec<T> = parts.collect();
+        let small_square = parts.iter().fold(T::ZERO, |sum, &part| sum + part);
+        let swing_square = sum_of_squares(theta) + sum_of_squares(omega) / self.slowest;
+        let pace = omega
+            .iter()
+            .fold(T::ZERO, |most, &rate| Real::max(most, rate * rate));
+        let none = vec![T::ZERO; difference.len()];
+        let energy = model.small_energy_of(theta, omega, &none, &none) - self.rest;
+        let beyond = Real::max(energy / self.lift - T::ONE, T::ZERO);
+        let exponent = Real::min(T::from_f64(GROWTH) * beyond, T::from_f64(MOST_GROWTH));
+        let grown = T::from_f64(core::f64::consts::E).powf(exponent);
+        let rate = Scalar::sqrt(self.fastest + pace);
+        let even = T::from_f64(0.25) * rate * Scalar::sqrt(small_square) * small_square;
+        let swing = Real::min(Scalar::sqrt(swing_square), T::ONE);
+        let uneven = self.unevenness * small_square + within_others::<T, P>(&parts);
+        let dropped = self.dropped(patterns, state, &small);
+        [
+            (even + uneven * swing) * grown + dropped,
+            Scalar::sqrt(small_square + swing_square),
+        ]
+    }
+
+    /// Returns the largest amplitude of an angle that the patterns leave out.
+    fn dropped(&self, patterns: &DifferencePatterns, state: &[T], small: &[T]) -> T {
+        let (angles, rates) = small.split_at(patterns.half());
+        let (whole_angles, whole_rates) = state.split_at(state.len() / 2);
+        let links = whole_angles.iter().zip(whole_rates).enumerate();
+        let largest = links.fold(T::ZERO, |largest, (link, (&angle, &rate))| {
+            let turned = T::from_f64(patterns.angle(link));
+            let angle = angle - turned - patterns.of_link(link, angles);
+            let rate = rate - patterns.of_link(link, rates);
+            Real::max(largest, angle * angle + rate * rate / self.slowest)
+        });
+        // Means are rounded: below that nothing is left out.
+        let size = Scalar::sqrt(sum_of_squares(state));
+        let rounding = T::from_f64(8.0) * T::EPSILON * size;
+        let left = Scalar::sqrt(largest);
+        if left <= rounding { T::ZERO } else { left }
+    }
+}
+
+/// Returns 2 Σ B_s B_t over sectors t among the links of sectors s: the two together drive
+/// differences of t that are not alike under all holders. `parts` are the squares of
+/// amplitudes.
+fn within_others<T: Real, P: SmallDifferences<T>>(mut parts: &[T]) -> T {
+    let mut amplitudes = Vec::with_capacity(P::SMALL.len());
+    for &number in P::SMALL {
+        let sector = P::TRANSVERSE[number];
+        let (own, others) = parts.split_at(sector.links);
+        let square = own.iter().fold(T::ZERO, |sum, &part| sum + part);
+        amplitudes.push((sector, Scalar::sqrt(square)));
+        parts = others;
+    }
+    let mut sum = T::ZERO;
+    for (outer, of_outer) in &amplitudes {
+        for (inner, of_inner) in &amplitudes {
+            if outer.first < inner.first && inner.first < outer.first + outer.links {
+                sum += T::from_f64(2.0) * *of_outer * *of_inner;
+            }
+        }
+    }
+    sum
+}
+
+fn sum_of_squares<T: Real>(values: &[T]) -> T {
+    values
+        .iter()
+        .fold(T::ZERO, |sum, &value| sum + value * value)
+}

@@ -1,0 +1,189 @@
+//! Copies nearly in phase, by frames, against the full model.
+
+use branched_pendulum::analysis::advice::{Advisor, Candidates, ModelForm, Wanted};
+use branched_pendulum::approximate::{Approximation, Linear, NearlyInPhase, Switched};
+use branched_pendulum::integrate::{Frames, InputError, longest_sub_step};
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::{DifferencePatterns, SmallOde};
+use branched_pendulum::{Cast, SmallDifferences};
+
+use crate::scenes::{BranchedSmall, BranchedSmallParameters, Tree, TreeSmall, branched};
+
+const FRAME: f64 = 1.0 / 60.0;
+
+fn branched_small(friction: f64) -> BranchedSmall {
+    BranchedSmall::new(BranchedSmallParameters { friction }).unwrap()
+}
+
+/// Energy of the motion in phase over that which lifts the lightest sector to the
+/// horizontal.
+fn energy<M: SmallDifferences<f64>>(model: &M, theta: &[f64], omega: &[f64]) -> f64 {
+    let none = vec![0.0; SmallOde(model).dimension() / 2 - M::LINKS];
+    let still = vec![0.0; M::LINKS];
+    let rest = model.small_energy_of(&still, &still, &none, &none);
+    let lift = M::SMALL.iter().map(|&number| {
+        let sector = M::TRANSVERSE[number];
+        let mut lifted = still.clone();
+        lifted[sector.first..sector.first + sector.links].fill(std::f64::consts::FRAC_PI_2);
+        model.small_energy_of(&lifted, &still, &none, &none) - rest
+    });
+    (model.small_energy_of(theta, omega, &none, &none) - rest) / lift.fold(f64::INFINITY, f64::min)
+}
+
+/// Least and largest ratio of the estimate to the largest error of an angle in the second
+/// that follows, over states in disorder whose motion in phase has up to the energy that
+/// lifts a sector's links to the horizontal.
+fn ratios<M: SmallDifferences<f64>, W: Cast<f64>>(
+    model: &M,
+    patterns: &DifferencePatterns,
+    whole: &W,
+) -> (f64, f64) {
+    // Errors of the steps themselves are not what is estimated.
+    let mut nearly = NearlyInPhase::new(model, patterns.clone(), 1e-3, FRAME).unwrap();
+    let mut seed = 1_u64;
+    let mut number = || {
+        // SplitMix64.
+        seed = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut bits = (seed ^ (seed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        2.0 * ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 1.0
+    };
+    let count = SmallOde(model).dimension() / 2 - M::LINKS;
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for size in [0.01, 0.05, 0.2, 0.5] {
+        let mut followed = 0;
+        while followed < 100 {
+            let theta: Vec<f64> = (0..M::LINKS).map(|_| number()).collect();
+            let omega: Vec<f64> = (0..M::LINKS).map(|_| 6.0 * number()).collect();
+            if energy(model, &theta, &omega) > 1.0 {
+                continue;
+            }
+            followed += 1;
+            let difference: Vec<f64> = (0..count).map(|_| size * number()).collect();
+            let rates: Vec<f64> = (0..count).map(|_| 5.0 * size * number()).collect();
+            let mut state = patterns.to_whole(&[theta, difference, omega, rates].concat());
+            let estimate = nearly.error(&state);
+            let start = State::new(0.0, state.clone());
+            let times: Vec<f64> = (1..=60).map(|frame| f64::from(frame) / 60.0).collect();
+            let mut worst = 0.0_f64;
+            let method = Dop853::new(Options::with_tolerance(1e-11));
+            method
+                .sample(&AbsoluteAngles(whole), &start, &times, |_, full| {
+                    nearly.step(&mut state);
+                    for (a, b) in full.iter().zip(&state).take(W::LINKS) {
+                        worst = worst.max((a - b).abs());
+                    }
+                })
+                .unwrap();
+            (least, most) = (least.min(estimate / worst), most.max(estimate / worst));
+        }
+    }
+    (least, most)
+}
+
+#[test]
+fn estimates_are_near_the_errors() {
+    let model = branched_small(1e-4);
+    let patterns = DifferencePatterns::of(&model, BranchedSmall::WHOLE).unwrap();
+    let (least, most) = ratios(&model, &patterns, &branched(1e-4));
+    assert!(least > 0.8 && most < 30.0, "branched: {least} {most}");
+    let model = TreeSmall::new();
+    let patterns = DifferencePatterns::of(&model, TreeSmall::WHOLE).unwrap();
+    let (least, most) = ratios(&model, &patterns, &Tree::new());
+    assert!(least > 0.3 && most < 30.0, "tree: {least} {most}");
+}
+
+/// Differences that swing widely fade under friction: the full model first, and the one of
+/// small differences once they are small, with the whole run within the tolerance.
+#[test]
+fn the_switched_motion_meets_the_tolerance() {
+    let whole = branched(2e-3);
+    let model = branched_small(2e-3);
+    let sub_step = longest_sub_step(&whole);
+    let seconds = Linear::about(&whole, &[0.0; 3]).unwrap().fading_time();
+    let patterns = DifferencePatterns::of(&model, BranchedSmall::WHOLE).unwrap();
+    let start = State::at_rest(0.0, &[0.3, 0.6, -0.2]);
+    let frames = || Frames::new(AbsoluteAngles(&whole), &start, sub_step).unwrap();
+    for tolerance in [1e-2, 1e-3] {
+        let nearly = NearlyInPhase::new(&model, patterns.clone(), sub_step, FRAME).unwrap();
+        let mut full = frames();
+        let mut switched = Switched::new(frames(), nearly, tolerance, seconds);
+        let mut worst = 0.0_f64;
+        for _ in 0..1200 {
+            full.advance(FRAME);
+            switched.advance();
+            for (a, b) in full.state().iter().zip(switched.state()).take(3) {
+                worst = worst.max((a - b).abs());
+            }
+        }
+        let log = switched.log();
+        assert!(worst < tolerance, "{tolerance}: {worst}");
+        assert!(
+            log.full_frames > 30 && log.approximate_frames > 300,
+            "{log}"
+        );
+        assert_eq!(log.switches, 1, "{log}");
+    }
+}
+
+/// What a state has of differences that no pattern has is an error; without any, there is
+/// none, and the motion is the one in phase.
+#[test]
+fn what_is_left_out_is_told() {
+    let model = TreeSmall::<f32>::default();
+    let patterns = DifferencePatterns::of(&model, TreeSmall::WHOLE).unwrap();
+    let mut nearly = NearlyInPhase::new(&model, patterns, 5e-3_f32, FRAME as f32).unwrap();
+    let in_phase = |own: [f32; 3]| {
+        let mut whole = [0.0; 7];
+        TreeSmall::WHOLE.angles(&own, &mut whole).unwrap();
+        whole
+    };
+    let mut state = in_phase([0.2, 0.3, 0.1]).to_vec();
+    state.extend([0.0; 7]);
+    assert_eq!((nearly.error(&state), nearly.validity(&state)), (0.0, 0.0));
+    nearly.step(&mut state);
+    assert!(state.iter().all(|value| value.is_finite()) && nearly.error(&state) < 1e-6);
+    // One leaf alone: neither all pairs alike nor in phase.
+    state[6] += 0.1;
+    assert!(nearly.error(&state) > 0.02 && nearly.validity(&state) > 0.02);
+}
+
+#[test]
+fn what_the_model_does_not_know() {
+    let model = branched_small(1e-4);
+    let patterns = DifferencePatterns::of(&model, BranchedSmall::WHOLE).unwrap();
+    let refused = NearlyInPhase::new(&model, patterns.clone(), 0.01, 0.0);
+    assert!(matches!(
+        refused,
+        Err(InputError::Step { name: "frame", .. })
+    ));
+    let mut nearly = NearlyInPhase::new(&model, patterns, 0.01, FRAME).unwrap();
+    let mut state = [0.1, 0.2, 0.1, 0.0, 0.0, 0.0];
+    nearly.step_under(&mut state, &[0.0; 3]);
+    assert!(state.iter().all(|value| value.is_finite()));
+    nearly.step_under(&mut state, &[0.0, 0.1, 0.0]);
+    assert!(state.iter().all(|value| value.is_nan()));
+    assert!(nearly.error(&[0.1; 5]).is_nan());
+}
+
+/// As a candidate it is right where differences are small, and wrong where they are not.
+#[test]
+fn the_advisor_measures_it() {
+    let (whole, model) = (branched(1e-4), branched_small(1e-4));
+    let patterns = DifferencePatterns::of(&model, BranchedSmall::WHOLE).unwrap();
+    let form = ModelForm::new("nearly in phase")
+        .entry("in_phase(child), emit(small)")
+        .nearly_in_phase(patterns);
+    let exact = AbsoluteAngles(&whole);
+    let right = |difference: f64| {
+        let start = [0.3, 0.1 + difference, 0.1 - difference];
+        let advice = Advisor::new(&exact)
+            .start(State::at_rest(0.0, &start))
+            .until(2.0)
+            .wanted(Wanted::angles(1e-4))
+            .advise(&Candidates::new().rates(&form, SmallOde(&model)))
+            .unwrap();
+        advice.chosen().is_some_and(|chosen| chosen.is_right())
+    };
+    assert!(right(0.01) && !right(0.3));
+}
