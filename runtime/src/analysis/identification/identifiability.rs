@@ -177,7 +177,7 @@ impl fmt::Display for Identifiability {
             write!(
                 f,
                 "\n  Measure {} (scale, ruler), and the others follow; as they are, they go with \
-                 its start.",
+                 its value.",
                 held.join(", ")
             )?;
         }
