@@ -144,7 +144,7 @@ impl Problem<'_> {
 }
 
 /// Transition over h usual intervals and the variance that the jerk adds, in units of σ²
-/// (physics §17).
+/// (physics §16).
 fn step(h: f64, ratio: f64) -> (Matrix3<f64>, Matrix3<f64>) {
     let transition = Matrix3::new(1.0, h, 0.5 * h * h, 0.0, 1.0, h, 0.0, 0.0, 1.0);
     let factorial = [1.0, 1.0, 2.0];

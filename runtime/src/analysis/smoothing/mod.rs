@@ -1,7 +1,7 @@
 //! Angles, velocities and accelerations behind measured angles, with their errors.
 //!
 //! [`KinematicSmoother`] knows of the motion only that it is smooth: its jerk is white noise
-//! (physics §17), so that the estimate is the quintic smoothing spline of the data. How much
+//! (physics §16), so that the estimate is the quintic smoothing spline of the data. How much
 //! noise and how much jerk there is, it finds out by likelihood. [`ModelSmoother`] knows the
 //! equations of motion, [`LocalPolynomials`] nothing: a cross-check. A [`SmoothedMotion`] gives
 //! means and standard deviations, and draws: motions that the data allow, as likely as they

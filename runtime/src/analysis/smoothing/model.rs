@@ -14,7 +14,7 @@ use crate::system::State;
 /// A smoother that knows the equations of motion: between times the state follows them but
 /// for white angular accelerations of a spectral density q, which stand for all that the
 /// model lacks. Gauss–Newton iteration of a Kalman smoother about the motion's own
-/// linearisation (physics §17; B. M. Bell, *The iterated Kalman smoother as a Gauss–Newton
+/// linearisation (physics §16; B. M. Bell, *The iterated Kalman smoother as a Gauss–Newton
 /// method*, SIAM J. Optim. 4 (1994)).
 ///
 /// With the likeliest q, errors are as small as the model is good: with the right model
