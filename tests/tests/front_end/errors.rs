@@ -55,12 +55,20 @@ fn every_message_has_a_golden() {
         .map(|variant| variant.ident.to_string())
         .collect();
     assert!(!messages.is_empty());
-    // The front end does not run the algebra.
+    // The front end does not run the algebra; texts at run time are those of the package
+    // `branched-pendulum-trees`.
     let messages: BTreeSet<String> = messages
         .into_iter()
         .filter(|name| {
-            let later = ["Algebra", "ConstantRange", "TooManyTerms", "TooManyValues"];
-            !later.contains(&name.as_str())
+            let elsewhere = [
+                "Algebra",
+                "ConstantRange",
+                "TooManyTerms",
+                "TooManyValues",
+                "NoTokens",
+                "NotAtRunTime",
+            ];
+            !elsewhere.contains(&name.as_str())
         })
         .collect();
     let deep = nested_too_deeply();
