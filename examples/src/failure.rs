@@ -87,7 +87,7 @@ pub enum Failure {
     Parameters {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The reason.
         source: Box<dyn Error + Send + Sync>,
     },
     /// Measured angles could not be smoothed.
@@ -125,7 +125,7 @@ pub enum Failure {
     Sealed {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The reason.
         source: SealError,
     },
     /// Shards do not make a whole.

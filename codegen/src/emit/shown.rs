@@ -25,7 +25,7 @@ impl Emission<'_> {
             .any(|link| !link.nonlinear.is_none())
     }
 
-    /// What formulas in symmetric coordinates call D.
+    /// The matrix that formulas in symmetric coordinates call D.
     pub(super) fn braking_note(&self) -> &'static str {
         match self.has_nonlinear_friction() {
             true => {

@@ -294,7 +294,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The same of the power of friction, which takes the rates alone and may be zero. None
+    /// The function for the power of friction, which takes the rates alone and may be zero. None
     /// where it takes the motion too.
     fn friction_by_sector(&self) -> TokenStream {
         let (runtime, none) = (self.runtime(), self.no_answer("friction_power"));
@@ -342,7 +342,7 @@ impl Emission<'_> {
         arms.collect()
     }
 
-    /// What stands for a quantity that has no answer.
+    /// Stand-in for a quantity that has no answer.
     fn no_answer(&self, quantity: &str) -> TokenStream {
         match quantity {
             "accelerations" => quote!(false),

@@ -241,7 +241,7 @@ impl Derivation<'_> {
         }
     }
 
-    /// What the mismatch adds to W = {H_d, H}, every term of it with a mismatch. With
+    /// Terms that the mismatch adds to W = {H_d, H}, every term of it with a mismatch. With
     /// q̇ = q̇₀ + u, where q̇₀ belongs to the same momenta in the mean tree,
     /// kinetic: Σ ∂V/∂q_s u_s + ∂T/∂p_s (½ q̇ᵀ ∂_s(M̃ − M̃₀) q̇ + ½ uᵀ ∂_s M̃₀ (2 q̇ − u)),
     /// potential: −Σ ∂T/∂p_s ∂(U − U₀)/∂q_s.

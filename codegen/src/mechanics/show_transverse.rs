@@ -37,7 +37,7 @@ impl Mechanics {
             .try_for_each(|small| self.small(f, all, small))
     }
 
-    /// What the differences that act back add to the equations of the in-phase motion.
+    /// Terms that differences which act back add to the equations of the in-phase motion.
     fn small(
         &self,
         f: &mut fmt::Formatter<'_>,

@@ -14,7 +14,7 @@ use super::frame::DerivedFrame;
 use super::transverse::{SmallMotion, TransverseFormulas};
 use super::{MatrixEntry, TransverseMechanics};
 
-/// What the differences of one sector add to the equations of the in-phase motion, and
+/// Terms that the differences of one sector add to the equations of the in-phase motion, and
 /// what couples the two: with the sector's own masses M_δ,
 /// (M + `mass`) θ̈ + `coupling`ᵀ δ̈ + b + `bias` = 0 and
 /// `coupling` θ̈ + M_δ δ̈ + `difference_bias` = 0.

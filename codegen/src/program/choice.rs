@@ -154,7 +154,7 @@ impl Lowering<'_> {
             .accelerations
     }
 
-    /// The same around links whose acceleration is given: their rows are the torques
+    /// That choice around links whose acceleration is given: their rows are the torques
     /// that it takes.
     fn factorization_around(&mut self, environment: &mut Environment<'_>, held: &Held) -> Moved {
         let frame = environment.frame;

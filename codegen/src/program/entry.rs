@@ -125,7 +125,7 @@ impl PointKind {
 pub enum Cause {
     /// The tree of equal copies that have the means of all constants.
     MeanTree,
-    /// What the copies differ in.
+    /// Values in which the copies differ.
     Mismatch,
 }
 
@@ -199,7 +199,7 @@ pub enum Purpose {
     /// Energies of all sectors, the transfers into them and the power of other
     /// forces.
     Budget(EnergyDefinition),
-    /// The same with the power of torques from outside.
+    /// That budget with the power of torques from outside.
     BudgetUnder(EnergyDefinition),
     /// W of all sectors by parts: exact, or through an order.
     SectorTransfers(Option<(Counting, u32)>),

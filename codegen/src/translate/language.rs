@@ -1,4 +1,4 @@
-//! What languages differ in.
+//! Differences between languages.
 
 /// A language that programs can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -49,7 +49,7 @@ impl Translation<'_> {
         lines.join("\n")
     }
 
-    /// What a reader has to know.
+    /// Remarks that a reader needs.
     fn title(&self) -> Vec<String> {
         let Scene {
             name,

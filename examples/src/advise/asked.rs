@@ -66,7 +66,7 @@ impl OutputName {
     }
 }
 
-/// What advice is asked for.
+/// Questions for which advice is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// The scene.

@@ -77,7 +77,7 @@ fn survey(scene: SceneName, arguments: &Arguments) -> Result<Surveyed, Failure> 
     })
 }
 
-/// What was chosen in a scene.
+/// Choices in a scene.
 fn table(surveyed: &Surveyed) -> String {
     let mut text = format!("{}\n", surveyed.scene.title());
     for (tolerance, advice) in TOLERANCES.iter().zip(&surveyed.advice) {

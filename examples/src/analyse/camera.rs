@@ -10,7 +10,7 @@ use super::scenes::{RealApparatus, RealApparatusParameters};
 use crate::branched_double::Friction;
 use crate::failure::Failure;
 
-/// What a camera sees of the apparatus, each link by two dots.
+/// Pictures of the apparatus by a camera, each link by two dots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Pictures a second.
@@ -36,7 +36,7 @@ pub struct Release {
     pub duration: f64,
 }
 
-/// What is real of an apparatus, whatever is assumed of it.
+/// Facts of an apparatus, whatever is assumed of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Real {
     /// Friction in the pivots.

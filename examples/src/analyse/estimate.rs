@@ -30,7 +30,7 @@ pub mod quantity {
 pub struct Estimate<const N: usize> {
     /// Rates of the coordinates, rad/s.
     pub rates: Bands<N>,
-    /// What follows from the motion: [`quantity`] says which stands where.
+    /// Quantities that follow from the motion: [`quantity`] says which stands where.
     pub energies: Bands<{ quantity::COUNT }>,
     /// Standard deviation of the links' angles that was found, rad.
     pub noise: f64,
@@ -59,7 +59,7 @@ pub struct Measured<'a, const N: usize> {
     pub record: Record<'a, N>,
 }
 
-/// What is told of a motion beside itself.
+/// Quantities that are told of a motion beside itself.
 struct Told {
     noise: f64,
     whiteness: f64,

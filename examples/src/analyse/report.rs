@@ -1,4 +1,4 @@
-//! What was read, assumed and found, in words and as a table.
+//! Findings, assumptions and results, in words and as a table.
 
 use std::fmt::Write;
 

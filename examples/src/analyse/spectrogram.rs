@@ -28,7 +28,7 @@ const LEVELS: [f64; 5] = [1e-3, 3e-3, 0.01, 0.03, 0.1];
 const MOST: usize = 4;
 const SMALLEST: f64 = 0.02;
 
-/// What a coordinate's angle shows in each stretch.
+/// Amplitudes and lines of a coordinate's angle in each stretch.
 pub struct Spectrogram {
     symbol: &'static str,
     spectra: Vec<Passage<Spectrum>>,
@@ -140,7 +140,7 @@ impl Spectrogram {
         let title = format!("Amplitudes of sin {symbol} in stretches of {SPAN} s, and its lines");
         let panel = Panel::new(Axis::linear("frequency (Hz)").range(0.0, TOP))
             .heatmap(&x, &y, &values, &LEVELS)
-            .series(Series::points("lines", &at, &lines).color(Color::rgb(255, 255, 255)));
+            .series(Series::points("lines", &at, &lines).color(Color::rgb(225, 60, 150)));
         Chart::new(title, Axis::linear("t (s)"))
             .size(900.0, 520.0)
             .panel(panel)

@@ -1,4 +1,4 @@
-//! What the starts say together: averages with their errors.
+//! Averages over all starts, with their errors.
 
 use branched_pendulum::analysis::statistics::{
     Average, Drift, Estimate, StatisticsError, jackknife, transient,
@@ -36,12 +36,12 @@ pub enum Scale {
     Unsettled(StatisticsError),
 }
 
-/// What passes into a scale and all younger ones.
+/// Power that passes into a scale and all younger ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flux {
     /// By the integral of W along the motion, W.
     pub transferred: Average,
-    /// What friction takes there less what the motor gives there, W.
+    /// Power of friction there less that of the motor, W.
     pub dissipated: Average,
     /// The first less the second: the rate of the energy there, which has no mean.
     pub gap: Average,
@@ -59,7 +59,7 @@ pub struct PowerLaw {
     pub misfit: f64,
 }
 
-/// What the starts say together.
+/// Averages over all starts.
 #[derive(Clone, Debug)]
 pub struct Findings {
     /// Windows that were left out of all averages, by MSER-5 of the mean energy.
@@ -76,7 +76,7 @@ pub struct Findings {
     pub dissipation: Result<Average, StatisticsError>,
     /// The one less the other, W: what the steps of the integrator have lost.
     pub loss: Result<Average, StatisticsError>,
-    /// What passes into scale s and all younger ones, s = 1, 2, ….
+    /// Powers that pass into scale s and all younger ones, s = 1, 2, ….
     pub fluxes: Vec<Result<Flux, StatisticsError>>,
     /// Densities of the fluxes.
     pub densities: Vec<Density>,

@@ -43,7 +43,7 @@ fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
     let _ = text.write_fmt(arguments);
 }
 
-/// Whether averages mean anything.
+/// Says if averages mean anything.
 fn steadiness(arguments: &Arguments, findings: &Findings) -> String {
     let second = 1.0 / arguments.frequency;
     let mut text = match findings.transient {

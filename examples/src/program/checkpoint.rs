@@ -1,4 +1,4 @@
-//! What a long run has reached, in its folder: the same command goes on from there.
+//! Progress of a long run, kept in its folder: the same command goes on from there.
 
 use std::fs;
 use std::io;
@@ -40,7 +40,7 @@ impl<'j> Checkpoint<'j> {
         }
     }
 
-    /// What the run had reached, if it was interrupted.
+    /// Progress of the run, if it was interrupted.
     ///
     /// # Errors
     /// [`Failure::Sealed`] of a checkpoint that is damaged, or of another run;

@@ -246,7 +246,7 @@ impl Job {
         self.folder.as_deref()
     }
 
-    /// What the run computes, whichever part of it this process does.
+    /// Identity of the run, whichever part of it this process does.
     pub fn identity(&self) -> RunIdentity {
         let record = locked(&self.record);
         let mut arguments = record.arguments.clone();

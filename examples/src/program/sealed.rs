@@ -11,7 +11,7 @@ const HEADER: &str = "branched-pendulum data 1\n";
 /// Length of the line with the checksum.
 const CHECKSUM: usize = 9;
 
-/// What a run computes, whoever computes it: its parts and checkpoints are of no other.
+/// Identity of a run, whoever computes it: its parts and checkpoints are of no other.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RunIdentity {
     /// Name of the program.

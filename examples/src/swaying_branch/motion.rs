@@ -139,7 +139,7 @@ impl<T: Real, P: Forced<T>, A: Approximation<T>> Mover<T>
 pub struct Measured {
     /// Kind of the model, with the precision.
     pub kind: String,
-    /// What distinguishes it from others of its kind.
+    /// Setting that distinguishes it from others of its kind.
     pub setting: String,
     /// Sub-steps in a frame; 0 where there are none.
     pub sub_steps: u32,
@@ -195,7 +195,7 @@ fn distance(state: &[f64], angles: &[f64]) -> f64 {
     pairs.fold(0.0, |largest, (a, b)| largest.max((a - b).abs()))
 }
 
-/// What all models are to follow.
+/// The motion that all models are to follow.
 struct Course<'a> {
     branches: &'a Branches,
     weather: &'a Weather,

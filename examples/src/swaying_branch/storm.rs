@@ -17,7 +17,7 @@ const HIT: f32 = 1e6;
 /// Mean number of frames from one hit to the next.
 const FRAMES_BETWEEN: u64 = 600;
 
-/// What a storm did to the branch.
+/// Effects of a storm on the branch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Storm {
     /// Frames of it.

@@ -16,7 +16,7 @@ impl Color {
     }
 }
 
-/// What charts stand on.
+/// Background of charts.
 pub(crate) const WHITE: Color = Color::rgb(255, 255, 255);
 
 /// How a line is drawn.

@@ -125,7 +125,7 @@ pub enum ReadErrorKind {
     /// Rows of a header that do not fit each other.
     #[error("{what}")]
     Header {
-        /// What is wrong with it.
+        /// The reason.
         what: String,
     },
     /// Two columns of one name.
@@ -184,7 +184,7 @@ pub enum ReadErrorKind {
     /// No column is left for angles, or no tracks for markers.
     #[error("{what}")]
     Nothing {
-        /// What is missing.
+        /// Name of the missing thing.
         what: String,
     },
     /// The unit of angles cannot be made out.
@@ -218,7 +218,7 @@ pub enum ReadErrorKind {
     /// An option that is impossible.
     #[error("{what}")]
     Option {
-        /// What is wrong with it.
+        /// The reason.
         what: String,
     },
 }
@@ -233,7 +233,7 @@ impl ReadErrorKind {
     }
 }
 
-/// What a cell may have meant.
+/// Likely meaning of a cell.
 fn hint(text: &str) -> &'static str {
     let digits = text.chars().filter(char::is_ascii_digit).count();
     let marks = text.chars().filter(|c| matches!(c, '.' | ',')).count();

@@ -1,4 +1,4 @@
-//! What a reader found out about a file.
+//! Findings of a reader about a file.
 
 use core::fmt;
 

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// What stands between cells.
+/// Separator of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delimiter {
     /// `,`

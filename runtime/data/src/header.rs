@@ -1,4 +1,4 @@
-//! What stands above the numbers: names, units, tracks.
+//! Lines above the numbers: names, units, tracks.
 
 use super::error::{Place, ReadErrorKind};
 use super::format::Line;

@@ -16,7 +16,7 @@ pub struct LinkMarkers {
     pub lower: String,
 }
 
-/// What tells the direction of gravity in a picture.
+/// Source of the direction of gravity in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub enum Gravity {
     /// The axis of y: the camera is level.

@@ -22,7 +22,7 @@ const NORMAL: f64 = 1.4826;
 /// Largest part of a record that can be called exceptional.
 const LARGEST_PART: f64 = 0.05;
 
-/// What was marked.
+/// Samples that were marked.
 pub(crate) enum Marked {
     /// So many samples.
     Some(usize),

@@ -53,7 +53,7 @@ pub struct Recording {
     pub links: Vec<LinkSeries>,
     /// How even the times are.
     pub timing: Timing,
-    /// What was detected, assumed and marked, the table's findings first.
+    /// Facts detected, assumed and marked, the table's findings first.
     pub findings: Vec<Finding>,
 }
 
@@ -136,7 +136,7 @@ fn check(table: &Table, links: &[LinkSeries]) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// What was done to a series for the sake of its turns.
+/// Changes to a series for the sake of its turns.
 struct Unwrapped {
     jumps: usize,
     doubtful: usize,

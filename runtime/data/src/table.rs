@@ -9,10 +9,10 @@ use super::format::{DecimalMark, Delimiter, Entry, Format, Line};
 use super::header::{FileKind, Header, Track};
 use super::write::Column;
 
-/// What a caller knows about a file; what is `None` is detected.
+/// Knowledge of a caller about a file; fields that are `None` are detected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct TableOptions {
-    /// What stands between cells.
+    /// Separator of cells.
     pub delimiter: Option<Delimiter>,
     /// The mark between whole numbers and fractions.
     pub decimal: Option<DecimalMark>,
@@ -192,7 +192,7 @@ impl Table {
         self.values.get(column).map_or(&[], Vec::as_slice)
     }
 
-    /// What was detected and assumed.
+    /// Facts detected and assumed.
     pub fn findings(&self) -> &[Finding] {
         &self.findings
     }

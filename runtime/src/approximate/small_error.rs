@@ -11,7 +11,7 @@ use crate::system::{DifferencePatterns, SmallDifferences, SmallOde};
 const GROWTH: f64 = 6.0;
 const MOST_GROWTH: f64 = 20.0;
 
-/// What the estimate of [`NearlyInPhase`](super::NearlyInPhase) is made of.
+/// The parts that the estimate of [`NearlyInPhase`](super::NearlyInPhase) is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SmallError<T> {
     /// Least and largest Ω² of a difference.

@@ -249,7 +249,7 @@ trait RegisterFunction<P: Cast<T>, T: Scalar> {
     ) -> Option<()>;
 }
 
-/// What a [`StateFunction`] returns.
+/// Result of a [`StateFunction`].
 struct ValuesOf<F, const A: usize>(PhantomData<F>);
 
 impl<P, T, F, const A: usize> RegisterFunction<P, T> for ValuesOf<F, A>

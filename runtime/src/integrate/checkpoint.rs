@@ -51,7 +51,7 @@ impl<T: Real> Checkpoint<T> {
     }
 }
 
-/// What a method remembers beside its state. A method names each number of it once,
+/// The memory of a method beside its state. A method names each number of it once,
 /// in one function that both saves and restores.
 #[derive(Debug)]
 pub struct Memory<T> {

@@ -182,7 +182,7 @@ impl<T: Scalar> ScaleBudget<T> {
         self.at(&self.transfers, to, from)
     }
 
-    /// What a scale receives from all others, W: Σ_r W(r→s).
+    /// Returns the power that a scale receives from all others, W: Σ_r W(r→s).
     #[must_use]
     pub fn received(&self, scale: usize) -> T {
         self.sum(scale, |from| self.transfer(from, scale))

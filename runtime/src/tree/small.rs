@@ -29,7 +29,7 @@ pub struct SmallTree<E, T> {
     equations: PhantomData<E>,
 }
 
-/// What a tree is evaluated at: angles, angular velocities, and torques from outside where
+/// State of an evaluation: angles, angular velocities, and torques from outside where
 /// there are any.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkStates<'a, T> {

@@ -148,7 +148,7 @@ impl<T: Scalar> Courses<T> {
         [x, y, torque]
     }
 
-    /// The same as the equations take it, which are in SI units.
+    /// That drive as the equations take it, which are in SI units.
     pub(crate) fn root(&self, time: T) -> RootDrive<T> {
         let [x, y, torque] = self.at(time);
         RootDrive {

@@ -45,7 +45,7 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
     }
 }
 
-/// What moves a tree from outside.
+/// Actions on a tree from outside.
 #[derive(Clone, Copy)]
 pub(crate) struct Acting<'a, T> {
     pub(crate) drive: Option<RootDrive<T>>,

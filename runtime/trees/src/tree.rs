@@ -65,7 +65,7 @@ pub struct PendulumTree<T = f64> {
     pub(crate) drive: Option<Courses<T>>,
 }
 
-/// What is the same for trees on all scalars.
+/// Parts that trees on all scalars share.
 pub(crate) struct Described {
     description: TreeDescription,
     values: Vec<f64>,

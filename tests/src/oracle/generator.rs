@@ -46,7 +46,7 @@ pub fn sample(recipe: &Recipe, seed: u64) -> Sample {
     grown(recipe, seed, false)
 }
 
-/// The same with Coulomb and quadratic friction and drag.
+/// Such a tree with Coulomb and quadratic friction and drag.
 pub fn braked_sample(recipe: &Recipe, seed: u64) -> Sample {
     grown(recipe, seed, true)
 }

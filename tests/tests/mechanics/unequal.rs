@@ -74,7 +74,7 @@ const NESTED: &str = "gravity = 9.80665,
         ] * 2
     ]";
 
-/// The same in numbers.
+/// Those formulas in numbers.
 fn nested() -> Tree {
     let arm = |mass, spring, rest| Link {
         spring,

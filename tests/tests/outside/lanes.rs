@@ -205,7 +205,7 @@ fn batches_under_torques() {
     }
 }
 
-/// The same of a tree in loops over generations, against each alone.
+/// Lanes of a tree in loops over generations, against each alone.
 #[test]
 fn batches_of_generations_under_torques() {
     const STATES: usize = 13;

@@ -1,4 +1,4 @@
-//! What acts on a tree from outside at run time: torques in every form of tree, links whose
+//! Actions on a tree from outside at run time: torques in every form of tree, links whose
 //! motion is prescribed, parameters that change.
 
 mod balance;

@@ -1,4 +1,4 @@
-//! What budgets by scale promise of themselves: sums, rates, antisymmetry, exact zeros,
+//! Promises of budgets by scale: sums, rates, antisymmetry, exact zeros,
 //! many states at once.
 
 use super::*;

@@ -1,4 +1,4 @@
-//! The same budgets, from the program of the tree written out.
+//! Budgets by scale against those of the tree written out.
 
 use super::*;
 use branched_pendulum_codegen::Stages;

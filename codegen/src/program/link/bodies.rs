@@ -83,7 +83,7 @@ impl Lowering<'_> {
         .map(|quantity| self.quantity(quantity))
     }
 
-    /// The same as values.
+    /// These numbers as values.
     pub(super) fn laws(&mut self, link: &Link) -> [ValueId; 5] {
         if link.nonlinear.is_none() {
             return [0, 0, 1, 0, 1].map(|number| self.builder.integer(number));

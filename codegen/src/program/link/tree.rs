@@ -30,7 +30,7 @@ struct Solved {
     groups: Vec<(Pair, Vec<usize>)>,
 }
 
-/// What is known of a link's acceleration on the way down.
+/// Knowledge of a link's acceleration on the way down.
 enum Way {
     /// The factors of it.
     Free(Elimination),
@@ -49,7 +49,7 @@ impl Lowering<'_> {
             .accelerations
     }
 
-    /// The same around links whose acceleration is given.
+    /// That solve around links whose acceleration is given.
     pub(in crate::program) fn recursion_around(
         &mut self,
         scene: &Scene,

@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::program::Job;
 use scene::TreeParameters;
 
-/// What is followed.
+/// The quantities that are followed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Release {
     /// Time followed, s.

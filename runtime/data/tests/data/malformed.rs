@@ -255,7 +255,7 @@ fn malformed_files_name_their_place() {
     }
 }
 
-/// What is asked for and is not there, and bytes that are no text.
+/// Requests for what is not there, and bytes that are no text.
 #[test]
 fn wrong_requests_name_what_there_is() {
     let table = table("t,upper,lower,p x,p y\n0.0,1,1,0,0\n0.1,1,1,0,0\n0.2,1,1,0,0\n");

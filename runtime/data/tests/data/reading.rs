@@ -20,7 +20,7 @@ fn close(found: Option<f64>, expected: f64, tolerance: f64) {
     );
 }
 
-/// The same two angles, written in every way that is understood.
+/// Two angles, written in every way that is understood.
 #[test]
 fn wide_tables_read_without_an_option() {
     let (times, [one, two]) = swing();

@@ -47,7 +47,7 @@ pub type Visit<'v> = dyn FnMut(usize, usize, &[f64]) + 'v;
 /// }
 /// ```
 pub trait Candidate {
-    /// What it is made of.
+    /// Its parts.
     fn name(&self) -> CandidateName;
 
     /// The numbers that may be chosen for it.

@@ -5,7 +5,7 @@ use super::paths::{OutputValues, Paths};
 use super::truth::Truth;
 use super::wanted::Wanted;
 
-/// What an output is judged by.
+/// Measure by which an output is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Criterion {
@@ -54,7 +54,7 @@ impl Comparison<'_> {
         self.truth.trusted[output] < self.times.len()
     }
 
-    /// What an output is judged by beyond the time to which it can be followed; none
+    /// Measure by which an output is judged beyond the time to which it can be followed; none
     /// where there is too little of it.
     pub(super) fn beyond(&self, output: usize) -> Option<Criterion> {
         let rest = self.times.len() - self.truth.trusted[output];

@@ -50,7 +50,7 @@ impl Paths {
         }
     }
 
-    /// What roundings add up to along the way of a start, of either sign: in proportion to
+    /// Sum of roundings along the way of a start, of either sign: in proportion to
     /// the largest value of each component. One that is zero all the way has none, and
     /// those that are always equal have equal ones.
     pub(super) fn roundings(&self, start: usize, from: &State<f64>) -> Vec<f64> {

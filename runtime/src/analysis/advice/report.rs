@@ -1,4 +1,4 @@
-//! What an advisor says.
+//! Answer of an advisor.
 
 use std::fmt;
 
@@ -20,7 +20,7 @@ pub struct Followed {
     pub reference_error: f64,
     /// Time from which on its values are not known, s: none if there is no such time.
     pub chaotic_from: Option<f64>,
-    /// What it is judged by from then on.
+    /// Measure by which it is judged from then on.
     pub beyond: Option<Criterion>,
 }
 

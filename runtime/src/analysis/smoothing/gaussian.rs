@@ -9,7 +9,7 @@ pub(super) struct Gaussian<const D: usize> {
     pub(super) variance: SMatrix<f64, D, D>,
 }
 
-/// What a datum differed from what was expected, and the variance of that.
+/// Difference of a datum from the expected one, and its variance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Innovation {
     pub(super) value: f64,

@@ -116,7 +116,7 @@ struct Record {
     degree: usize,
 }
 
-/// What polynomials leave of the data.
+/// Remainder of the data beside polynomials.
 struct Errors {
     /// Mean square by which data differ from what the others foretell.
     foretold: f64,

@@ -51,7 +51,7 @@ impl<const D: usize> Weights<D> {
     }
 }
 
-/// What a smoother knows of its state beside the steps.
+/// Knowledge of a smoother's state beside the steps.
 pub(super) struct Scale<const D: usize> {
     /// Standard deviation of the data.
     pub(super) noise: f64,
@@ -155,7 +155,7 @@ impl<const D: usize> SmoothedMotion<D> {
         self.deviations.get(index).copied().unwrap_or([f64::NAN; D])
     }
 
-    /// What each datum differed from what those before it led to expect, in standard
+    /// Difference of each datum from the one that those before it led to expect, in standard
     /// deviations of that: white and normal if noise and motion are as assumed. The first
     /// `D` say nothing. [`LocalPolynomials`](super::LocalPolynomials) expect nothing: none.
     pub fn innovations(&self) -> &[f64] {

@@ -200,7 +200,7 @@ fn are_apart(waves: &[Wave], count: usize) -> bool {
     })
 }
 
-/// What waves have left of samples.
+/// Remainder of samples beside waves.
 struct Left {
     /// Amplitudes at multiples of 1/PADDED cycles over the record.
     amplitudes: Vec<f64>,

@@ -13,7 +13,7 @@ pub struct Passages {
     pub step: f64,
 }
 
-/// What was found in one stretch.
+/// Lines found in one stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Passage<T> {
     /// Time from the first sample of the record to the middle of the stretch, s.

@@ -68,7 +68,7 @@ pub fn longest_sub_step<T: Real, P: Cast<T>>(model: &P) -> T {
     if step > longest { longest } else { step }
 }
 
-/// What accelerations are derived by.
+/// The variable by which accelerations are derived.
 #[derive(Clone, Copy, PartialEq)]
 enum Of {
     Angles,

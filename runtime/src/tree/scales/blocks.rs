@@ -38,7 +38,7 @@ const PARTS: [usize; 6] = [
     field::SPRING,
 ];
 
-/// What a link hands its children along a flow.
+/// Values that a link hands its children along a flow.
 const HANDED_DOWN: [usize; 4] = [PIVOT, PIVOT + 1, SHIFT + 2, SHIFT + 3];
 
 /// Numbers of neighbours that are kept for each scale.
@@ -109,7 +109,7 @@ impl Kept {
     }
 }
 
-/// What is kept at a cut.
+/// Values that are kept at a cut.
 #[derive(Clone, Copy)]
 struct Cut {
     /// Handed up by the first generation below the cut.

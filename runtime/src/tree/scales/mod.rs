@@ -155,7 +155,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
     }
 }
 
-/// What is to be computed, and where it goes.
+/// Quantities to be computed, and where they go.
 enum Wanted<'a, T> {
     Energies(&'a mut ScaleBudget<T>),
     Sectors(&'a mut [T]),

@@ -1,4 +1,4 @@
-//! What is known before any scale: motion, torques, velocities, momenta, factors.
+//! All that is known before any scale: motion, torques, velocities, momenta, factors.
 
 use super::columns::{
     CARRIED, DEFICIT, DRIVE, GAIN, MOMENT, MOTION, OUTSIDE, RISE, SPLIT, SPRING, STRAIN, VELOCITY,

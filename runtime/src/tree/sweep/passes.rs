@@ -80,13 +80,13 @@ where
 
     const SIZES: Sizes = Sizes::of::<E, V>();
 
-    /// What the equations read of a link's own motion.
+    /// Values that the equations read of a link's own motion.
     pub(super) const READ: Read = Read {
         joints: E::JOINTS,
         torques: E::FORCED,
     };
 
-    /// What they read of the motion of a parent.
+    /// Values that they read of the motion of a parent.
     pub(super) const DIRECTION: Read = Read {
         joints: false,
         torques: false,

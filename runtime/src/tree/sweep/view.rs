@@ -47,7 +47,7 @@ pub(in crate::tree) struct View<'a, N, T> {
     numbers: PhantomData<&'a mut [T]>,
 }
 
-/// What equations read of a link's motion beside sine, cosine and velocity.
+/// Values that equations read of a link's motion beside sine, cosine and velocity.
 #[derive(Clone, Copy)]
 pub(super) struct Read {
     /// Joint angle and rate.

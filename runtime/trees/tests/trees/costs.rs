@@ -1,4 +1,4 @@
-//! What one state costs, by number of links and form of the equations.
+//! Cost of one state, by number of links and form of the equations.
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -82,7 +82,7 @@ fn texts_that_are_no_tokens_or_too_much_are_refused() {
     assert!(message(many).contains("more than 65536 links"));
 }
 
-/// What a large tree takes, and that it is right at all.
+/// Cost of a large tree, and that it is right at all.
 #[test]
 fn a_tree_of_many_links_is_computed() {
     let tree = PendulumTree::parse(
