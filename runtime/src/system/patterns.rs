@@ -12,7 +12,7 @@ use crate::scalar::Scalar;
 ///
 /// Two copies have the weights ±1 where one link holds such copies, and where several
 /// do and move alike ±1/√holders, the same under each. More copies, and holders that
-/// do not do the same, take [`with`](Self::with).
+/// do not do the same, take [`chosen`](Self::chosen).
 ///
 /// ```
 /// # #[cfg(feature = "macros")] {
