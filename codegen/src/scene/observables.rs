@@ -139,8 +139,8 @@ pub const OBSERVABLE_SUFFIXES: [&str; 5] = [
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
     "accelerations", "accelerations_into", "canonical_rates", "cast", "centre_torques",
-    "centre_velocities", "centres", "children", "clone", "default", "degrees_of_freedom",
-    "end_torques", "end_velocities", "ends", "eq", "evaluate", "fmt", "from",
+    "centre_velocities", "centres", "check_parameters", "children", "clone", "default",
+    "degrees_of_freedom", "end_torques", "end_velocities", "ends", "eq", "evaluate", "fmt", "from",
     "from_parameters_unchecked", "from_symmetric", "hamiltonian", "into", "kinetic_energy",
     "kinetic_energy_of", "link_body", "link_properties", "mass_matrix", "momenta", "new", "part",
     "pivot_torques", "pivot_velocities", "pivots", "point_torques_into",
@@ -148,7 +148,7 @@ const METHODS: &[&str] = &[
     "small_accelerations", "small_accelerations_into", "small_accelerations_of", "small_energy",
     "small_energy_of", "stiffness_matrix", "symmetric_accelerations", "symmetric_accelerations_into",
     "symmetric_momenta", "symmetric_velocities", "taylor_coefficients",
-    "taylor_coefficients_into", "to_symmetric", "transfers_into", "velocities",
+    "taylor_coefficients_into", "to_symmetric", "transfers_into", "velocities", "with_parameters",
 ];
 
 /// Beginnings of names of methods that are many.
