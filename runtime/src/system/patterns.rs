@@ -29,9 +29,9 @@ use crate::scalar::Scalar;
 ///
 /// let patterns = DifferencePatterns::of::<f64, _>(&Branch::new(), Branch::WHOLE).unwrap();
 /// // Angles and velocities of the whole tree; then mean angles, the difference, their rates.
-/// let small = patterns.to_small(&[0.1, 0.5, 0.3, 0.0, 2.0, 1.0]);
-/// assert_eq!(small, [0.1, 0.4, 0.1, 0.0, 1.5, 0.5]);
-/// assert_eq!(patterns.to_whole(&small), [0.1, 0.5, 0.3, 0.0, 2.0, 1.0]);
+/// let small = patterns.to_small(&[0.125, 0.5, 0.25, 0.0, 2.0, 1.0]);
+/// assert_eq!(small, [0.125, 0.375, 0.125, 0.0, 1.5, 0.5]);
+/// assert_eq!(patterns.to_whole(&small), [0.125, 0.5, 0.25, 0.0, 2.0, 1.0]);
 /// # }
 /// ```
 #[derive(Clone, Debug, PartialEq)]

@@ -105,7 +105,7 @@ pub(super) const fn differences(sectors: &[TransverseSector], small: &[usize]) -
 ///     end.unwrap().state.values[0]
 /// };
 /// let reaction = |difference: f64| (parent(difference) - parent(0.0)) / difference.powi(2);
-/// assert!((reaction(0.02) / reaction(0.01) - 1.0).abs() < 1e-3);
+/// assert!((reaction(2e-3) / reaction(1e-3) - 1.0).abs() < 1e-3);
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
