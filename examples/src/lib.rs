@@ -16,6 +16,7 @@ pub mod integration_speed;
 pub mod program;
 pub mod quadrature;
 pub mod release_map;
+pub mod scenes;
 pub mod solvers;
 pub mod stability_map;
 pub mod swaying_branch;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use branched_pendulum_examples::branched_double::apparatus::{EXACT, PUBLISHED};
-use branched_pendulum_examples::branched_double::scenes::BranchedDouble;
+use branched_pendulum_examples::scenes::BranchedDouble;
 use branched_pendulum_examples::branched_double::{
     Arguments, Findings, Frequencies, Friction, Precision, Run,
 };

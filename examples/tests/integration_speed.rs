@@ -6,7 +6,7 @@ use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
 use branched_pendulum_examples::integration_speed::ensemble::near_threshold;
 use branched_pendulum_examples::integration_speed::measure::points;
-use branched_pendulum_examples::solvers::scenes::{Ideal, Rods};
+use branched_pendulum_examples::scenes::{BranchedDouble, Rods};
 use branched_pendulum_examples::work_precision::reference::problems;
 
 /// The error goes down with the tolerance to where it is said to.
@@ -17,7 +17,7 @@ fn errors_fall_to_rounding() {
     let (regular, rods) = (named("regular, 10 s"), named("seven rods, 10 s"));
     let method = |tolerance| Taylor::new(Options::with_tolerance(tolerance));
     for points in [
-        points(&AbsoluteAngles(&Ideal::new()), regular, 1, method).unwrap(),
+        points(&AbsoluteAngles(&BranchedDouble::new()), regular, 1, method).unwrap(),
         points(&AbsoluteAngles(&Rods::new()), rods, 1, method).unwrap(),
     ] {
         assert!(points[0].error > 1e-4, "{points:?}");
@@ -33,7 +33,7 @@ fn errors_fall_to_rounding() {
 /// makes up to a million times as much of it in 5 s.
 #[test]
 fn lanes_are_as_accurate_as_the_plain_method_near_the_threshold() {
-    let (model, starts) = (Ideal::new(), near_threshold(101));
+    let (model, starts) = (BranchedDouble::new(), near_threshold(101));
     let ode = AbsoluteAngles(&model);
     let ensemble = Ensemble::new();
     let exact = Taylor::new(Options::with_tolerance(1e-16));

@@ -10,8 +10,9 @@ use branched_pendulum::analysis::{Modes, SectorModes};
 use branched_pendulum::prelude::*;
 use branched_pendulum::{Sectors, TransferForms};
 use branched_pendulum_examples::program::{Job, Progress};
+use branched_pendulum_examples::scenes::BranchedDouble;
 use branched_pendulum_examples::transfer_orders::scenes::{apparatus, arms};
-use branched_pendulum_examples::transfer_orders::{Apparatus, Arms, Settings, Study, output};
+use branched_pendulum_examples::transfer_orders::{Arms, Settings, Study, output};
 
 /// A tree of a user's own: three leaves and a drive, with a name for a mass.
 #[branched_pendulum(
@@ -69,7 +70,7 @@ fn assert_slopes(found: &[f64], expected: &[f64]) {
 /// of order N; otherwise of order N − 1.
 #[test]
 fn the_relative_error_falls_with_the_order_of_the_amplitude() {
-    let found = slopes(&Apparatus::new(), "d", [0.05, 0.1]);
+    let found = slopes(&BranchedDouble::new(), "d", [0.05, 0.1]);
     assert_slopes(&found, &[0.0, 2.0, 4.0, 6.0, 8.0]);
     let found = slopes(&Arms::new(), "arm_d", [0.02, 0.04]);
     assert_slopes(&found[..4], &[0.0, 2.0, 4.0, 6.0]);
@@ -82,7 +83,7 @@ fn the_relative_error_falls_with_the_order_of_the_amplitude() {
 fn the_relative_error_of_the_published_form_does_not_fall() {
     let mut average = apparatus(300).unwrap().phase_average;
     average.amplitudes = vec![1e-3, 1e-2, 1e-1];
-    let errors = average.curves(&Apparatus::new()).unwrap()[0].errors(0);
+    let errors = average.curves(&BranchedDouble::new()).unwrap()[0].errors(0);
     for error in &errors {
         assert!(*error > 0.3 && (error / errors[0] - 1.0).abs() < 0.02);
     }
@@ -99,7 +100,7 @@ fn crossing(curve: &ErrorCurve, form: usize, level: f64) -> f64 {
 /// after fewer and shorter releases than the program follows.
 #[test]
 fn amplitudes_at_one_per_cent_are_those_of_the_paper_s_pendulum() {
-    let model = Apparatus::new();
+    let model = BranchedDouble::new();
     let mut settings = apparatus(2000).unwrap();
     let trajectories = &mut settings.trajectories;
     trajectories.disturbances =
@@ -119,7 +120,7 @@ fn amplitudes_at_one_per_cent_are_those_of_the_paper_s_pendulum() {
 /// modes.
 #[test]
 fn frequencies_are_those_of_the_modes() {
-    let hertz = sector_frequencies(&Apparatus::new()).unwrap()[0] / std::f64::consts::TAU;
+    let hertz = sector_frequencies(&BranchedDouble::new()).unwrap()[0] / std::f64::consts::TAU;
     assert_eq!(format!("{hertz:.7}"), "1.2580584");
 
     let model = Twigs::new();
@@ -166,7 +167,7 @@ fn sectors_that_keep_any_size_are_part_of_the_background() {
 
 #[test]
 fn impossible_settings_are_refused() {
-    let model = Apparatus::new();
+    let model = BranchedDouble::new();
     let good = apparatus(10).unwrap();
     let error = |change: fn(&mut Settings)| {
         let mut settings = good.clone();
@@ -248,7 +249,7 @@ fn program(arguments: &[&str]) -> Output {
 #[test]
 fn a_command_line_that_cannot_be_followed_is_explained() {
     for (arguments, message) in [
-        (&["--states", "9"][..], "whole number from 10 to 1000000"),
+        (&["--states", "9"][..], "9 is not in 10..=1000000"),
         (&["--states", "many"], "invalid value 'many'"),
         (&["--states"], "a value is required for '--states"),
         (

@@ -9,7 +9,7 @@ use branched_pendulum::prelude::{
 
 use super::apparatus::{Apparatus, Flow, Sample};
 use super::arguments::{Arguments, Precision};
-use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
+use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 use crate::failure::Failure;
 use crate::quadrature::GAUSS;
 

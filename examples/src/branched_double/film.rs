@@ -2,7 +2,7 @@
 
 use branched_pendulum_charts::{Film, FilmLink};
 
-use super::scenes::BranchedDouble;
+use crate::scenes::BranchedDouble;
 use super::{Arguments, Run};
 use crate::failure::Failure;
 use crate::program::Job;

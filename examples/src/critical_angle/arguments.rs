@@ -2,7 +2,6 @@
 
 use clap::Parser;
 
-use crate::program::Results;
 use crate::program::command_line::{number, numbers};
 
 /// From which release on does the antiphase mode of the paper's pendulum grow? The
@@ -69,9 +68,6 @@ pub struct Arguments {
         value_parser = number(1e-12..=1e-3, "")
     )]
     pub tolerance: f64,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
 }
 
 impl Default for Arguments {
@@ -82,8 +78,4 @@ impl Default for Arguments {
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("critical-angle-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 }

@@ -6,7 +6,6 @@ use branched_pendulum_data::Clock;
 use clap::{Parser, ValueEnum};
 
 use crate::analyse::arguments::{Unit, Zero};
-use crate::program::Results;
 use crate::program::command_line::number;
 
 /// Masses, lengths, inertias and friction of a pendulum from its measured motion: a chain of
@@ -58,9 +57,6 @@ pub struct Arguments {
     /// simulated: seed of the noise
     #[arg(long, value_name = "N", default_value = "1")]
     pub seed: u64,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
 }
 
 /// Trees that can be measured.
@@ -109,10 +105,6 @@ impl Default for Arguments {
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("identify-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 }
 
 fn parts(text: &str) -> impl Iterator<Item = &str> {

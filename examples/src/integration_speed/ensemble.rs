@@ -8,7 +8,7 @@ use branched_pendulum::ParameterError;
 use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
 
-use crate::solvers::scenes::{Damped, DampedParameters, Ideal};
+use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 
 /// How fast a way to integrate is, on one thread.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +38,7 @@ pub fn near_threshold(count: u32) -> Vec<State<f64>> {
 }
 
 /// A model of its own, and where it starts.
-type Release = (AbsoluteAngles<Damped>, State<f64>);
+type Release = (AbsoluteAngles<DampedBranchedDouble>, State<f64>);
 
 /// Paper's pendulums with friction from zero to 1e-3 N m s in every pivot, released
 /// from 50°.
@@ -48,14 +48,13 @@ type Release = (AbsoluteAngles<Damped>, State<f64>);
 pub fn friction_scan(count: u32) -> Result<Vec<Release>, ParameterError> {
     let step = FRICTION / f64::from(count.max(2) - 1);
     (0..count)
-        .map(|i| DampedParameters {
-            friction: step * f64::from(i),
-        })
-        .map(|parameters| {
-            Ok((
-                AbsoluteAngles(Damped::new(parameters)?),
-                released(50_f64.to_radians()),
-            ))
+        .map(|i| {
+            let friction = step * f64::from(i);
+            let model = DampedBranchedDouble::new(DampedBranchedDoubleParameters {
+                friction_root: friction,
+                friction_children: friction,
+            })?;
+            Ok((AbsoluteAngles(model), released(50_f64.to_radians())))
         })
         .collect()
 }
@@ -78,7 +77,7 @@ pub fn speeds(
     tolerance: f64,
     repeats: usize,
 ) -> Result<Vec<Speed>, IntegrationError<f64>> {
-    let system = AbsoluteAngles(Ideal::new());
+    let system = AbsoluteAngles(BranchedDouble::new());
     let Methods {
         ensemble,
         dop853,
@@ -105,7 +104,7 @@ pub fn speeds(
 /// # Errors
 /// Those of the integration.
 pub fn scan_speeds(
-    releases: &[(AbsoluteAngles<Damped>, State<f64>)],
+    releases: &[Release],
     end: f64,
     tolerance: f64,
     repeats: usize,

@@ -6,7 +6,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 
 use crate::failure::Failure;
-use crate::solvers::scenes::Rods;
+use crate::scenes::Rods;
 
 /// The file, as it was when the program was built.
 const FILE: &str = include_str!("../../../tests/fixtures/reference/trajectories.json");
@@ -119,7 +119,7 @@ fn numbers(text: &str, keys: &[&str]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::{RODS, Tree, problems, rods_at};
-    use crate::solvers::scenes::Rods;
+    use crate::scenes::Rods;
     use branched_pendulum::prelude::*;
 
     #[test]

@@ -1,7 +1,5 @@
 //! The methods of the runtime, for programs that compare them.
 
-pub mod scenes;
-
 use branched_pendulum::integrate::AnyIntegrator;
 use branched_pendulum::prelude::*;
 
