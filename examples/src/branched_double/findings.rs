@@ -270,11 +270,7 @@ mod tests {
             angle_deg: 0.0,
             samples: samples(&[0.0; 50]),
             intervals: vec![Default::default(); 49],
-            work: Work {
-                steps: 0,
-                rejected: 0,
-                evaluations: 0,
-            },
+            work: Work::default(),
         };
         let findings = Findings::new(&run);
         assert_eq!(findings.growth, None);

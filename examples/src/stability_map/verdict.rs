@@ -130,7 +130,12 @@ pub fn damped_reference(model: &DampedBranchedDouble) -> Result<f64, Integration
 
 /// The verdict on a run with friction whose energy at the end should be
 /// `expected`.
-pub fn damped(method: Method, setting: f64, model: &DampedBranchedDouble, expected: f64) -> Verdict {
+pub fn damped(
+    method: Method,
+    setting: f64,
+    model: &DampedBranchedDouble,
+    expected: f64,
+) -> Verdict {
     let ideal = BranchedDouble::new();
     let start = start(DAMPED_ANGLE);
     let initial = energy_of(&ideal, &start.values);

@@ -22,7 +22,7 @@ pub fn report(release: &Release, modes: &SectorModes, run: &Onset) -> String {
         "Fifteen rods, released from rest with differences of {difference} rad; torque\n\
          {torque} N m · cos(2π {frequency} Hz t) on the root; {duration} s, Dop853 at {tolerance:e}: \
          {} steps,\n{} evaluations.\n\n",
-        run.work.steps, run.work.evaluations
+        run.account.accepted, run.account.evaluations
     );
     text.push_str(&sector_table(modes, run));
     text.push('\n');
