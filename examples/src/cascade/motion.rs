@@ -125,7 +125,7 @@ struct WindowMotion<'a, P> {
     counts: bool,
 }
 
-impl<P: RodTree> Course<'_, P> {
+impl<P: RodTree> WindowMotion<'_, P> {
     /// Moves starts through the window: their states at its end, and sums over it.
     fn follow(&self, starts: &[Followed], motors: &[Motor]) -> Vec<(Vec<f64>, Window)> {
         let Arguments { steps, samples, .. } = *self.arguments;
