@@ -14,7 +14,7 @@ use branched_pendulum_examples::integration_speed::ensemble::{
 };
 use branched_pendulum_examples::integration_speed::measure::{ERRORS, Point, points, time_for};
 use branched_pendulum_examples::program::{self, Job, Progress};
-use branched_pendulum_examples::scenes::{FifteenRods, BranchedDouble, Rods, ThirtyOneRods};
+use branched_pendulum_examples::scenes::{BranchedDouble, FifteenRods, Rods, ThirtyOneRods};
 use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};
 use clap::{Parser, ValueEnum};
 
@@ -170,8 +170,7 @@ fn heading(output: &Output) -> Result<(), Failure> {
 
 fn motions(output: &Output) -> Result<(), Failure> {
     heading(output)?;
-    let mut problems = problems()?;
-    problems.retain(|problem| problem.end == END);
+    let problems = problems(&[END])?;
     let progress = output.job.progress(problems.len());
     for problem in &problems {
         match problem.tree {

@@ -106,12 +106,6 @@ impl Arguments {
     }
 }
 
-impl Default for Arguments {
-    fn default() -> Self {
-        Self::parse_from(["cascade"])
-    }
-}
-
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("cascade-output");
 

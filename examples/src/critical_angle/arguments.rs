@@ -70,12 +70,6 @@ pub struct Arguments {
     pub tolerance: f64,
 }
 
-impl Default for Arguments {
-    fn default() -> Self {
-        Self::parse_from(["critical-angle"])
-    }
-}
-
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("critical-angle-output");
 }

@@ -64,12 +64,6 @@ pub struct Arguments {
     pub tolerance: f64,
 }
 
-impl Default for Arguments {
-    fn default() -> Self {
-        Self::parse_from(["release-map"])
-    }
-}
-
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("release-map-output");
 

@@ -32,12 +32,6 @@ pub struct Arguments {
     pub storm: f64,
 }
 
-impl Default for Arguments {
-    fn default() -> Self {
-        Self::parse_from(["swaying-branch"])
-    }
-}
-
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("swaying-branch-output");
 }

@@ -111,7 +111,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     print!("{:38}", "microseconds to an error of");
     ERRORS.iter().for_each(|error| print!("{error:>9.0e}"));
     println!();
-    for problem in problems()?.iter().filter(|problem| problem.end == END) {
+    for problem in &problems(&[END])? {
         let found = match problem.tree {
             Tree::Paper => theirs::<_, 6>(&BranchedDouble::new(), problem)?,
             Tree::Rods => theirs::<_, 14>(&Rods::new(), problem)?,

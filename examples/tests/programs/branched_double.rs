@@ -1,14 +1,16 @@
 //! The program `branched-double` and the physics that it reports.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::PathBuf;
+use std::process::Output;
 
 use branched_pendulum_examples::branched_double::apparatus::{EXACT, PUBLISHED};
-use branched_pendulum_examples::scenes::BranchedDouble;
 use branched_pendulum_examples::branched_double::{
     Arguments, Findings, Frequencies, Friction, Precision, Run,
 };
+use branched_pendulum_examples::scenes::BranchedDouble;
+
+use super::{folder, text};
 
 fn run(angle_deg: f64, duration: f64, arguments: Arguments) -> Run {
     let arguments = Arguments {
@@ -147,19 +149,7 @@ fn single_precision_follows_double_precision_for_a_while() {
 }
 
 fn program(arguments: &[&str]) -> Output {
-    let program = env!("CARGO_BIN_EXE_branched-double");
-    Command::new(program).args(arguments).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
-}
-
-/// A folder of this test's own, empty.
-fn folder(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&path);
-    path
+    super::run(env!("CARGO_BIN_EXE_branched-double"), arguments)
 }
 
 #[test]

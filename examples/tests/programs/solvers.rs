@@ -1,7 +1,4 @@
-//! The programs `work-precision` and `stability-map`: what they measure, and
-//! their command lines.
-
-use std::process::{Command, Output};
+//! What `work-precision` and `stability-map` measure.
 
 use branched_pendulum::prelude::*;
 use branched_pendulum_examples::stability_map::verdict::{
@@ -58,33 +55,4 @@ fn times_are_interpolated_between_runs() {
     assert_eq!(time(1.0), Some(10.0));
     assert_eq!(time(1e-5), None);
     assert_eq!(time_to_error(&runs, Method::Dop853, 1.0), None);
-}
-
-fn run(program: &str, arguments: &[&str]) -> Output {
-    Command::new(program).args(arguments).output().unwrap()
-}
-
-#[test]
-fn a_command_line_that_cannot_be_followed_is_explained() {
-    for program in [
-        env!("CARGO_BIN_EXE_work-precision"),
-        env!("CARGO_BIN_EXE_stability-map"),
-    ] {
-        for (arguments, message) in [
-            (&["--output"][..], "a value is required for '--output"),
-            (
-                &["--output", "a", "--output", "b"],
-                "cannot be used multiple times",
-            ),
-            (&["--steps", "1"], "unexpected argument '--steps'"),
-        ] {
-            let output = run(program, arguments);
-            let error = String::from_utf8(output.stderr).unwrap();
-            assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-            assert!(error.contains(message), "{error}");
-        }
-        let help = run(program, &["--help"]);
-        assert!(help.status.success());
-        assert!(String::from_utf8(help.stdout).unwrap().contains("Usage: "));
-    }
 }

@@ -11,6 +11,8 @@ use branched_pendulum_examples::cascade::onset::scene::{Tree, TreeParameters, mo
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
+use super::text;
+
 /// A pair of outermost rods moves against each other on a pivot at rest.
 #[test]
 fn the_outermost_sectors_have_the_frequency_of_a_rod() {
@@ -73,9 +75,7 @@ const SHORT: &[&str] = &[
 ];
 
 fn folder(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("cascade-{name}"));
-    let _ = fs::remove_dir_all(&path);
-    path
+    super::folder(&format!("cascade-{name}"))
 }
 
 /// The options of the short run, but for those that `more` has.
@@ -174,7 +174,7 @@ fn a_checkpoint_of_another_run_is_refused() {
     refused(&["--duration", "100000"], "damaged");
 }
 
-/// 64 shards, and what they are cut from.
+/// What 64 shards are cut from.
 const STARTS: &[&str] = &["--starts", "128", "--duration", "30"];
 
 fn same_tables(whole: &Path, merged: &Path) {
@@ -190,30 +190,38 @@ fn same_tables(whole: &Path, merged: &Path) {
     }
 }
 
-/// Two workers take shards from a queue; one of them is killed with its shard, which is
-/// computed again. The merged tables are those of one process.
 #[test]
 fn shards_make_the_tables_of_one_process() {
-    let (whole, swept) = (folder("one-process"), folder("shards"));
-    finished(&command(&whole, STARTS).output().unwrap());
+    shards("64-shards", 64, STARTS);
+}
+
+#[test]
+#[ignore = "a thousand processes: cargo test --test programs -- --ignored a_thousand"]
+fn a_thousand_shards_make_the_tables_of_one_process() {
+    let starts = &["--starts", "1000", "--duration", "20", "--steps", "64"];
+    shards("1000-shards", 1000, starts);
+}
+
+/// Two workers take shards from a queue; one of them is killed halfway with its shard, which
+/// is computed again. The merged tables are those of one process.
+fn shards(name: &str, count: u32, starts: &[&str]) {
+    let (whole, swept) = (folder(&format!("{name}-whole")), folder(name));
+    finished(&command(&whole, starts).output().unwrap());
     let next = AtomicU32::new(0);
-    let shard = |index: u32| {
-        let shard = format!("{index}/64");
-        let mut own = STARTS.to_vec();
-        own.extend(["--shard", &shard]);
-        command(&swept, &own)
-    };
+    let part = |option: &str, value: &str| command(&swept, &[starts, &[option, value]].concat());
+    let shard = |index: u32| part("--shard", &format!("{index}/{count}"));
+    let killed = count / 2;
     std::thread::scope(|scope| {
         for _ in 0..2 {
             scope.spawn(|| {
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
-                    if index >= 64 {
+                    if index >= count {
                         break;
                     }
-                    if index == 32 {
+                    if index == killed {
                         let mut child = shard(index).spawn().unwrap();
-                        std::thread::sleep(Duration::from_millis(30));
+                        std::thread::sleep(Duration::from_millis(5));
                         child.kill().unwrap();
                         child.wait().unwrap();
                         // Its work is lost; the other one goes on.
@@ -224,27 +232,18 @@ fn shards_make_the_tables_of_one_process() {
             });
         }
     });
-    let merge = || {
-        let mut own = STARTS.to_vec();
-        own.extend(["--merge", "64"]);
-        command(&swept, &own).output().unwrap()
-    };
-    if !swept.join("shard-32-of-64/results.bin").exists() {
+    let merge = || part("--merge", &count.to_string()).output().unwrap();
+    if !swept
+        .join(format!("shard-{killed}-of-{count}/results.bin"))
+        .exists()
+    {
         let refused = merge();
-        let stderr = String::from_utf8(refused.stderr).unwrap();
-        assert!(
-            stderr.contains("1 of 64 shards are not finished: 32"),
-            "{stderr}"
-        );
+        let told = format!("1 of {count} shards are not finished: {killed}");
+        assert!(text(&refused.stderr).contains(&told));
     }
-    finished(&shard(32).output().unwrap());
+    finished(&shard(killed).output().unwrap());
     // What is there is not computed again.
-    let again = shard(7).output().unwrap();
-    assert!(
-        String::from_utf8(again.stdout)
-            .unwrap()
-            .contains("is there")
-    );
+    assert!(text(&shard(7).output().unwrap().stdout).contains("is there"));
     finished(&merge());
     same_tables(&whole, &swept);
 }
@@ -319,26 +318,5 @@ fn what_is_asleep_is_called_so() {
         finished(&output);
         let text = String::from_utf8(output.stdout).unwrap();
         assert!(text.contains("| 2 | 2 | asleep ("), "{text}");
-    }
-}
-
-#[test]
-fn a_command_line_that_cannot_be_followed_is_explained() {
-    for (arguments, message) in [
-        (&["--generations", "9"][..], "9 is not in 3..=8"),
-        (
-            &["--generations", "8", "--branching", "3"],
-            "there is no tree of 8 generations by 3",
-        ),
-        (&["--torque", "NaN"], "must be from 0 to 100 N m"),
-        (&["--bandwidth", "1"], "at most 0.9 of the frequency"),
-        (&["--shard", "3/3"], "must be I/N"),
-        (&["--shard", "0/3", "--merge", "3"], "cannot be used with"),
-    ] {
-        let program = env!("CARGO_BIN_EXE_cascade");
-        let output = Command::new(program).args(arguments).output().unwrap();
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(error.contains(message), "{error}");
     }
 }

@@ -1,7 +1,5 @@
 //! The program `swaying-branch`.
 
-use std::process::{Command, Output};
-
 use branched_pendulum::approximate::Approximation;
 use branched_pendulum::integrate::{Frames, longest_sub_step};
 use branched_pendulum::prelude::*;
@@ -94,16 +92,14 @@ fn a_storm_with_hits_leaves_every_state_finite() {
     assert!(storm.largest_rate < 1.000_001 * limit);
 }
 
-fn program(arguments: &[&str]) -> Output {
-    let program = env!("CARGO_BIN_EXE_swaying-branch");
-    Command::new(program).args(arguments).output().unwrap()
-}
-
 #[test]
 fn a_short_run_leaves_frames_picture_and_chart() {
     let folder = std::env::temp_dir().join(format!("swaying-branch-{}", std::process::id()));
     let path = folder.to_str().unwrap();
-    let output = program(&["--duration", "1", "--storm", "1", "--output", path]);
+    let output = super::run(
+        env!("CARGO_BIN_EXE_swaying-branch"),
+        &["--duration", "1", "--storm", "1", "--output", path],
+    );
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{text}");
     assert!(text.contains("| switched, f32 | to 0.01 rad |"), "{text}");
@@ -122,18 +118,4 @@ fn a_short_run_leaves_frames_picture_and_chart() {
         assert!(file.metadata().unwrap().len() > 1000);
     }
     std::fs::remove_dir_all(&folder).unwrap();
-}
-
-#[test]
-fn a_command_line_that_cannot_be_followed_is_explained() {
-    for (arguments, message) in [
-        (&["--duration", "0"][..], "must be from 1 to 60 s"),
-        (&["--frame-rate", "1"], "must be from 20 to 1000 Hz"),
-        (&["--wind", "NaN"], "must be from 0 to 40 m/s"),
-    ] {
-        let output = program(arguments);
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(error.contains(message), "{error}");
-    }
 }

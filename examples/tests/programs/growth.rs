@@ -2,7 +2,6 @@
 //! the physics behind them.
 
 use std::f64::consts::TAU;
-use std::path::PathBuf;
 
 use branched_pendulum::analysis::Modes;
 use branched_pendulum::analysis::growth::{
@@ -18,6 +17,8 @@ use branched_pendulum_examples::program::Job;
 use branched_pendulum_examples::program::command_line::parse_line;
 use branched_pendulum_examples::release_map::tongues::Ridge;
 use branched_pendulum_examples::release_map::{self, normal_modes};
+
+use super::folder;
 
 /// The whole pendulum of the paper.
 #[branched_pendulum(
@@ -302,12 +303,6 @@ fn copies_count_by_their_mass() {
     assert!(found.angle_deg.is_some_and(|angle| angle > 20.0));
     let ratio = one.factors[0].value / other.factors[0].value;
     assert!((ratio - 1.0).abs() < 1e-6, "{one:?} {other:?}");
-}
-
-fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    path
 }
 
 #[test]

@@ -1,6 +1,4 @@
-//! `integration-speed`: its problems, and its command line.
-
-use std::process::Command;
+//! The problems of `integration-speed`.
 
 use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
@@ -12,7 +10,7 @@ use branched_pendulum_examples::work_precision::reference::problems;
 /// The error goes down with the tolerance to where it is said to.
 #[test]
 fn errors_fall_to_rounding() {
-    let problems = problems().unwrap();
+    let problems = problems(&[10.0]).unwrap();
     let named = |name| problems.iter().find(|p| p.name == name).unwrap();
     let (regular, rods) = (named("regular, 10 s"), named("seven rods, 10 s"));
     let method = |tolerance| Taylor::new(Options::with_tolerance(tolerance));
@@ -69,15 +67,4 @@ fn lanes_are_as_accurate_as_the_plain_method_near_the_threshold() {
         assert!(lanes.1 < 4.0 * plain.1, "{plain:?} {lanes:?}");
         assert!(plain.0 < 1e-8, "{plain:?}");
     }
-}
-
-#[test]
-fn a_command_line_that_cannot_be_followed_is_explained() {
-    let program = env!("CARGO_BIN_EXE_integration-speed");
-    let wrong = Command::new(program).arg("--output").output().unwrap();
-    assert_eq!(wrong.status.code(), Some(2));
-    let help = Command::new(program).arg("--help").output().unwrap();
-    assert!(help.status.success());
-    let help = String::from_utf8(help.stdout).unwrap();
-    assert!(help.contains("Usage: integration-speed"));
 }

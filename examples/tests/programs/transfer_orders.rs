@@ -1,8 +1,6 @@
 //! The program `transfer-orders`, and the errors that it reports, for its own
 //! trees and for others.
 
-use std::process::{Command, Output};
-
 use branched_pendulum::analysis::truncation::{
     Background, ErrorCurve, LevelCrossing, PhaseAverage, TruncationError, sector_frequencies,
 };
@@ -239,35 +237,4 @@ fn settings_of_the_arms_cover_their_motion() {
     // Released at 45°, the body does not swing higher; what hangs on it does.
     assert!(background.angles[0] >= 45.0_f64.to_radians() && background.angles[1] > 0.5);
     assert_eq!(background.angles[3..], [0.0, 0.0]);
-}
-
-fn program(arguments: &[&str]) -> Output {
-    let program = env!("CARGO_BIN_EXE_transfer-orders");
-    Command::new(program).args(arguments).output().unwrap()
-}
-
-#[test]
-fn a_command_line_that_cannot_be_followed_is_explained() {
-    for (arguments, message) in [
-        (&["--states", "9"][..], "9 is not in 10..=1000000"),
-        (&["--states", "many"], "invalid value 'many'"),
-        (&["--states"], "a value is required for '--states"),
-        (
-            &["--output", "a", "--output", "b"],
-            "cannot be used multiple times",
-        ),
-        (&["--noise", "1"], "unexpected argument '--noise'"),
-    ] {
-        let output = program(arguments);
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(error.contains(message), "{error}");
-    }
-    let help = program(&["--help"]);
-    assert!(help.status.success());
-    assert!(
-        String::from_utf8(help.stdout)
-            .unwrap()
-            .contains("[default: 20000]")
-    );
 }

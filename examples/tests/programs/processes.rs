@@ -1,17 +1,18 @@
 //! How the programs end: closed pipes, full disks, folders that cannot be
 //! written, Ctrl-C at any moment, and runs repeated from their records. Each
 //! drives real processes.
-#![cfg(unix)]
 
 use std::fs::{self, File};
 use std::io::Read;
 use std::os::unix::process::ExitStatusExt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+use super::folder;
 
 /// A program in a short form.
 struct Program {
@@ -88,13 +89,6 @@ impl Program {
         command.stdin(Stdio::null());
         command
     }
-}
-
-/// A folder for one test that is not there yet.
-fn folder(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&path);
-    path
 }
 
 fn stderr(output: &Output) -> &str {
@@ -295,7 +289,7 @@ fn a_run_is_repeated_from_its_record() {
 }
 
 #[test]
-#[ignore = "takes minutes unoptimised: cargo test --release --test processes -- --ignored"]
+#[ignore = "takes minutes unoptimised: cargo test --release --test programs -- --ignored"]
 fn long_runs_are_repeated_from_their_records() {
     repeated(PROGRAMS[3..5].iter());
 }
