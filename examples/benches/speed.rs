@@ -69,11 +69,21 @@ fn main() {
     let from = start.clone();
     let dop853 = move || {
         let method = Dop853::new(Options::with_tolerance(1e-9));
-        let _ = black_box(method.integrate(&AbsoluteAngles(&BranchedDouble::new()), &from, 10.0, run_on));
+        let _ = black_box(method.integrate(
+            &AbsoluteAngles(&BranchedDouble::new()),
+            &from,
+            10.0,
+            run_on,
+        ));
     };
     let taylor = move || {
         let method = Taylor::new(Options::with_tolerance(1e-9)).with_order(ORDER);
-        let _ = black_box(method.integrate(&AbsoluteAngles(&BranchedDouble::new()), &start, 10.0, run_on));
+        let _ = black_box(method.integrate(
+            &AbsoluteAngles(&BranchedDouble::new()),
+            &start,
+            10.0,
+            run_on,
+        ));
     };
     let lanes = move || {
         let method = Dop853::new(Options::with_tolerance(1e-9));
