@@ -175,7 +175,7 @@ fn a_checkpoint_of_another_run_is_refused() {
 }
 
 /// What 64 shards are cut from.
-const STARTS: &[&str] = &["--starts", "128", "--duration", "30"];
+const STARTS: &[&str] = &["--starts", "64", "--duration", "10"];
 
 fn same_tables(whole: &Path, merged: &Path) {
     for name in [
@@ -198,7 +198,7 @@ fn shards_make_the_tables_of_one_process() {
 #[test]
 #[ignore = "a thousand processes: cargo test --test programs -- --ignored a_thousand"]
 fn a_thousand_shards_make_the_tables_of_one_process() {
-    let starts = &["--starts", "1000", "--duration", "20", "--steps", "64"];
+    let starts = &["--starts", "1000", "--duration", "10"];
     shards("1000-shards", 1000, starts);
 }
 
@@ -307,8 +307,8 @@ fn hyperqueue_makes_the_tables_of_one_process() {
 fn what_is_asleep_is_called_so() {
     // Too much friction, and a tree that hangs still.
     for (number, more) in [
-        ["--torque", "0.05", "--friction", "1e-2"],
-        ["--torque", "0", "--spread", "0"],
+        ["--starts", "4", "--torque", "0.05", "--friction", "1e-2"],
+        ["--starts", "4", "--torque", "0", "--spread", "0"],
     ]
     .iter()
     .enumerate()
