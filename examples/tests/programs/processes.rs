@@ -12,7 +12,7 @@ use std::time::Duration;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-use super::folder;
+use super::{folder, text};
 
 /// A program in a short form.
 struct Program {
@@ -92,7 +92,7 @@ impl Program {
 }
 
 fn stderr(output: &Output) -> &str {
-    std::str::from_utf8(&output.stderr).unwrap()
+    text(&output.stderr)
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -150,46 +150,55 @@ fn interrupt(child: &Child) {
     assert!(sent.unwrap().success());
 }
 
-/// At ten moments of each program, from its first instant to its end.
+/// At ten moments of each program, from its first instant to its end. The ten runs of a
+/// program go side by side: most of their time is waiting.
 #[test]
 fn ctrl_c_keeps_what_is_finished_and_leaves_nothing_half_written() {
     let mut random = SplitMix64::seed_from_u64(2026);
     for program in &PROGRAMS {
-        for moment in 0..10 {
-            let folder = folder(&format!("interrupted-{}-{moment}", program.name()));
-            let mut command = program.command(&folder);
-            command.stdout(Stdio::null()).stderr(Stdio::piped());
-            let child = command.spawn().unwrap();
-            // Moments spread over many sizes: programs take from 0.1 s to minutes.
-            let share = random.next_u64() as f64 / u64::MAX as f64;
-            std::thread::sleep(Duration::from_secs_f64(0.02 * 60.0_f64.powf(share)));
-            interrupt(&child);
-            let output = child.wait_with_output().unwrap();
-            let stderr = stderr(&output);
-            let case = format!("{} {moment}: {stderr}", program.name());
-            match (output.status.code(), output.status.signal()) {
-                // Done before.
-                (Some(0), _) => assert_whole(&folder, &["finished"]),
-                // Before it could say anything.
-                (None, Some(2)) => assert!(names(&folder).is_empty(), "{case}"),
-                (Some(130), _) => {
-                    assert_eq!(stderr.lines().count(), 1, "{case}");
-                    let start = format!("{}: interrupted; ", program.name());
-                    assert!(stderr.starts_with(&start), "{case}");
-                    if folder.exists() {
-                        assert!(names(&folder).contains(&"run.json".to_owned()), "{case}");
-                        assert!(stderr.contains(folder.to_str().unwrap()), "{case}");
-                    } else {
-                        assert!(stderr.contains("no file was finished"), "{case}");
-                    }
-                    // It may just have finished.
-                    assert_whole(&folder, &["interrupted", "finished"]);
-                }
-                other => panic!("{other:?}: {case}"),
+        std::thread::scope(|scope| {
+            for moment in 0..10 {
+                // Moments spread over many sizes: programs take from 0.1 s to minutes.
+                let share = random.next_u64() as f64 / u64::MAX as f64;
+                let after = Duration::from_secs_f64(0.02 * 60.0_f64.powf(share));
+                scope.spawn(move || interrupted(program, moment, after));
             }
-            let _ = fs::remove_dir_all(&folder);
-        }
+        });
     }
+}
+
+/// Runs a program and interrupts it after a time.
+fn interrupted(program: &Program, moment: u32, after: Duration) {
+    let folder = folder(&format!("interrupted-{}-{moment}", program.name()));
+    let mut command = program.command(&folder);
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    std::thread::sleep(after);
+    interrupt(&child);
+    let output = child.wait_with_output().unwrap();
+    let stderr = text(&output.stderr);
+    let case = format!("{} {moment}: {stderr}", program.name());
+    match (output.status.code(), output.status.signal()) {
+        // Done before.
+        (Some(0), _) => assert_whole(&folder, &["finished"]),
+        // Before it could say anything.
+        (None, Some(2)) => assert!(names(&folder).is_empty(), "{case}"),
+        (Some(130), _) => {
+            assert_eq!(stderr.lines().count(), 1, "{case}");
+            let start = format!("{}: interrupted; ", program.name());
+            assert!(stderr.starts_with(&start), "{case}");
+            if folder.exists() {
+                assert!(names(&folder).contains(&"run.json".to_owned()), "{case}");
+                assert!(stderr.contains(folder.to_str().unwrap()), "{case}");
+            } else {
+                assert!(stderr.contains("no file was finished"), "{case}");
+            }
+            // It may just have finished.
+            assert_whole(&folder, &["interrupted", "finished"]);
+        }
+        other => panic!("{other:?}: {case}"),
+    }
+    let _ = fs::remove_dir_all(&folder);
 }
 
 /// The programs that end within some seconds.
