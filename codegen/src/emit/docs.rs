@@ -3,7 +3,7 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use crate::mechanics::Counting;
-use crate::program::{Argument, Cause, Entry, LinkFunction, Purpose};
+use crate::program::{Argument, Cause, Entry, EntryState, LinkFunction, Purpose};
 use crate::scene::Solve;
 use crate::scene::{CoordinateKind, Reduction};
 use proc_macro2::TokenStream;
@@ -230,10 +230,8 @@ impl Emission<'_> {
                 String::new(),
                 format!("ε scales the differences and their momenta. {IN_PHASE}"),
             ],
-            Purpose::HigherTransfer(n, index) => {
-                let truncated = &self.mechanics.transfers[n].higher[index];
-                let (order, next) = (truncated.order, truncated.order + 1);
-                let (what, remainder) = match truncated.counting {
+            Purpose::HigherTransfer(n, counting, order) => {
+                let (what, remainder) = match counting {
                     Counting::Angle => (
                         "the difference angles, momenta untouched",
                         "It grows with the momenta of the differences, which are not counted as small.".to_owned(),
@@ -241,7 +239,7 @@ impl Emission<'_> {
                     // Between two copies only even orders occur.
                     Counting::Amplitude => (
                         "the amplitude of the differences, angles and momenta alike",
-                        format!("Remainder O(ε{}), at pairs one order better.", exponent(next)),
+                        format!("Remainder O(ε{}), at pairs one order better.", exponent(order + 1)),
                     ),
                 };
                 vec![
@@ -255,13 +253,13 @@ impl Emission<'_> {
                 String::new(),
                 IN_PHASE.into(),
             ],
-            Purpose::ExactTransfer(n) => vec![
+            Purpose::ExactTransfer(n, EntryState::Momenta(_)) => vec![
                 format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and momenta: the velocities are solved for, no inverse is expanded. Conservative part; {}.", difference(n), self.on_top()),
             ],
-            Purpose::ExactTransferFromRates(n) => vec![
+            Purpose::ExactTransfer(n, _) => vec![
                 format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; {}.", difference(n), self.on_top()),
             ],
-            Purpose::SplitTransfer(n, cause) => {
+            Purpose::SplitTransfer(n, cause, _) => {
                 let name = difference(n);
                 let what = match cause {
                     Cause::MeanTree => format!("Growth: the part of the energy transfer W (in W) into `{name}` that equal copies with the mean constants would have at the same coordinates and momenta, {{H_d, H₀}}. Quadratic in the differences at leading order."),
@@ -273,12 +271,15 @@ impl Emission<'_> {
             Purpose::FrictionPower(n) => vec![
                 format!("Power (in W) of friction and drag on H_d of `{}`.", difference(n)),
             ],
-            Purpose::Budget(definition) => self.budget_meaning(definition, "friction and drive"),
+            Purpose::Budget(definition, _) => self.budget_meaning(definition, "friction and drive"),
             Purpose::BudgetUnder(definition) => {
                 self.budget_meaning(definition, "friction, drive and the `torques` from outside")
             }
-            Purpose::SectorTransfers(order) => self.sector_transfers_meaning(order),
-            Purpose::TransferMatrix => self.matrix_meaning(),
+            Purpose::SectorTransfers(_) => self.sector_transfers_meaning(None),
+            Purpose::TruncatedSectorTransfers(counting, order) => {
+                self.sector_transfers_meaning(Some((counting, order)))
+            }
+            Purpose::TransferMatrix(_) => self.matrix_meaning(),
             Purpose::AntiphaseDrivePower(n) => vec![
                 format!("Power Σ ∂H_d/∂p Q (in W) of the drive on H_d of `{}` at `time` (in s), by the inertial forces of the moving pivot; a torque on the root has none.", difference(n)),
             ],
@@ -298,7 +299,7 @@ impl Emission<'_> {
             Purpose::Transverse(_)
             | Purpose::TransverseEnergy(_)
             | Purpose::TransverseTransfer(_)
-            | Purpose::TransverseFriction(_) => self.transverse_meaning(purpose),
+            | Purpose::TransverseFriction(..) => self.transverse_meaning(purpose),
             Purpose::SmallAccelerations | Purpose::SmallEnergy => self.small_meaning(purpose),
             Purpose::Positions(_)
             | Purpose::PointVelocities(_)

@@ -1,8 +1,7 @@
 //! Docs of driven trees.
 
 use super::Emission;
-use super::formulas::DocFormula;
-use crate::mechanics::expression::{Expr, SymbolId};
+use crate::mechanics::expression::{Expr, NamedFormula, SymbolId};
 use crate::mechanics::{DriveTerms, PivotMotion, Temporal};
 
 impl Emission<'_> {
@@ -70,21 +69,16 @@ impl Emission<'_> {
 
     /// The functions of time, by definition: x and y as given, then τ and the
     /// accelerations that follow.
-    pub(super) fn drive_formulas(&self) -> Vec<DocFormula> {
+    pub(super) fn drive_formulas(&self) -> Vec<NamedFormula> {
         let Some(DriveTerms {
             temporal, pivot, ..
         }) = &self.mechanics.drive
         else {
             return Vec::new();
         };
-        let positions = pivot.iter().map(|PivotMotion { name, position, .. }| {
-            let name = (*name).to_owned();
-            DocFormula {
-                left: name.clone(),
-                left_latex: name,
-                right: position.clone(),
-            }
-        });
+        let positions = pivot
+            .iter()
+            .map(|PivotMotion { name, position, .. }| NamedFormula::of_letter(name, position));
         let given: Vec<(SymbolId, Expr)> = temporal
             .iter()
             .filter_map(|(&symbol, meaning)| match meaning {
@@ -97,14 +91,8 @@ impl Emission<'_> {
     }
 
     /// The power of the drive, and the functions of time in it.
-    pub(super) fn power_formulas(&self, power: &Expr) -> Vec<DocFormula> {
-        let power = DocFormula {
-            left: "P".to_owned(),
-            left_latex: "P".to_owned(),
-            right: power.clone(),
-        };
-        std::iter::once(power)
-            .chain(self.drive_formulas())
-            .collect()
+    pub(super) fn power_formulas(&self, power: &Expr) -> Vec<NamedFormula> {
+        let power = std::iter::once(NamedFormula::of_letter("P", power));
+        power.chain(self.drive_formulas()).collect()
     }
 }

@@ -2,9 +2,8 @@
 
 use super::Emission;
 use super::docs::wrapped_names;
-use super::tokens::ident;
 use crate::scene::{LinkId, PrescribedLinks};
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 impl Emission<'_> {
@@ -44,25 +43,27 @@ impl Emission<'_> {
             }
         });
         let handed = self.mechanics.drive.is_some().then(|| quote!(time,));
-        let some = quote!(::core::option::Option::Some);
-        let fields: Vec<Ident> = ["theta", "omega", "torques"].map(ident).to_vec();
         let arms = sets.iter().enumerate().map(|(number, set)| {
             let number = Literal::usize_unsuffixed(number);
             let function = format_ident!("accelerations_prescribed_{}", set.name);
-            quote! {
-                #number => match (
-                    #runtime::emitted::arrays([#(#fields),*]),
-                    #runtime::emitted::arrays([prescribed]),
-                ) {
-                    (#some([#(#fields),*]), #some([prescribed])) => {
-                        let (all, of_held) = self.#function(#handed #(#fields,)* prescribed);
-                        #runtime::emitted::write(alpha, &all)
-                            & #runtime::emitted::write(reactions, &of_held)
-                    }
-                    _ => false,
-                },
-            }
+            let written = self.with_arrays(
+                &[&["theta", "omega", "torques"], &["prescribed"]],
+                quote! {{
+                    let (all, of_held) = self.#function(#handed theta, omega, torques, prescribed);
+                    #runtime::emitted::write(alpha, &all)
+                        & #runtime::emitted::write(reactions, &of_held)
+                }},
+                quote!(false),
+            );
+            quote!(#number => #written,)
         });
+        let written = quote! {
+            match set {
+                #(#arms)*
+                _ => false,
+            }
+        };
+        let body = self.written_or_nan(&["alpha", "reactions"], written);
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
                 const PRESCRIBED: &'static [#runtime::system::PrescribedLinks] =
@@ -79,14 +80,7 @@ impl Emission<'_> {
                 ) {
                     let #runtime::system::PrescribedMotion { theta, omega, torques, prescribed } =
                         motion;
-                    let written = match set {
-                        #(#arms)*
-                        _ => false,
-                    };
-                    if !written {
-                        alpha.fill(T::from_f64(f64::NAN));
-                        reactions.fill(T::from_f64(f64::NAN));
-                    }
+                    #body
                 }
             }
         })

@@ -1,71 +1,77 @@
 //! The shapes in which functions return their outputs.
 
 use super::Emission;
-use crate::program::{Entry, Shape};
-use proc_macro2::{Literal, TokenStream};
+use crate::program::{Argument, Entry, Shape};
+use proc_macro2::TokenStream;
 use quote::quote;
 
-impl Emission<'_> {
-    pub(super) fn result_type(&self, entry: &Entry) -> TokenStream {
-        let length = Literal::usize_unsuffixed(entry.outputs.len());
-        let runtime = self.runtime();
-        match entry.shape {
-            Shape::Scalar => quote!(T),
-            Shape::Vector => quote!([T; #length]),
-            Shape::Rows(length) => {
-                let rows = Literal::usize_unsuffixed(entry.outputs.len() / length);
-                let length = Literal::usize_unsuffixed(length);
-                quote!([[T; #length]; #rows])
-            }
-            Shape::Arrays(first) => {
-                let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
-                let first = Literal::usize_unsuffixed(first);
-                quote!(([T; #first], [T; #rest]))
-            }
-            Shape::Split(first) => {
-                let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
-                let first = match first {
-                    1 => quote!(T),
-                    _ => {
-                        let first = Literal::usize_unsuffixed(first);
-                        quote!([T; #first])
-                    }
-                };
-                quote!((#first, [T; #rest]))
-            }
-            Shape::Transfer => quote!(#runtime::Transfer<T>),
-            Shape::Transfers(count) => {
-                let count = Literal::usize_unsuffixed(count);
-                quote!([#runtime::Transfer<T>; #count])
-            }
-            Shape::Budget(count) => {
-                let count = Literal::usize_unsuffixed(count);
-                quote!(#runtime::Budget<T, #count>)
-            }
+/// The type of an argument, with its length if it is an array.
+pub(super) fn argument_type(argument: Argument, length: &TokenStream) -> TokenStream {
+    match argument {
+        Argument::Time => quote!(T),
+        Argument::Forces => quote!(&[[T; 2]; #length]),
+        _ => quote!(&[T; #length]),
+    }
+}
+
+/// The type of a result of so many outputs; `length` writes the lengths of arrays.
+pub(super) fn result_type(
+    runtime: &TokenStream,
+    shape: Shape,
+    outputs: usize,
+    length: impl Fn(usize) -> TokenStream,
+) -> TokenStream {
+    let array = |count| {
+        let length = length(count);
+        quote!([T; #length])
+    };
+    match shape {
+        Shape::Scalar => quote!(T),
+        Shape::Vector => array(outputs),
+        Shape::Rows(rows, columns) => {
+            let (row, rows) = (array(columns), length(rows));
+            quote!([#row; #rows])
+        }
+        Shape::Arrays(first, second) => {
+            let (first, second) = (array(first), array(second));
+            quote!((#first, #second))
+        }
+        Shape::Split(first) => {
+            let rest = array(outputs - first);
+            let first = if first == 1 { quote!(T) } else { array(first) };
+            quote!((#first, #rest))
+        }
+        Shape::Transfer => quote!(#runtime::Transfer<T>),
+        Shape::Transfers(count) => {
+            let count = length(count);
+            quote!([#runtime::Transfer<T>; #count])
+        }
+        Shape::Budget(count) => {
+            let count = length(count);
+            quote!(#runtime::Budget<T, #count>)
         }
     }
+}
 
+impl Emission<'_> {
     /// The outputs in the shape in which the function returns them.
     pub(super) fn shaped(&self, entry: &Entry, values: Vec<TokenStream>) -> TokenStream {
         let runtime = self.runtime();
         match entry.shape {
             Shape::Scalar => quote!(#(#values)*),
             Shape::Vector => quote!([#(#values),*]),
-            Shape::Rows(length) => {
+            Shape::Rows(_, length) => {
                 let rows = values.chunks(length).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
             }
-            Shape::Arrays(first) => {
+            Shape::Arrays(first, _) => {
                 let (first, second) = values.split_at(first);
                 quote!(([#(#first),*], [#(#second),*]))
             }
-            Shape::Split(first) => {
-                let (first, second) = values.split_at(first);
-                match first {
-                    [first] => quote!((#first, [#(#second),*])),
-                    _ => quote!(([#(#first),*], [#(#second),*])),
-                }
-            }
+            Shape::Split(first) => match values.split_at(first) {
+                ([first], rest) => quote!((#first, [#(#rest),*])),
+                (first, rest) => quote!(([#(#first),*], [#(#rest),*])),
+            },
             Shape::Transfer => {
                 let (kinetic, potential) = (&values[0], &values[1]);
                 quote!(#runtime::Transfer { kinetic: #kinetic, potential: #potential })

@@ -3,7 +3,7 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use super::tokens::count;
+use super::tokens::{count, ident};
 use crate::program::{Argument, Entry, LinkFunction, Op, Purpose, Strips};
 use crate::scene::Layout;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -92,7 +92,8 @@ impl Emission<'_> {
                 const FORCED: bool = true;
             )
         });
-        let functions = LinkFunction::ALL.map(|function| self.link_function(function));
+        let functions = LinkFunction::ALL.into_iter();
+        let functions = functions.filter_map(|function| self.link_function(function));
         quote! {
             #docs
             #[derive(
@@ -128,31 +129,7 @@ impl Emission<'_> {
         entries.find(|entry| entry.purpose == purpose)
     }
 
-    /// A function of the trait, from its entry point.
-    fn link_function(&self, function: LinkFunction) -> TokenStream {
-        let Some(entry) = self.entry(Purpose::Link(function)) else {
-            return TokenStream::new();
-        };
-        let (runtime, docs) = (self.runtime(), self.entry_docs(entry));
-        let body = match self.handed_on(entry) {
-            Some(body) => body,
-            None => self.plain_body(entry),
-        };
-        let name = format_ident!("{}", function.name());
-        let arguments = entry.arguments.iter().enumerate().map(|(place, argument)| {
-            let name = format_ident!("{}", argument.name());
-            let kind = match argument {
-                Argument::Constants => quote!(&Self::Constants<T>),
-                Argument::Motion => quote!(#runtime::tree::LinkMotion<T>),
-                Argument::Response => quote!(Self::Response<T>),
-                Argument::Sums => quote!(Self::Sums<T>),
-                Argument::Elimination => quote!(Self::Elimination<T>),
-                Argument::Carried => quote!(Self::Carried<T>),
-                _ => quote!([T; 2]),
-            };
-            debug_assert!(place > 0 || *argument == Argument::Constants);
-            quote!(#name: #kind)
-        });
+    fn link_function(&self, function: LinkFunction) -> Option<TokenStream> {
         let result = match function {
             LinkFunction::Leaf => quote!(Self::Response<T>),
             LinkFunction::Attach => quote!(Self::Sums<T>),
@@ -161,13 +138,45 @@ impl Emission<'_> {
             LinkFunction::Accelerate => quote!((T, Self::Carried<T>)),
             LinkFunction::AccelerateLeaf => quote!(T),
         };
-        quote! {
+        self.equation_function(Purpose::Link(function), &result)
+    }
+
+    /// A function of a trait of equations, from its entry point.
+    pub(super) fn equation_function(
+        &self,
+        purpose: Purpose,
+        result: &TokenStream,
+    ) -> Option<TokenStream> {
+        let entry = self.entry(purpose)?;
+        let (runtime, docs, name) = (self.runtime(), self.entry_docs(entry), ident(&entry.name));
+        let body = match self.handed_on(entry) {
+            Some(body) => body,
+            None => self.plain_body(entry),
+        };
+        let arguments = entry.arguments.iter().map(|&argument| {
+            let name = ident(argument.name());
+            let kind = match argument {
+                Argument::Constants => quote!(&Self::Constants<T>),
+                Argument::Motion => quote!(#runtime::tree::LinkMotion<T>),
+                Argument::Response => quote!(Self::Response<T>),
+                Argument::Sums => quote!(Self::Sums<T>),
+                Argument::Elimination => quote!(Self::Elimination<T>),
+                Argument::Carried => quote!(Self::Carried<T>),
+                Argument::Given(function) => {
+                    let given = Literal::usize_unsuffixed(function.given().len());
+                    quote!([T; #given])
+                }
+                _ => quote!([T; 2]),
+            };
+            quote!(#name: #kind)
+        });
+        Some(quote! {
             #docs
             #[inline(always)]
             fn #name<T: #runtime::Scalar>(#(#arguments),*) -> #result {
                 #body
             }
-        }
+        })
     }
 
     /// The body of a function that returns its last argument as it is.

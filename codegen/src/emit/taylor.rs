@@ -171,7 +171,7 @@ impl Emission<'_> {
         let time = self.time_name();
         let argument = self.mechanics.drive.as_ref().map(|_| quote!(time,));
         let body = self.with_arrays(
-            &["theta", "omega"],
+            &[&["theta", "omega"]],
             quote!({
                 let (coefficients, _) = coefficients.as_chunks_mut::<#links>();
                 let (coefficients, _) = coefficients.as_chunks_mut::<2>();

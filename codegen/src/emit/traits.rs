@@ -2,6 +2,7 @@
 //! wrong one yields NaN, which integrators report at once.
 
 use super::Emission;
+use super::tokens::ident;
 use crate::mechanics::Mechanics;
 use crate::program::Purpose;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -55,48 +56,50 @@ impl Emission<'_> {
         Ident::new(name, Span::call_site())
     }
 
-    /// Slices as arrays of the same names.
+    /// Slices as arrays of the same names, those of one group of one length.
     pub(super) fn with_arrays(
         &self,
-        slices: &[&str],
+        groups: &[&[&str]],
         success: TokenStream,
         failure: TokenStream,
     ) -> TokenStream {
-        let links = self.links();
-        let names: Vec<Ident> = slices
-            .iter()
-            .map(|name| Ident::new(name, Span::call_site()))
+        let runtime = self.runtime();
+        let groups = groups.iter();
+        let names: Vec<Vec<Ident>> = groups
+            .map(|group| group.iter().map(|name| ident(name)).collect())
             .collect();
-        if let [name] = names.as_slice() {
-            return quote! {
-                match <&[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#name) {
-                    ::core::result::Result::Ok(#name) => #success,
-                    ::core::result::Result::Err(_) => #failure,
-                }
-            };
-        }
+        let arrays = names.iter();
+        let arrays = arrays.map(|group| quote!(#runtime::emitted::arrays([#(#group),*])));
+        let patterns = names.iter();
+        let patterns = patterns.map(|group| quote!(::core::option::Option::Some([#(#group),*])));
+        let (arrays, pattern) = match names.len() {
+            1 => (quote!(#(#arrays)*), quote!(#(#patterns)*)),
+            _ => (quote!((#(#arrays),*)), quote!((#(#patterns),*))),
+        };
         quote! {
-            match (#(<&[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
-                (#(::core::result::Result::Ok(#names),)*) => #success,
+            match #arrays {
+                #pattern => #success,
                 _ => #failure,
             }
         }
     }
 
-    fn fill(&self, output: &Ident, slices: &[&str], call: TokenStream) -> TokenStream {
-        let links = self.links();
-        let body = self.with_arrays(
-            slices,
-            quote!(#output.copy_from_slice(&#call)),
-            quote!(#output.fill(T::from_f64(f64::NAN))),
-        );
+    /// Statements that write outputs, or NaN where an expression says that they are not written.
+    pub(super) fn written_or_nan(&self, outputs: &[&str], written: TokenStream) -> TokenStream {
+        let outputs = outputs.iter().map(|output| ident(output));
         quote! {
-            if #output.len() != #links {
-                #output.fill(T::from_f64(f64::NAN));
-                return;
+            let written: bool = #written;
+            if !written {
+                #(#outputs.fill(T::from_f64(f64::NAN));)*
             }
-            #body
         }
+    }
+
+    /// Statements that write what a call gives of slices.
+    pub(super) fn fill(&self, output: &str, groups: &[&[&str]], call: TokenStream) -> TokenStream {
+        let (runtime, name) = (self.runtime(), ident(output));
+        let write = quote!(#runtime::emitted::write(#name, &#call));
+        self.written_or_nan(&[output], self.with_arrays(groups, write, quote!(false)))
     }
 
     fn pendulum(&self) -> TokenStream {
@@ -175,12 +178,11 @@ impl Emission<'_> {
     fn forced(&self) -> TokenStream {
         let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
         let other = super::other_scalar(name);
-        let output = Ident::new("alpha", Span::call_site());
         let call = match self.mechanics.drive.is_some() {
             true => quote!(self.accelerations_under(time, theta, omega, torques)),
             false => quote!(self.accelerations_under(theta, omega, torques)),
         };
-        let body = self.fill(&output, &["theta", "omega", "torques"], call);
+        let body = self.fill("alpha", &[&["theta", "omega", "torques"]], call);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
                 #[inline(always)]
@@ -221,18 +223,16 @@ impl Emission<'_> {
         } else {
             (quote!(_time), TokenStream::new())
         };
-        let body = self.with_arrays(
-            &["theta", "momenta"],
+        let rates = self.with_arrays(
+            &[&["theta", "momenta"]],
             quote! {{
                 let [velocities, torques] = self.canonical_rates(#time theta, momenta);
-                q_rates.copy_from_slice(&velocities);
-                p_rates.copy_from_slice(&torques);
+                #runtime::emitted::write(q_rates, &velocities)
+                    & #runtime::emitted::write(p_rates, &torques)
             }},
-            quote! {{
-                q_rates.fill(T::from_f64(f64::NAN));
-                p_rates.fill(T::from_f64(f64::NAN));
-            }},
+            quote!(false),
         );
+        let body = self.written_or_nan(&["q_rates", "p_rates"], rates);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
                 #[inline]
@@ -249,11 +249,6 @@ impl Emission<'_> {
                     q_rates: &mut [T],
                     p_rates: &mut [T],
                 ) {
-                    if q_rates.len() != #links || p_rates.len() != #links {
-                        q_rates.fill(T::from_f64(f64::NAN));
-                        p_rates.fill(T::from_f64(f64::NAN));
-                        return;
-                    }
                     #body
                 }
             }
@@ -262,8 +257,9 @@ impl Emission<'_> {
 
     fn energy(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let value =
-            |slices: &[&str], call| self.with_arrays(slices, call, quote!(T::from_f64(f64::NAN)));
+        let value = |slices: &[&str], call| {
+            self.with_arrays(&[slices], call, quote!(T::from_f64(f64::NAN)))
+        };
         let kinetic = value(
             &["theta", "omega"],
             quote!(self.kinetic_energy(theta, omega)),
@@ -287,7 +283,6 @@ impl Emission<'_> {
     fn symmetric_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let names = coordinate_names(self.mechanics);
-        let output = Ident::new("accelerations", Span::call_site());
         debug_assert!(
             self.program
                 .entries
@@ -295,8 +290,8 @@ impl Emission<'_> {
                 .any(|entry| entry.purpose == Purpose::SymmetricAccelerations)
         );
         let body = self.fill(
-            &output,
-            &["coordinates", "rates"],
+            "accelerations",
+            &[&["coordinates", "rates"]],
             match self.mechanics.drive.is_some() {
                 true => quote!(self.symmetric_accelerations(time, coordinates, rates)),
                 false => quote!(self.symmetric_accelerations(coordinates, rates)),

@@ -1,10 +1,9 @@
 //! Small differences beside an in-phase motion: docs, formulas and the runtime's trait.
 
 use super::Emission;
-use super::formulas::DocFormula;
 use super::tokens::ident;
 use crate::mechanics::TransverseFormulas;
-use crate::mechanics::expression::Expr;
+use crate::mechanics::expression::{Expr, NamedFormula};
 use crate::program::Purpose;
 use crate::scene::TransverseSector;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -62,14 +61,8 @@ impl Emission<'_> {
         }
     }
 
-    pub(super) fn transverse_formulas(&self, purpose: Purpose) -> Vec<DocFormula> {
-        let simple = |left: &str, right: &Expr| {
-            vec![DocFormula {
-                left: left.to_owned(),
-                left_latex: left.to_owned(),
-                right: right.clone(),
-            }]
-        };
+    pub(super) fn transverse_formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
+        let simple = |left: &str, right: &Expr| vec![NamedFormula::of_letter(left, right)];
         match purpose {
             Purpose::Transverse(sector) => {
                 let formulas = self.transverse_sector(sector);
@@ -78,11 +71,8 @@ impl Emission<'_> {
                     let symbol = self.mechanics.symbols.get(*symbol);
                     let name = symbol.text.trim_start_matches("δ_");
                     let tex = symbol.latex.trim_start_matches("\\delta");
-                    rows.push(DocFormula {
-                        left: format!("r_{name}"),
-                        left_latex: format!("r{tex}"),
-                        right: residual.clone(),
-                    });
+                    let latex = format!("r{tex}");
+                    rows.push(NamedFormula::new(format!("r_{name}"), latex, residual));
                 }
                 rows
             }
@@ -92,7 +82,7 @@ impl Emission<'_> {
             Purpose::TransverseTransfer(sector) => {
                 simple("W", &self.transverse_sector(sector).transfer)
             }
-            Purpose::TransverseFriction(sector) => {
+            Purpose::TransverseFriction(sector, _) => {
                 simple("P", &self.transverse_sector(sector).friction)
             }
             _ => Vec::new(),
@@ -109,6 +99,7 @@ impl Emission<'_> {
         let energy = self.by_sector("energy", &["theta"], false);
         let transfer = self.by_sector("transfer", &["theta", "omega", "alpha"], true);
         let accelerations = self.by_sector("accelerations", &["theta", "omega", "alpha"], true);
+        let accelerations = self.written_or_nan(&["accelerations"], accelerations);
         let power = self.friction_by_sector();
         let braked = transverse.sectors.iter().any(|formulas| formulas.braked);
         let along = braked.then(|| {
@@ -144,10 +135,7 @@ impl Emission<'_> {
                     accelerations: &mut [T],
                 ) {
                     #motion
-                    let written: bool = #accelerations;
-                    if !written {
-                        accelerations.fill(T::from_f64(f64::NAN));
-                    }
+                    #accelerations
                 }
 
                 #[inline(always)]
@@ -226,91 +214,62 @@ impl Emission<'_> {
         }
     }
 
-    /// `match sector { 0 => …, … }`: a quantity of each sector, from these slices of the
-    /// motion, the differences and their rates. Accelerations are written, and true.
+    /// A quantity of each sector, from these slices of the motion, the differences and their
+    /// rates. Accelerations are written, and true.
     fn by_sector(&self, quantity: &str, motion: &[&str], timed: bool) -> TokenStream {
         let runtime = self.runtime();
-        let motion: Vec<Ident> = motion.iter().map(|name| ident(name)).collect();
         let timed = timed && self.mechanics.drive.is_some();
         let time = timed.then(|| quote!(time,));
-        let (some, none) = (
-            quote!(::core::option::Option::Some),
-            self.no_answer(quantity),
-        );
-        let arms = self.sector_arms(|formulas| {
+        let slices = motion.iter().map(|name| ident(name));
+        let slices: Vec<Ident> = slices.collect();
+        self.match_sector(quantity, |formulas| {
             let function = format_ident!("transverse_{quantity}_{}", formulas.sector.name);
-            let value = quote!(self.#function(#time #(#motion,)* difference, difference_rate));
+            let value = quote!(self.#function(#time #(#slices,)* difference, difference_rate));
             let value = match quantity {
                 "accelerations" => quote!(#runtime::emitted::write(accelerations, &#value)),
                 _ => value,
             };
-            quote! {
-                match (
-                    #runtime::emitted::arrays([#(#motion),*]),
-                    #runtime::emitted::arrays([difference, difference_rate]),
-                ) {
-                    (#some([#(#motion),*]), #some([difference, difference_rate])) => #value,
-                    _ => #none,
-                }
-            }
-        });
-        quote! {
-            match sector {
-                #(#arms,)*
-                _ => #none,
-            }
-        }
+            let groups = [motion, &["difference", "difference_rate"]];
+            self.with_arrays(&groups, value, no_answer(quantity))
+        })
     }
 
     /// The power of friction of sectors where it depends on the motion, and of the others.
     fn friction_along(&self) -> TokenStream {
-        let (runtime, none) = (self.runtime(), self.no_answer("friction_power"));
-        let some = quote!(::core::option::Option::Some);
-        let arms = self.sector_arms(|formulas| match formulas.braked {
+        let (runtime, quantity) = (self.runtime(), "friction_power");
+        self.match_sector(quantity, |formulas| match formulas.braked {
             true => {
-                let name = &formulas.sector.name;
-                let function = format_ident!("transverse_friction_power_{name}");
-                quote! {
-                    match (
-                        #runtime::emitted::arrays([motion.omega]),
-                        #runtime::emitted::arrays([difference_rate]),
-                    ) {
-                        (#some([omega]), #some([difference_rate])) => {
-                            self.#function(omega, difference_rate)
-                        }
-                        _ => #none,
-                    }
-                }
+                let function = format_ident!("transverse_{quantity}_{}", formulas.sector.name);
+                let power = self.with_arrays(
+                    &[&["omega"], &["difference_rate"]],
+                    quote!(self.#function(omega, difference_rate)),
+                    no_answer(quantity),
+                );
+                quote! {{
+                    let omega = motion.omega;
+                    #power
+                }}
             }
             false => quote! {
                 #runtime::Transverse::transverse_friction_power_of(self, sector, difference_rate)
             },
-        });
-        quote! {
-            match sector {
-                #(#arms,)*
-                _ => #none,
-            }
-        }
+        })
     }
 
     /// The function for the power of friction, which takes the rates alone and may be zero. None
     /// where it takes the motion too.
     fn friction_by_sector(&self) -> TokenStream {
-        let (runtime, none) = (self.runtime(), self.no_answer("friction_power"));
-        let some = quote!(::core::option::Option::Some);
-        let arms = self.sector_arms(|formulas| {
+        let (runtime, quantity) = (self.runtime(), "friction_power");
+        let (some, none) = (quote!(::core::option::Option::Some), no_answer(quantity));
+        self.match_sector(quantity, |formulas| {
             let links = Literal::usize_unsuffixed(formulas.sector.links);
             let (known, power) = match (formulas.friction.is_zero(), formulas.braked) {
                 (true, _) => (quote!(_), quote!(T::from_f64(0.0))),
                 (_, true) => (quote!(_), none.clone()),
                 (false, false) => {
-                    let name = &formulas.sector.name;
-                    let function = format_ident!("transverse_friction_power_{name}");
-                    (
-                        quote!([difference_rate]),
-                        quote!(self.#function(difference_rate)),
-                    )
+                    let function = format_ident!("transverse_{quantity}_{}", formulas.sector.name);
+                    let call = quote!(self.#function(difference_rate));
+                    (quote!([difference_rate]), call)
                 }
             };
             quote! {
@@ -319,7 +278,22 @@ impl Emission<'_> {
                     _ => #none,
                 }
             }
+        })
+    }
+
+    /// `match sector { 0 => …, … }`, a value of each sector.
+    fn match_sector(
+        &self,
+        quantity: &str,
+        of_sector: impl Fn(&TransverseFormulas) -> TokenStream,
+    ) -> TokenStream {
+        let transverse = self.mechanics.transverse.iter();
+        let sectors = transverse.flat_map(|transverse| &transverse.sectors);
+        let arms = sectors.enumerate().map(|(number, formulas)| {
+            let (number, value) = (Literal::usize_unsuffixed(number), of_sector(formulas));
+            quote!(#number => #value)
         });
+        let none = no_answer(quantity);
         quote! {
             match sector {
                 #(#arms,)*
@@ -327,26 +301,12 @@ impl Emission<'_> {
             }
         }
     }
+}
 
-    /// `0 => …`, for each sector.
-    fn sector_arms(
-        &self,
-        of_sector: impl Fn(&TransverseFormulas) -> TokenStream,
-    ) -> Vec<TokenStream> {
-        let transverse = self.mechanics.transverse.iter();
-        let sectors = transverse.flat_map(|transverse| &transverse.sectors);
-        let arms = sectors.enumerate().map(|(number, formulas)| {
-            let (number, value) = (Literal::usize_unsuffixed(number), of_sector(formulas));
-            quote!(#number => #value)
-        });
-        arms.collect()
-    }
-
-    /// Stand-in for a quantity that has no answer.
-    fn no_answer(&self, quantity: &str) -> TokenStream {
-        match quantity {
-            "accelerations" => quote!(false),
-            _ => quote!(T::from_f64(f64::NAN)),
-        }
+/// Stand-in for a quantity that has no answer.
+fn no_answer(quantity: &str) -> TokenStream {
+    match quantity {
+        "accelerations" => quote!(false),
+        _ => quote!(T::from_f64(f64::NAN)),
     }
 }

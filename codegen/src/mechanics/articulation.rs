@@ -5,8 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::DerivedFrame;
-use super::friction::LawConstants;
-use crate::scene::LinkId;
+use crate::scene::{FrictionLaw, LinkId};
 
 /// Constants of the links of one orbit; each is an expression in named
 /// constants, parameters and numbers, zero where the scene has no such thing.
@@ -28,7 +27,7 @@ pub struct Joint {
     /// Relative angle at which the spring is at rest.
     pub rest: Expr,
     /// Laws of friction in the pivot and against the ground, beside viscous ones.
-    pub laws: [LawConstants; 2],
+    pub laws: [FrictionLaw<Expr>; 2],
 }
 
 /// The quantities from which the articulated recursion is formed.

@@ -42,9 +42,9 @@ pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
 pub use derivation::{Combination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
-pub use friction::{BrakingTorque, FrictionPlace, LawConstants, TorqueSource};
+pub use friction::{BrakingTorque, FrictionPlace, TorqueSource};
 pub use inverse_mass::Counting;
-pub use link::{Composite, LinkBalance, LinkFormula, LinkSymbols};
+pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
     CanonicalRate, EnergySymbols, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame,

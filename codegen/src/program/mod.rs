@@ -35,6 +35,7 @@ mod rotations;
 mod rules;
 mod scale;
 mod sectors;
+mod signature;
 mod small;
 mod solve;
 mod symmetric;
@@ -49,8 +50,7 @@ pub use choice::{Choice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use entry::{
-    Argument, Cause, EnergyDefinition, Entry, LinkFunction, ObservableForm, PointKind, Purpose,
-    Shape,
+    Argument, Cause, EnergyDefinition, Entry, EntryState, LinkFunction, PointKind, Purpose, Shape,
 };
 pub use fuse::FusedSum;
 pub use link::{Column, LINK_MOTION, ScaleFunction, Strip, Strips};
@@ -58,6 +58,7 @@ pub use operation::{Definition, Op, ValueId};
 use passes::PASSES;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
+pub use signature::{Naming, Signature};
 pub use taylor::TaylorOutputs;
 pub use verify::Fault;
 

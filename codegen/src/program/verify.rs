@@ -113,12 +113,9 @@ impl Program {
             let filled = match entry.shape {
                 Shape::Scalar => entry.outputs.len() == 1,
                 Shape::Vector => !entry.outputs.is_empty(),
-                Shape::Rows(length) => {
-                    !entry.outputs.is_empty() && entry.outputs.len() % length == 0
-                }
-                Shape::Arrays(first) | Shape::Split(first) => {
-                    (1..entry.outputs.len()).contains(&first)
-                }
+                Shape::Rows(rows, length) => entry.outputs.len() == rows * length,
+                Shape::Arrays(first, second) => entry.outputs.len() == first + second,
+                Shape::Split(first) => (1..entry.outputs.len()).contains(&first),
                 Shape::Transfer => entry.outputs.len() == 2,
                 Shape::Transfers(count) => entry.outputs.len() == 2 * count,
                 Shape::Budget(count) => entry.outputs.len() == 3 * count,

@@ -10,7 +10,7 @@ use crate::mechanics::{LinkBalance, LinkScales, LinkSymbols};
 use crate::program::entries::EntryList;
 use crate::program::lower::Lowering;
 use crate::program::pair::Pair;
-use crate::program::{Argument, Purpose, Shape, ValueId};
+use crate::program::{Argument, Purpose, ValueId};
 use crate::scene::{Layout, Quantity, Scene};
 
 impl EntryList<'_, '_> {
@@ -50,17 +50,7 @@ impl EntryList<'_, '_> {
                 }
             };
             debug_assert_eq!(outputs.len(), function.results());
-            let mut arguments = vec![Argument::Constants, Argument::Motion];
-            if !function.given().is_empty() {
-                arguments.push(Argument::Given(function));
-            }
-            self.push(
-                function.name(),
-                Purpose::Scale(function),
-                &arguments,
-                outputs,
-                Shape::Vector,
-            );
+            self.push(Purpose::Scale(function), outputs);
         }
     }
 }
