@@ -294,7 +294,8 @@ impl Emission<'_> {
                     true => "−2 R − Σ D w",
                     false => "−2 R",
                 };
-                vec![format!("Power {power} (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.")]
+                let others = self.other_powers();
+                vec![format!("Power {power} (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and {others}.")]
             }
             Purpose::Transverse(_)
             | Purpose::TransverseEnergy(_)

@@ -62,7 +62,16 @@ impl Emission<'_> {
         }
     }
 
-    fn has_moving_pivot(&self) -> bool {
+    /// Functions of the powers that change the energy beside that of friction, for docs of this.
+    pub(super) fn other_powers(&self) -> &'static str {
+        match (&self.mechanics.drive, self.scene.requests.forces) {
+            (Some(_), false) => "`drive_power`",
+            (Some(_), true) => "`drive_power` and `outside_power`",
+            (None, _) => "`outside_power`",
+        }
+    }
+
+    pub(super) fn has_moving_pivot(&self) -> bool {
         let drive = self.mechanics.drive.as_ref();
         drive.is_some_and(|drive| !drive.pivot.is_empty())
     }

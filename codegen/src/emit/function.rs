@@ -68,7 +68,7 @@ impl Emission<'_> {
     }
 
     /// Links and coordinates are equally many.
-    fn argument_length(&self, argument: Argument) -> usize {
+    pub(super) fn argument_length(&self, argument: Argument) -> usize {
         match argument {
             Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                 self.transverse_links(sector)

@@ -1,7 +1,7 @@
 //! The shapes in which functions return their outputs.
 
 use super::Emission;
-use crate::program::{Argument, Entry, Shape};
+use crate::program::{Argument, Entry, ResultShape};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -17,7 +17,7 @@ pub(super) fn argument_type(argument: Argument, length: &TokenStream) -> TokenSt
 /// The type of a result of so many outputs; `length` writes the lengths of arrays.
 pub(super) fn result_type(
     runtime: &TokenStream,
-    shape: Shape,
+    shape: ResultShape,
     outputs: usize,
     length: impl Fn(usize) -> TokenStream,
 ) -> TokenStream {
@@ -26,27 +26,27 @@ pub(super) fn result_type(
         quote!([T; #length])
     };
     match shape {
-        Shape::Scalar => quote!(T),
-        Shape::Vector => array(outputs),
-        Shape::Rows(rows, columns) => {
+        ResultShape::Scalar => quote!(T),
+        ResultShape::Vector => array(outputs),
+        ResultShape::Rows(rows, columns) => {
             let (row, rows) = (array(columns), length(rows));
             quote!([#row; #rows])
         }
-        Shape::Arrays(first, second) => {
+        ResultShape::Arrays(first, second) => {
             let (first, second) = (array(first), array(second));
             quote!((#first, #second))
         }
-        Shape::Split(first) => {
+        ResultShape::Split(first) => {
             let rest = array(outputs - first);
             let first = if first == 1 { quote!(T) } else { array(first) };
             quote!((#first, #rest))
         }
-        Shape::Transfer => quote!(#runtime::Transfer<T>),
-        Shape::Transfers(count) => {
+        ResultShape::Transfer => quote!(#runtime::Transfer<T>),
+        ResultShape::Transfers(count) => {
             let count = length(count);
             quote!([#runtime::Transfer<T>; #count])
         }
-        Shape::Budget(count) => {
+        ResultShape::Budget(count) => {
             let count = length(count);
             quote!(#runtime::Budget<T, #count>)
         }
@@ -58,32 +58,32 @@ impl Emission<'_> {
     pub(super) fn shaped(&self, entry: &Entry, values: Vec<TokenStream>) -> TokenStream {
         let runtime = self.runtime();
         match entry.shape {
-            Shape::Scalar => quote!(#(#values)*),
-            Shape::Vector => quote!([#(#values),*]),
-            Shape::Rows(_, length) => {
+            ResultShape::Scalar => quote!(#(#values)*),
+            ResultShape::Vector => quote!([#(#values),*]),
+            ResultShape::Rows(_, length) => {
                 let rows = values.chunks(length).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
             }
-            Shape::Arrays(first, _) => {
+            ResultShape::Arrays(first, _) => {
                 let (first, second) = values.split_at(first);
                 quote!(([#(#first),*], [#(#second),*]))
             }
-            Shape::Split(first) => match values.split_at(first) {
+            ResultShape::Split(first) => match values.split_at(first) {
                 ([first], rest) => quote!((#first, [#(#rest),*])),
                 (first, rest) => quote!(([#(#first),*], [#(#rest),*])),
             },
-            Shape::Transfer => {
+            ResultShape::Transfer => {
                 let (kinetic, potential) = (&values[0], &values[1]);
                 quote!(#runtime::Transfer { kinetic: #kinetic, potential: #potential })
             }
-            Shape::Transfers(_) => {
+            ResultShape::Transfers(_) => {
                 let transfers = values.chunks(2).map(|parts| {
                     let (kinetic, potential) = (&parts[0], &parts[1]);
                     quote!(#runtime::Transfer { kinetic: #kinetic, potential: #potential })
                 });
                 quote!([#(#transfers),*])
             }
-            Shape::Budget(count) => {
+            ResultShape::Budget(count) => {
                 let (energies, rest) = values.split_at(count);
                 let (transfers, powers) = rest.split_at(count);
                 quote! {

@@ -83,16 +83,8 @@ impl Emission<'_> {
         let sectors = self.scene.requests.small.iter();
         let sectors = sectors.map(|&sector| Literal::usize_unsuffixed(sector));
         let (other, time) = (super::other_scalar(name), self.time_name());
-        let timed = self.mechanics.drive.is_some().then(|| quote!(time,));
-        let motion: [&[&str]; 2] = [&["theta", "omega"], &["difference", "difference_rate"]];
-        let call =
-            quote!(self.small_accelerations(#timed theta, omega, difference, difference_rate));
-        let accelerations = self.fill("accelerations", &motion, call);
-        let energy = self.with_arrays(
-            &motion,
-            quote!(self.small_energy(theta, omega, difference, difference_rate)),
-            quote!(T::from_f64(f64::NAN)),
-        );
+        let accelerations = self.fill("accelerations", Purpose::SmallAccelerations);
+        let energy = self.value_at_slices(Purpose::SmallEnergy);
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::SmallDifferences<T> for #name<T> {
                 const SMALL: &'static [usize] = &[#(#sectors),*];

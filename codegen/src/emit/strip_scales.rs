@@ -27,8 +27,7 @@ impl Emission<'_> {
         let springs = any(|link| link.spring.is_some());
         let friction = any(Link::has_friction);
         let drag = any(Link::has_drag);
-        let moved = self.mechanics.drive.as_ref();
-        let moved = moved.is_some_and(|drive| !drive.pivot.is_empty());
+        let moved = self.has_moving_pivot();
         let drive = match self.mechanics.drive {
             Some(_) => quote!(::core::option::Option::Some(self.drive(time))),
             None => quote!(::core::option::Option::None),

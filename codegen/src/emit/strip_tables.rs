@@ -4,7 +4,7 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{number_tokens, part_tokens};
-use crate::program::{ConstantId, ConstantOp, Op, Purpose, Strip, Strips, ValueId};
+use crate::program::{ConstantId, ConstantOp, LoopTree, Op, Purpose, StripConstants, ValueId};
 use crate::scene::{LINK_PROPERTIES, Layout};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -39,11 +39,11 @@ const LAWS: [&str; 5] = [
 const REST: &str = "angle at which the torsion spring is at rest (rad)";
 
 /// Constants of a strip for one of the tables, if it has any.
-type OfStrip = fn(&Strip) -> Option<&[ConstantId]>;
+type OfStrip = fn(&StripConstants) -> Option<&[ConstantId]>;
 
 impl Emission<'_> {
     /// `Self { … }`, the constants in place.
-    pub(super) fn strip_values(&self, strips: &Strips) -> TokenStream {
+    pub(super) fn strip_values(&self, strips: &LoopTree) -> TokenStream {
         let runtime = self.runtime();
         let (lines, known) = self.formed_constants(strips);
         let rows = strips.strips.iter().map(|strip| strip.constants.as_slice());
@@ -118,9 +118,12 @@ impl Emission<'_> {
 
     /// `let` lines for all constants that parameters are involved in, of the strips and
     /// of the drive, and their names.
-    fn formed_constants(&self, strips: &Strips) -> (Vec<TokenStream>, BTreeMap<ConstantId, Ident>) {
+    fn formed_constants(
+        &self,
+        strips: &LoopTree,
+    ) -> (Vec<TokenStream>, BTreeMap<ConstantId, Ident>) {
         let rows = strips.strips.iter();
-        let rows = rows.flat_map(Strip::all_constants);
+        let rows = rows.flat_map(StripConstants::all_constants);
         let mut wanted: Vec<ConstantId> = rows.collect();
         wanted.extend(self.stored_constants());
         wanted.extend(self.root_constants());
@@ -154,8 +157,7 @@ impl Emission<'_> {
     }
 
     fn root_outputs(&self) -> &[ValueId] {
-        let mut entries = self.program.entries.iter();
-        let entry = entries.find(|entry| entry.purpose == Purpose::RootGravity);
+        let entry = self.entry(Purpose::RootGravity);
         entry.map_or(&[], |entry| &entry.outputs)
     }
 

@@ -4,7 +4,7 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{count, ident};
-use crate::program::{Argument, Entry, LinkFunction, Op, Purpose, Strips};
+use crate::program::{Argument, Entry, LinkFunction, LoopTree, Op, Purpose};
 use crate::scene::Layout;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -14,7 +14,7 @@ const FIELDS: [&str; 3] = ["tree", "bodies", "properties"];
 
 impl Emission<'_> {
     /// The equations and the functions of a model in loops.
-    pub(super) fn in_strips(&self, strips: &Strips) -> TokenStream {
+    pub(super) fn in_strips(&self, strips: &LoopTree) -> TokenStream {
         let equations = self.link_equations(strips);
         let functions = self.strip_functions();
         let pendulum = self.strip_pendulum();
@@ -66,7 +66,7 @@ impl Emission<'_> {
     }
 
     /// The equations of one link: a type without values, and its trait.
-    fn link_equations(&self, strips: &Strips) -> TokenStream {
+    fn link_equations(&self, strips: &LoopTree) -> TokenStream {
         let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
         let docs = doc_lines(&self.equations_docs());
         let length = |argument| Literal::usize_unsuffixed(strips.length(argument));
@@ -124,11 +124,7 @@ impl Emission<'_> {
         }
     }
 
-    pub(super) fn entry(&self, purpose: Purpose) -> Option<&Entry> {
-        let mut entries = self.program.entries.iter();
-        entries.find(|entry| entry.purpose == purpose)
-    }
-
+    /// A function of the trait.
     fn link_function(&self, function: LinkFunction) -> Option<TokenStream> {
         let result = match function {
             LinkFunction::Leaf => quote!(Self::Response<T>),

@@ -2,7 +2,6 @@
 //! wrong one yields NaN, which integrators report at once.
 
 use super::Emission;
-use super::tokens::ident;
 use crate::mechanics::Mechanics;
 use crate::program::Purpose;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -54,52 +53,6 @@ impl Emission<'_> {
             None => "_time",
         };
         Ident::new(name, Span::call_site())
-    }
-
-    /// Slices as arrays of the same names, those of one group of one length.
-    pub(super) fn with_arrays(
-        &self,
-        groups: &[&[&str]],
-        success: TokenStream,
-        failure: TokenStream,
-    ) -> TokenStream {
-        let runtime = self.runtime();
-        let groups = groups.iter();
-        let names: Vec<Vec<Ident>> = groups
-            .map(|group| group.iter().map(|name| ident(name)).collect())
-            .collect();
-        let arrays = names.iter();
-        let arrays = arrays.map(|group| quote!(#runtime::emitted::arrays([#(#group),*])));
-        let patterns = names.iter();
-        let patterns = patterns.map(|group| quote!(::core::option::Option::Some([#(#group),*])));
-        let (arrays, pattern) = match names.len() {
-            1 => (quote!(#(#arrays)*), quote!(#(#patterns)*)),
-            _ => (quote!((#(#arrays),*)), quote!((#(#patterns),*))),
-        };
-        quote! {
-            match #arrays {
-                #pattern => #success,
-                _ => #failure,
-            }
-        }
-    }
-
-    /// Statements that write outputs, or NaN where an expression says that they are not written.
-    pub(super) fn written_or_nan(&self, outputs: &[&str], written: TokenStream) -> TokenStream {
-        let outputs = outputs.iter().map(|output| ident(output));
-        quote! {
-            let written: bool = #written;
-            if !written {
-                #(#outputs.fill(T::from_f64(f64::NAN));)*
-            }
-        }
-    }
-
-    /// Statements that write what a call gives of slices.
-    pub(super) fn fill(&self, output: &str, groups: &[&[&str]], call: TokenStream) -> TokenStream {
-        let (runtime, name) = (self.runtime(), ident(output));
-        let write = quote!(#runtime::emitted::write(#name, &#call));
-        self.written_or_nan(&[output], self.with_arrays(groups, write, quote!(false)))
     }
 
     fn pendulum(&self) -> TokenStream {
@@ -178,11 +131,7 @@ impl Emission<'_> {
     fn forced(&self) -> TokenStream {
         let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
         let other = super::other_scalar(name);
-        let call = match self.mechanics.drive.is_some() {
-            true => quote!(self.accelerations_under(time, theta, omega, torques)),
-            false => quote!(self.accelerations_under(theta, omega, torques)),
-        };
-        let body = self.fill("alpha", &[&["theta", "omega", "torques"]], call);
+        let body = self.fill("alpha", Purpose::AccelerationsUnder);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
                 #[inline(always)]
@@ -217,22 +166,11 @@ impl Emission<'_> {
     /// `impl Canonical`; NaN for slices of a wrong length.
     fn canonical(&self) -> TokenStream {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
-        let timed = self.mechanics.drive.is_some();
-        let (parameter, time) = if timed {
-            (quote!(time), quote!(time,))
-        } else {
-            (quote!(_time), TokenStream::new())
-        };
-        let rates = self.with_arrays(
-            &[&["theta", "momenta"]],
-            quote! {{
-                let [velocities, torques] = self.canonical_rates(#time theta, momenta);
-                #runtime::emitted::write(q_rates, &velocities)
-                    & #runtime::emitted::write(p_rates, &torques)
-            }},
-            quote!(false),
-        );
-        let body = self.written_or_nan(&["q_rates", "p_rates"], rates);
+        let rates = ["q_rates", "p_rates"];
+        let pattern = quote!([first, second]);
+        let written = self.both_written_at_slices(rates, &pattern, Purpose::CanonicalRates);
+        let body = self.written_or_nan(&rates, written);
+        let time = self.time_name();
         quote! {
             impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
                 #[inline]
@@ -243,7 +181,7 @@ impl Emission<'_> {
                 #[inline]
                 fn canonical_rates(
                     &self,
-                    #parameter: T,
+                    #time: T,
                     theta: &[T],
                     momenta: &[T],
                     q_rates: &mut [T],
@@ -257,14 +195,8 @@ impl Emission<'_> {
 
     fn energy(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let value = |slices: &[&str], call| {
-            self.with_arrays(&[slices], call, quote!(T::from_f64(f64::NAN)))
-        };
-        let kinetic = value(
-            &["theta", "omega"],
-            quote!(self.kinetic_energy(theta, omega)),
-        );
-        let potential = value(&["theta"], quote!(self.potential_energy(theta)));
+        let kinetic = self.value_at_slices(Purpose::KineticEnergy);
+        let potential = self.value_at_slices(Purpose::PotentialEnergy);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
                 #[inline]
@@ -283,20 +215,7 @@ impl Emission<'_> {
     fn symmetric_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let names = coordinate_names(self.mechanics);
-        debug_assert!(
-            self.program
-                .entries
-                .iter()
-                .any(|entry| entry.purpose == Purpose::SymmetricAccelerations)
-        );
-        let body = self.fill(
-            "accelerations",
-            &[&["coordinates", "rates"]],
-            match self.mechanics.drive.is_some() {
-                true => quote!(self.symmetric_accelerations(time, coordinates, rates)),
-                false => quote!(self.symmetric_accelerations(coordinates, rates)),
-            },
-        );
+        let body = self.fill("accelerations", Purpose::SymmetricAccelerations);
         let time = self.time_name();
         quote! {
             impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {

@@ -126,7 +126,7 @@ impl Emission<'_> {
             quote!(#number => ::core::option::Option::Some(#call))
         });
         let found = self.with_arrays(
-            &[&["coordinates", "momenta"]],
+            &[vec!["coordinates", "momenta"]],
             quote! {
                 match form {
                     #(#arms,)*
@@ -136,11 +136,7 @@ impl Emission<'_> {
             quote!(::core::option::Option::None),
         );
         let count = Literal::usize_unsuffixed(receivers.len());
-        let momenta = self.fill(
-            "momenta",
-            &[&["coordinates", "rates"]],
-            quote!(self.symmetric_momenta(coordinates, rates)),
-        );
+        let momenta = self.fill("momenta", Purpose::SymmetricMomenta);
         quote! {
             // As for the functions above.
             #[allow(clippy::possible_missing_comma)]

@@ -1,13 +1,12 @@
 //! Small differences beside an in-phase motion: docs, formulas and the runtime's trait.
 
 use super::Emission;
-use super::tokens::ident;
 use crate::mechanics::TransverseFormulas;
 use crate::mechanics::expression::{Expr, NamedFormula};
 use crate::program::Purpose;
-use crate::scene::TransverseSector;
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use crate::scene::TransverseCopies;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
 
 impl Emission<'_> {
     /// Number of links of a transverse sector.
@@ -96,9 +95,15 @@ impl Emission<'_> {
         let sectors = transverse.sectors.iter();
         let sectors = sectors.map(|formulas| self.sector_constant(&formulas.sector));
         let (other, time) = (super::other_scalar(name), self.time_name());
-        let energy = self.by_sector("energy", &["theta"], false);
-        let transfer = self.by_sector("transfer", &["theta", "omega", "alpha"], true);
-        let accelerations = self.by_sector("accelerations", &["theta", "omega", "alpha"], true);
+        let energy = self.match_sector(&nan(), |number, _| {
+            self.value_at_slices(Purpose::TransverseEnergy(number))
+        });
+        let transfer = self.match_sector(&nan(), |number, _| {
+            self.value_at_slices(Purpose::TransverseTransfer(number))
+        });
+        let accelerations = self.match_sector(&quote!(false), |number, _| {
+            self.written_at_slices("accelerations", Purpose::Transverse(number))
+        });
         let accelerations = self.written_or_nan(&["accelerations"], accelerations);
         let power = self.friction_by_sector();
         let braked = transverse.sectors.iter().any(|formulas| formulas.braked);
@@ -191,9 +196,9 @@ impl Emission<'_> {
         })
     }
 
-    /// `TransverseSector { … }`.
-    fn sector_constant(&self, sector: &TransverseSector) -> TokenStream {
-        let TransverseSector {
+    /// `TransverseCopies { … }`.
+    fn sector_constant(&self, sector: &TransverseCopies) -> TokenStream {
+        let TransverseCopies {
             name,
             first,
             links,
@@ -214,37 +219,12 @@ impl Emission<'_> {
         }
     }
 
-    /// A quantity of each sector, from these slices of the motion, the differences and their
-    /// rates. Accelerations are written, and true.
-    fn by_sector(&self, quantity: &str, motion: &[&str], timed: bool) -> TokenStream {
-        let runtime = self.runtime();
-        let timed = timed && self.mechanics.drive.is_some();
-        let time = timed.then(|| quote!(time,));
-        let slices = motion.iter().map(|name| ident(name));
-        let slices: Vec<Ident> = slices.collect();
-        self.match_sector(quantity, |formulas| {
-            let function = format_ident!("transverse_{quantity}_{}", formulas.sector.name);
-            let value = quote!(self.#function(#time #(#slices,)* difference, difference_rate));
-            let value = match quantity {
-                "accelerations" => quote!(#runtime::emitted::write(accelerations, &#value)),
-                _ => value,
-            };
-            let groups = [motion, &["difference", "difference_rate"]];
-            self.with_arrays(&groups, value, no_answer(quantity))
-        })
-    }
-
     /// The power of friction of sectors where it depends on the motion, and of the others.
     fn friction_along(&self) -> TokenStream {
-        let (runtime, quantity) = (self.runtime(), "friction_power");
-        self.match_sector(quantity, |formulas| match formulas.braked {
+        let runtime = self.runtime();
+        self.match_sector(&nan(), |number, formulas| match formulas.braked {
             true => {
-                let function = format_ident!("transverse_{quantity}_{}", formulas.sector.name);
-                let power = self.with_arrays(
-                    &[&["omega"], &["difference_rate"]],
-                    quote!(self.#function(omega, difference_rate)),
-                    no_answer(quantity),
-                );
+                let power = self.value_at_slices(Purpose::TransverseFriction(number, true));
                 quote! {{
                     let omega = motion.omega;
                     #power
@@ -259,41 +239,35 @@ impl Emission<'_> {
     /// The function for the power of friction, which takes the rates alone and may be zero. None
     /// where it takes the motion too.
     fn friction_by_sector(&self) -> TokenStream {
-        let (runtime, quantity) = (self.runtime(), "friction_power");
-        let (some, none) = (quote!(::core::option::Option::Some), no_answer(quantity));
-        self.match_sector(quantity, |formulas| {
+        let runtime = self.runtime();
+        self.match_sector(&nan(), |number, formulas| {
             let links = Literal::usize_unsuffixed(formulas.sector.links);
-            let (known, power) = match (formulas.friction.is_zero(), formulas.braked) {
-                (true, _) => (quote!(_), quote!(T::from_f64(0.0))),
-                (_, true) => (quote!(_), none.clone()),
-                (false, false) => {
-                    let function = format_ident!("transverse_{quantity}_{}", formulas.sector.name);
-                    let call = quote!(self.#function(difference_rate));
-                    (quote!([difference_rate]), call)
-                }
-            };
-            quote! {
-                match #runtime::emitted::arrays::<T, #links, 1>([difference_rate]) {
-                    #some(#known) => #power,
-                    _ => #none,
-                }
+            match (formulas.friction.is_zero(), formulas.braked) {
+                (true, _) => quote! {
+                    match #runtime::emitted::arrays::<T, #links, 1>([difference_rate]) {
+                        ::core::option::Option::Some(_) => T::from_f64(0.0),
+                        _ => T::from_f64(f64::NAN),
+                    }
+                },
+                (_, true) => nan(),
+                _ => self.value_at_slices(Purpose::TransverseFriction(number, false)),
             }
         })
     }
 
-    /// `match sector { 0 => …, … }`, a value of each sector.
+    /// `match sector { 0 => …, … }`, a value of each sector, and one where there is none.
     fn match_sector(
         &self,
-        quantity: &str,
-        of_sector: impl Fn(&TransverseFormulas) -> TokenStream,
+        none: &TokenStream,
+        of_sector: impl Fn(usize, &TransverseFormulas) -> TokenStream,
     ) -> TokenStream {
         let transverse = self.mechanics.transverse.iter();
         let sectors = transverse.flat_map(|transverse| &transverse.sectors);
         let arms = sectors.enumerate().map(|(number, formulas)| {
-            let (number, value) = (Literal::usize_unsuffixed(number), of_sector(formulas));
+            let value = of_sector(number, formulas);
+            let number = Literal::usize_unsuffixed(number);
             quote!(#number => #value)
         });
-        let none = no_answer(quantity);
         quote! {
             match sector {
                 #(#arms,)*
@@ -303,10 +277,7 @@ impl Emission<'_> {
     }
 }
 
-/// Stand-in for a quantity that has no answer.
-fn no_answer(quantity: &str) -> TokenStream {
-    match quantity {
-        "accelerations" => quote!(false),
-        _ => quote!(T::from_f64(f64::NAN)),
-    }
+/// Stand-in for a number that there is not.
+fn nan() -> TokenStream {
+    quote!(T::from_f64(f64::NAN))
 }

@@ -31,7 +31,7 @@ pub struct Joint {
 }
 
 /// The quantities from which the articulated recursion is formed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Articulation {
     /// Gravitational acceleration.
     pub gravity: Expr,
@@ -52,14 +52,10 @@ impl Derivation<'_> {
             let LinkId(index) = orbit.links[0];
             let link = &scene.links[index];
             let angle = frame.coordinates[index];
-            let named = |letter: &str| match self.symbols.find(&format!("{letter}_{}", orbit.name))
-            {
-                Some(symbol) => Expr::Symbol(symbol),
-                None => Expr::zero(),
-            };
-            let optional = |value: &Option<_>, letter| match value {
-                Some(_) => named(letter),
-                None => Expr::zero(),
+            let optional = |value: &Option<_>, letter: &str| {
+                let known = || self.symbols.find(&format!("{letter}_{}", orbit.name));
+                let symbol = value.as_ref().and_then(|_| known());
+                symbol.map_or_else(Expr::zero, Expr::Symbol)
             };
             Joint {
                 inertia: expr(frame.mass.get(index, index)),

@@ -132,6 +132,12 @@ pub enum Expr {
     Power(Box<Expr>, i32),
 }
 
+impl Default for Expr {
+    fn default() -> Self {
+        Self::zero()
+    }
+}
+
 impl Expr {
     /// The number zero.
     pub fn zero() -> Self {

@@ -12,7 +12,7 @@ use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::print::latex_name;
 use super::transfer::{DerivedParts, SubHamiltonian};
-use super::{MeanTree, System};
+use super::{LinearSystem, MeanTree};
 use crate::scene::{Coordinate, LinkId, UnequalNode};
 
 /// A letter of constants in code, in text and in LaTeX.
@@ -234,7 +234,7 @@ impl Derivation<'_> {
         });
         MeanTree {
             frame,
-            added: System {
+            added: LinearSystem {
                 unknowns: mismatch.added.clone(),
                 right: right.collect(),
             },

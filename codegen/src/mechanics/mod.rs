@@ -40,15 +40,15 @@ mod work_limit;
 use crate::scene::Coordinate;
 pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
-pub use derivation::{Combination, CombinationId, Trigonometric};
+pub use derivation::{AngleCombination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
 pub use friction::{BrakingTorque, FrictionPlace, TorqueSource};
 pub use inverse_mass::Counting;
 pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
-    CanonicalRate, EnergySymbols, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame,
-    Observables, System,
+    CanonicalRate, EnergySymbols, FunctionOf, LinearSystem, NestedSymbols, ObservableFormulas,
+    ObservableFrame, Observables,
 };
 pub use positions::{LinkPositions, RelativePosition};
 pub use print::{latex, text};
@@ -217,7 +217,7 @@ pub struct MeanTree {
     pub frame: Frame,
     /// The velocities that the mismatch adds at given momenta; solved for with the mass
     /// matrix of the mean tree.
-    pub added: System,
+    pub added: LinearSystem,
 }
 
 /// Formulas for people: what the code solves, written out.
@@ -237,7 +237,7 @@ pub struct WrittenOut {
 
 /// Everything derived for a scene. Invariants: mass matrices symmetric and
 /// zero between unrelated branches; K = ½ vᵀ M v.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mechanics {
     /// All symbols.
     pub symbols: Symbols,
@@ -246,7 +246,7 @@ pub struct Mechanics {
     /// Meaning of every trigonometric symbol.
     pub trigonometry: BTreeMap<SymbolId, Trigonometric>,
     /// Combinations of differences whose sine and versine appear.
-    pub combinations: Vec<Combination>,
+    pub combinations: Vec<AngleCombination>,
     /// Constants of the model, in the order of their symbols.
     pub constants: Vec<Constant>,
     /// The drive, if the scene has one.

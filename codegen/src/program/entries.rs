@@ -1,20 +1,20 @@
 //! The entry points that a scene's requests lead to.
 
 use super::lower::{Environment, Lowering};
-use super::{Argument, Choice, Entry, Naming, Operations, Purpose, Strips, ValueId};
+use super::{Argument, Entry, LoopTree, Naming, Operations, Purpose, SolveChoice, ValueId};
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{Frame, MatrixEntry, Mechanics};
 use crate::scene::{LinkId, Scene, Solve};
 
 /// Entry points, the solve that they take, and the constants by strip.
-type Lowered = (Vec<Entry>, Choice, Option<Strips>);
+type Lowered = (Vec<Entry>, SolveChoice, Option<LoopTree>);
 
 /// Those of a tree in loops, which take the recursion through it link by link.
 pub(super) fn link_entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     let mechanics = lowering.mechanics;
     let mut list = EntryList::new(scene, lowering);
     let strips = list.link_functions(scene, mechanics);
-    let choice = Choice {
+    let choice = SolveChoice {
         solve: Solve::Recursion,
         factorization: None,
         recursion: Operations::default(),
@@ -90,7 +90,7 @@ impl<'l, 'm> EntryList<'l, 'm> {
             .collect()
     }
 
-    fn absolute(&mut self, scene: &Scene, mechanics: &Mechanics) -> Choice {
+    fn absolute(&mut self, scene: &Scene, mechanics: &Mechanics) -> SolveChoice {
         use Argument::{AbsoluteMomenta, Omega, Theta};
         let frame = &mechanics.absolute;
         let mut motion = Environment::new(frame, Theta, Some(Omega), None);

@@ -65,7 +65,7 @@ pub enum Argument {
 
 /// The shape in which an entry point returns its outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum ResultShape {
     /// One number.
     Scalar,
     /// An array.
@@ -306,5 +306,5 @@ pub struct Entry {
     /// Output values.
     pub outputs: Vec<ValueId>,
     /// Shape of the outputs.
-    pub shape: Shape,
+    pub shape: ResultShape,
 }

@@ -8,7 +8,7 @@ use super::sectors::by_coordinate;
 use super::symmetric::{ConstantValues, Fields, MassFactors, SymmetricTree};
 use super::{EntryState, ValueId};
 use crate::mechanics::expression::SymbolId;
-use crate::mechanics::{ObservableFrame, OrbitMechanics, System};
+use crate::mechanics::{LinearSystem, ObservableFrame, OrbitMechanics};
 use crate::scene::Scene;
 
 /// A nested tree on which observables are formed.
@@ -101,7 +101,7 @@ impl<'s> NestedObservables<'s> {
         &self,
         lowering: &mut Lowering<'_>,
         environment: &mut Environment<'_>,
-        system: &System,
+        system: &LinearSystem,
     ) {
         let mechanics = lowering.mechanics;
         let right: Vec<ValueId> = system

@@ -6,7 +6,7 @@ use super::lower::{Environment, Lowering};
 use super::nested_observables::NestedObservables;
 use super::{Argument, EntryState, Purpose, ValueId};
 use crate::mechanics::expression::{Expr, SymbolId};
-use crate::mechanics::{Frame, Mechanics, ObservableFrame, System};
+use crate::mechanics::{Frame, LinearSystem, Mechanics, ObservableFrame};
 use crate::scene::{Function, ObservableForm, Scene};
 
 impl Lowering<'_> {
@@ -30,7 +30,7 @@ impl Lowering<'_> {
     }
 
     /// Solves a system with the mass matrix and hands its unknowns over.
-    fn solve_system(&mut self, environment: &mut Environment<'_>, system: &System) {
+    fn solve_system(&mut self, environment: &mut Environment<'_>, system: &LinearSystem) {
         let matrix = self.mass_matrix(environment);
         let right = system
             .right

@@ -3,7 +3,8 @@
 
 use super::entry::CANONICAL;
 use super::{
-    Argument, Cause, EnergyDefinition, Entry, EntryState, LinkFunction, PointKind, Purpose, Shape,
+    Argument, Cause, EnergyDefinition, Entry, EntryState, LinkFunction, PointKind, Purpose,
+    ResultShape,
 };
 use crate::mechanics::{Counting, Mechanics};
 use crate::scene::{Coordinate, CoordinateKind, LINK_PROPERTIES, ObservableForm, Scene};
@@ -20,7 +21,7 @@ pub struct Signature {
     /// Arguments in order.
     pub arguments: Vec<Argument>,
     /// Shape of the result.
-    pub shape: Shape,
+    pub shape: ResultShape,
 }
 
 /// What the functions of a model are called after, and how long their arrays are.
@@ -81,7 +82,7 @@ impl Naming {
             Symmetric, Theta, Time, Torques,
         };
         use Purpose as P;
-        use Shape::{Arrays, Budget, Rows, Scalar, Transfer, Transfers, Vector};
+        use ResultShape::{Arrays, Budget, Rows, Scalar, Transfer, Transfers, Vector};
         let plain = |name: &str, arguments: &[Argument], shape| Signature {
             name: name.to_owned(),
             arguments: arguments.to_vec(),

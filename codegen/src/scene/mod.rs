@@ -58,7 +58,7 @@ pub use requested::{BudgetRequest, Requests, Solve, TransferRequest};
 pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};
-pub use transverse::TransverseSector;
+pub use transverse::TransverseCopies;
 pub use unequal::UnequalNode;
 
 use crate::exact::Rational;
@@ -107,7 +107,7 @@ pub struct Scene {
     pub observables: Vec<Observable>,
     /// Links whose motion the caller states, those of each set together. They come with
     /// `requests.forces`.
-    pub prescribed: Vec<PrescribedLinks>,
+    pub prescribed: Vec<PrescribedSet>,
     /// How the links stand for those of the whole tree, where the description makes it
     /// smaller.
     pub reduction: Option<Reduction>,
@@ -229,7 +229,7 @@ pub struct Group {
 
 /// Links whose motion is handed over together.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PrescribedLinks {
+pub struct PrescribedSet {
     /// Their names, joined: part of the name of their function.
     pub name: String,
     /// The links, in the order written.
@@ -244,7 +244,7 @@ pub struct Reduction {
     /// Number of links of the whole tree.
     pub links: usize,
     /// The nodes of the whole tree, parents before children, depth first.
-    pub orbits: Vec<WholeOrbit>,
+    pub orbits: Vec<WholeNode>,
 }
 
 /// Order of the links of a whole tree: that of a scene without reductions.
@@ -258,7 +258,7 @@ pub enum WholeOrder {
 
 /// Links of a whole tree that are copies of one node of the description.
 #[derive(Debug, Clone, PartialEq)]
-pub struct WholeOrbit {
+pub struct WholeNode {
     /// Name of the node: `child`, or `name_2` for a generation of a rule.
     pub name: String,
     /// Copies under each copy of the parent.
@@ -268,12 +268,12 @@ pub struct WholeOrbit {
     /// Index behind the last node of the subtree.
     pub end: usize,
     /// Motion of the copies.
-    pub motion: WholeMotion,
+    pub motion: NodeMotion,
 }
 
 /// Motion of a link of a whole tree in terms of the scene's links.
 #[derive(Debug, Clone, PartialEq)]
-pub enum WholeMotion {
+pub enum NodeMotion {
     /// As a link of the scene: the first copy as the one `offset` places behind the link
     /// that it hangs from, each further one that moves by itself `stride` places later.
     Moving {

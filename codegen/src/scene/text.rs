@@ -3,8 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, CratePath, Drive, Group, Layout, Link, Observable, Offset, Orbit, Parameter,
-    Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeMotion, WholeOrbit,
+    BudgetRequest, CratePath, Drive, Group, Layout, Link, NodeMotion, Observable, Offset, Orbit,
+    Parameter, Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeNode,
     WholeOrder,
 };
 
@@ -103,7 +103,7 @@ impl Display for Scene {
     }
 }
 
-impl Display for WholeOrbit {
+impl Display for WholeNode {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.name)?;
         if self.copies > 1 {
@@ -111,8 +111,8 @@ impl Display for WholeOrbit {
             write!(f, ", {} copies {how}", self.copies)?;
         }
         match &self.motion {
-            WholeMotion::Moving { .. } => Ok(()),
-            WholeMotion::Locked { angle } => write!(f, ", locked at {angle}"),
+            NodeMotion::Moving { .. } => Ok(()),
+            NodeMotion::Locked { angle } => write!(f, ", locked at {angle}"),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Names of what the functions of a link read: columns of constants, and elements of the
 //! other arguments.
 
-use super::strips::Strips;
+use super::strips::LoopTree;
 use crate::named_members::named_members;
 use crate::program::Argument;
 
@@ -57,7 +57,7 @@ named_members! {
     }
 }
 
-impl Strips {
+impl LoopTree {
     /// Number of elements of an argument of the link functions.
     pub fn length(&self, argument: Argument) -> usize {
         let torque = usize::from(self.has_joint_torques);

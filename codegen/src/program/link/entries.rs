@@ -2,10 +2,10 @@
 
 use super::columns::Column;
 use super::functions::Functions;
-use super::strips::Strips;
+use super::strips::LoopTree;
 use crate::mechanics::Mechanics;
 use crate::program::entries::EntryList;
-use crate::program::{Argument, LinkFunction, Op, Purpose, Shape, ValueId};
+use crate::program::{Argument, LinkFunction, Op, Purpose, ResultShape, ValueId};
 use crate::scene::Scene;
 
 impl EntryList<'_, '_> {
@@ -14,7 +14,7 @@ impl EntryList<'_, '_> {
         &mut self,
         scene: &Scene,
         mechanics: &Mechanics,
-    ) -> Strips {
+    ) -> LoopTree {
         let Some(balance) = &mechanics.link else {
             unreachable!("trees in loops come with the balance of a link");
         };
@@ -35,10 +35,10 @@ impl EntryList<'_, '_> {
             let mut signature = self.naming.signature(purpose);
             // The response stands before the elimination, the acceleration before the rest.
             signature.shape = match function {
-                LinkFunction::Inner => Shape::Split(outputs.len() - 3),
-                LinkFunction::Accelerate => Shape::Split(1),
-                LinkFunction::AccelerateLeaf => Shape::Scalar,
-                _ => Shape::Vector,
+                LinkFunction::Inner => ResultShape::Split(outputs.len() - 3),
+                LinkFunction::Accelerate => ResultShape::Split(1),
+                LinkFunction::AccelerateLeaf => ResultShape::Scalar,
+                _ => ResultShape::Vector,
             };
             self.entries.push(signature.entry(purpose, outputs));
         }
