@@ -3,9 +3,8 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use crate::mechanics::Counting;
-use crate::program::{Argument, Cause, Entry, EntryState, LinkFunction, Purpose};
-use crate::scene::Solve;
-use crate::scene::{CoordinateKind, Reduction};
+use crate::program::{Argument, Cause, Entry, EntryState, Purpose};
+use crate::scene::{CoordinateKind, Reduction, Solve};
 use proc_macro2::TokenStream;
 
 /// Meaning of w in formulas of transfers.
@@ -306,7 +305,7 @@ impl Emission<'_> {
             | Purpose::PointVelocities(_)
             | Purpose::PointTorques(_)
             | Purpose::LinkProperties => self.positions_meaning(purpose),
-            Purpose::Link(function) => vec![link_meaning(function).into()],
+            Purpose::Link(function) => vec![function.meaning().into()],
             Purpose::Scale(function) => vec![function.meaning().into()],
             Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
             Purpose::RootDrive => vec![
@@ -337,28 +336,6 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::Torques => Some("`torques` (in N m)"),
         Argument::Prescribed(_) => Some("accelerations `prescribed` (in rad/s²)"),
         _ => None,
-    }
-}
-
-/// A function of the recursion, in words.
-fn link_meaning(function: LinkFunction) -> &'static str {
-    match function {
-        LinkFunction::Leaf => {
-            "The response of a link without children: N and γ, and the torque of its joint on the parent where joints have torques."
-        }
-        LinkFunction::Attach => {
-            "The response of a child about the pivot of its parent, whose motion is given: as it is where all children share one pivot."
-        }
-        LinkFunction::Inner => {
-            "The response of a link with children, and b/J and κ/J, which `accelerate` takes."
-        }
-        LinkFunction::Pivot => "The apparent gravity at a child's pivot.",
-        LinkFunction::Accelerate => {
-            "The angular acceleration (in rad/s²) of a link with children, and what it hands them."
-        }
-        LinkFunction::AccelerateLeaf => {
-            "The angular acceleration (in rad/s²) of a link without children."
-        }
     }
 }
 

@@ -113,7 +113,7 @@ impl Emission<'_> {
                 false => ("", ""),
             };
             let docs = doc_lines(&[format!(
-                "Power −Σ c (ω − ω_parent)² + k ω²{laws} (in W) of friction c and drag k{meaning} on the whole tree, never positive: dE/dt of E = K + U is this and {others}. NaN for a slice of another length than there are links. O(links)."
+                "Power −Σ (c (ω − ω_parent)² + k ω²{laws}) (in W) of friction c and drag k{meaning} on the whole tree, never positive: dE/dt of E = K + U is this and {others}. NaN for a slice of another length than there are links. O(links)."
             )]);
             quote! {
                 #docs

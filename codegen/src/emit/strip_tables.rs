@@ -100,8 +100,13 @@ impl Emission<'_> {
         let stored = self.stored_constants();
         let stored = stored.iter().map(|&id| {
             let field = self.field(id);
-            let value = self.known_value(id, &known);
-            quote!(#field: #value)
+            match known.get(&id) {
+                Some(value) if *value == field => quote!(#field),
+                _ => {
+                    let value = self.known_value(id, &known);
+                    quote!(#field: #value)
+                }
+            }
         });
         let fields = body_field.into_iter().chain(property_field).chain(stored);
         quote! {

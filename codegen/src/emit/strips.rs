@@ -192,12 +192,9 @@ impl Emission<'_> {
         let own = match self.scene.layout {
             Layout::Generations { .. } => self.generation_functions(),
             _ => {
-                let under = self
-                    .scene
-                    .requests
-                    .forces
-                    .then(|| self.array_function_under());
-                let own = self.array_function();
+                let under = self.scene.requests.forces;
+                let under = under.then(|| self.array_function(Purpose::AccelerationsUnder));
+                let own = self.array_function(Purpose::Accelerations);
                 quote!(#own #under)
             }
         };
@@ -238,27 +235,44 @@ impl Emission<'_> {
         }
     }
 
-    /// `accelerations` on arrays.
-    fn array_function(&self) -> TokenStream {
-        let links = self.links();
-        let driven = self.mechanics.drive.is_some();
-        let time = driven.then(|| quote!(time: T,));
-        let drive = self.drive_at_time();
-        let docs = doc_lines(&[format!(
-            "Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s), in fused arithmetic where the machine has it. O(links).",
-            self.at_time()
-        )]);
+    /// `accelerations` on arrays, or those under torques from outside.
+    fn array_function(&self, purpose: Purpose) -> TokenStream {
+        let (runtime, links, drive) = (self.runtime(), self.links(), self.drive_at_time());
+        let time = self.mechanics.drive.is_some().then(|| quote!(time: T,));
+        let (name, docs, torques, call) = match purpose {
+            Purpose::AccelerationsUnder => (
+                quote!(accelerations_under),
+                self.meaning(purpose),
+                Some(quote!(torques: &[T; #links],)),
+                quote! {
+                    let mut workspace = #runtime::system::Workspace::new();
+                    let given: [&[T]; 3] = [theta, omega, torques];
+                    self.tree.accelerations_under_with(&mut workspace, #drive, given, &mut alpha);
+                },
+            ),
+            _ => (
+                quote!(accelerations),
+                vec![format!(
+                    "Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s), in fused arithmetic where the machine has it. O(links).",
+                    self.at_time()
+                )],
+                None,
+                quote!(self.tree.accelerations_into(#drive, theta, omega, &mut alpha);),
+            ),
+        };
+        let docs = doc_lines(&docs);
         quote! {
             #docs
             #[must_use]
-            pub fn accelerations(
+            pub fn #name(
                 &self,
                 #time
                 theta: &[T; #links],
                 omega: &[T; #links],
+                #torques
             ) -> [T; #links] {
                 let mut alpha = [T::from_f64(0.0); #links];
-                self.tree.accelerations_into(#drive, theta, omega, &mut alpha);
+                #call
                 alpha
             }
         }

@@ -17,6 +17,7 @@ mod friction;
 mod hamiltonian;
 mod inverse_mass;
 mod lagrangian;
+mod letters;
 mod link;
 mod lock;
 mod mismatch;
@@ -37,7 +38,6 @@ mod transfer;
 mod transverse;
 mod work_limit;
 
-use crate::scene::Coordinate;
 pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
 pub use derivation::{AngleCombination, CombinationId, Trigonometric};
@@ -58,7 +58,7 @@ pub use small::{SmallFormulas, SmallMechanics};
 pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 
-use crate::scene::Scene;
+use crate::scene::{Coordinate, Scene};
 use derivation::Derivation;
 use expression::{Expr, SymbolId, Symbols};
 use std::collections::BTreeMap;

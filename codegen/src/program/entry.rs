@@ -279,18 +279,18 @@ named_members! {
     /// The functions that the recursion calls for each link of a tree in loops.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum LinkFunction {
-        /// The response of a link without children.
-        Leaf = "leaf",
-        /// The response of a child about its parent's pivot.
-        Attach = "attach",
-        /// The response and the elimination of a link with children.
-        Inner = "inner",
-        /// The apparent gravity at a child's pivot.
-        Pivot = "pivot",
-        /// The acceleration of a link with children, and what it hands down.
-        Accelerate = "accelerate",
-        /// The acceleration of a link without children.
-        AccelerateLeaf = "accelerate_leaf",
+        Leaf = "leaf":
+            "The response of a link without children: N and γ, and the torque of its joint on the parent where joints have torques.",
+        Attach = "attach":
+            "The response of a child about the pivot of its parent, whose motion is given: as it is where all children share one pivot.",
+        Inner = "inner":
+            "The response of a link with children, and b/J and κ/J, which `accelerate` takes.",
+        Pivot = "pivot":
+            "The apparent gravity at a child's pivot.",
+        Accelerate = "accelerate":
+            "The angular acceleration (in rad/s²) of a link with children, and what it hands them.",
+        AccelerateLeaf = "accelerate_leaf":
+            "The angular acceleration (in rad/s²) of a link without children.",
     }
 }
 

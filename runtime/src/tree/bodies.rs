@@ -159,7 +159,7 @@ impl<T: Scalar> Bodies<T> {
         torque * at(omega, 0) - (x * momentum_x + y * momentum_y)
     }
 
-    /// Power −Σ c (ω − ω_parent)² + k ω², W, of friction and drag, with that of
+    /// Power −Σ (c (ω − ω_parent)² + k ω²), W, of friction and drag, with that of
     /// [other friction](Self::with_laws). NaN for a slice
     /// of another length than there are links.
     #[must_use]

@@ -22,32 +22,24 @@ impl EntryList<'_, '_> {
         scales: &LinkScales,
     ) {
         for function in ScaleFunction::ALL {
+            let exprs = match function {
+                ScaleFunction::Torques => scales.torques.as_slice(),
+                ScaleFunction::Velocity => &scales.velocity,
+                ScaleFunction::Moment => &scales.moment,
+                ScaleFunction::Energy => std::slice::from_ref(&scales.energy),
+                ScaleFunction::Slope => std::slice::from_ref(&scales.angle_slope),
+                ScaleFunction::Inertial => std::slice::from_ref(&scales.inertial),
+                ScaleFunction::Factor | ScaleFunction::Eliminate | ScaleFunction::Flow => &[],
+            };
             let outputs = match function {
                 ScaleFunction::Factor => functions.factor(self),
                 ScaleFunction::Eliminate => functions.eliminate(self, link, scales),
                 ScaleFunction::Flow => functions.flow(self, link, scales),
                 ScaleFunction::Torques => {
-                    let torques = functions.derived(self, link, scales, function, &scales.torques);
+                    let torques = functions.derived(self, link, scales, function, exprs);
                     functions.with_braking(self, torques)
                 }
-                ScaleFunction::Velocity => {
-                    functions.derived(self, link, scales, function, &scales.velocity)
-                }
-                ScaleFunction::Moment => {
-                    functions.derived(self, link, scales, function, &scales.moment)
-                }
-                ScaleFunction::Energy => {
-                    let energy = std::slice::from_ref(&scales.energy);
-                    functions.derived(self, link, scales, function, energy)
-                }
-                ScaleFunction::Slope => {
-                    let slope = std::slice::from_ref(&scales.angle_slope);
-                    functions.derived(self, link, scales, function, slope)
-                }
-                ScaleFunction::Inertial => {
-                    let inertial = std::slice::from_ref(&scales.inertial);
-                    functions.derived(self, link, scales, function, inertial)
-                }
+                _ => functions.derived(self, link, scales, function, exprs),
             };
             debug_assert_eq!(outputs.len(), function.results());
             self.push(Purpose::Scale(function), outputs);
