@@ -53,6 +53,7 @@ pub use entry::{
     Shape,
 };
 pub use fuse::FusedSum;
+pub use interpret::Interpreter;
 pub use link::{Column, LINK_MOTION, ScaleFunction, Strip, Strips};
 pub use operation::{Definition, Op, ValueId};
 use passes::PASSES;
