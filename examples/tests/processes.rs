@@ -8,6 +8,7 @@ use std::io::Read;
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use rand_xoshiro::SplitMix64;
@@ -156,46 +157,71 @@ fn interrupt(child: &Child) {
     assert!(sent.unwrap().success());
 }
 
-/// At ten moments of each program, from its first instant to its end.
+/// At ten moments of each program, from its first instant to its end. Several at once: they
+/// mostly sleep.
 #[test]
 fn ctrl_c_keeps_what_is_finished_and_leaves_nothing_half_written() {
     let mut random = SplitMix64::seed_from_u64(2026);
-    for program in &PROGRAMS {
-        for moment in 0..10 {
-            let folder = folder(&format!("interrupted-{}-{moment}", program.name()));
-            let mut command = program.command(&folder);
-            command.stdout(Stdio::null()).stderr(Stdio::piped());
-            let child = command.spawn().unwrap();
-            // Moments spread over many sizes: programs take from 0.1 s to minutes.
+    let moments = PROGRAMS
+        .iter()
+        .flat_map(|program| (0..10).map(move |k| (program, k)));
+    // Moments spread over many sizes: programs take from 0.1 s to minutes.
+    let cases: Vec<_> = moments
+        .map(|(program, moment)| {
             let share = random.next_u64() as f64 / u64::MAX as f64;
-            std::thread::sleep(Duration::from_secs_f64(0.02 * 60.0_f64.powf(share)));
-            interrupt(&child);
-            let output = child.wait_with_output().unwrap();
-            let stderr = stderr(&output);
-            let case = format!("{} {moment}: {stderr}", program.name());
-            match (output.status.code(), output.status.signal()) {
-                // Done before.
-                (Some(0), _) => assert_whole(&folder, &["finished"]),
-                // Before it could say anything.
-                (None, Some(2)) => assert!(names(&folder).is_empty(), "{case}"),
-                (Some(130), _) => {
-                    assert_eq!(stderr.lines().count(), 1, "{case}");
-                    let start = format!("{}: interrupted; ", program.name());
-                    assert!(stderr.starts_with(&start), "{case}");
-                    if folder.exists() {
-                        assert!(names(&folder).contains(&"run.json".to_owned()), "{case}");
-                        assert!(stderr.contains(folder.to_str().unwrap()), "{case}");
-                    } else {
-                        assert!(stderr.contains("no file was finished"), "{case}");
-                    }
-                    // It may just have finished.
-                    assert_whole(&folder, &["interrupted", "finished"]);
+            (
+                program,
+                moment,
+                Duration::from_secs_f64(0.02 * 60.0_f64.powf(share)),
+            )
+        })
+        .collect();
+    let next = AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                while let Some(&(program, moment, wait)) =
+                    cases.get(next.fetch_add(1, Ordering::Relaxed))
+                {
+                    interrupted(program, moment, wait);
                 }
-                other => panic!("{other:?}: {case}"),
-            }
-            let _ = fs::remove_dir_all(&folder);
+            });
         }
+    });
+}
+
+/// Interrupts a program after a while, and looks at what it leaves.
+fn interrupted(program: &Program, moment: usize, wait: Duration) {
+    let folder = folder(&format!("interrupted-{}-{moment}", program.name()));
+    let mut command = program.command(&folder);
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    std::thread::sleep(wait);
+    interrupt(&child);
+    let output = child.wait_with_output().unwrap();
+    let stderr = stderr(&output);
+    let case = format!("{} {moment}: {stderr}", program.name());
+    match (output.status.code(), output.status.signal()) {
+        // Done before.
+        (Some(0), _) => assert_whole(&folder, &["finished"]),
+        // Before it could say anything.
+        (None, Some(2)) => assert!(names(&folder).is_empty(), "{case}"),
+        (Some(130), _) => {
+            assert_eq!(stderr.lines().count(), 1, "{case}");
+            let start = format!("{}: interrupted; ", program.name());
+            assert!(stderr.starts_with(&start), "{case}");
+            if folder.exists() {
+                assert!(names(&folder).contains(&"run.json".to_owned()), "{case}");
+                assert!(stderr.contains(folder.to_str().unwrap()), "{case}");
+            } else {
+                assert!(stderr.contains("no file was finished"), "{case}");
+            }
+            // It may just have finished.
+            assert_whole(&folder, &["interrupted", "finished"]);
+        }
+        other => panic!("{other:?}: {case}"),
     }
+    let _ = fs::remove_dir_all(&folder);
 }
 
 /// The programs that end within some seconds.

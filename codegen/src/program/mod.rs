@@ -54,6 +54,7 @@ pub use entry::{
     ResultShape,
 };
 pub use fuse::FusedSum;
+pub use interpret::Interpreter;
 pub use link::{Column, LINK_MOTION, LoopTree, ScaleFunction, StripConstants};
 pub use operation::{Definition, Op, ValueId};
 use passes::PASSES;
