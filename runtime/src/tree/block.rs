@@ -29,12 +29,9 @@ pub(super) struct Generation {
     pub(super) above: Option<(usize, usize)>,
 }
 
-/// Numbers in the widest register. In arrays of links with children, a generation
-/// starts where a register of any width would, and has room for a whole one.
-pub(super) const WIDEST: usize = 16;
-
 /// The generations of `width` neighbours in the first of some generations, and of their
-/// children, copy by copy, and so on.
+/// children, copy by copy, and so on. In arrays of links with children, a generation
+/// starts where a register of any width would, and has room for a whole one.
 ///
 /// A block has arrays of its own, in which its links stand as if there were no
 /// others.

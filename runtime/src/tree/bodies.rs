@@ -5,9 +5,10 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::sum::Sum;
-use crate::scalar::Scalar;
 use crate::scalar::kind::{compiled, compiled_once};
+use crate::scalar::{Scalar, at};
 use crate::system::Workspace;
+use crate::system::cast::put;
 
 /// Parents of the links.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -383,20 +384,4 @@ fn braking_power<T: Scalar>(law: &[T; LAW], relative: T, rate: T) -> T {
     let speed = (square + width * width).sqrt();
     let own_speed = (own_square + drag_width * drag_width).sqrt();
     (coulomb / speed + quadratic * speed) * square + drag * own_speed * own_square
-}
-
-/// The number of a link, zero where there is none.
-#[inline(always)]
-fn at<T: Scalar>(numbers: &[T], link: usize) -> T {
-    match numbers.get(link) {
-        Some(&number) => number,
-        None => T::from_f64(0.0),
-    }
-}
-
-#[inline(always)]
-fn put<T>(numbers: &mut [T], link: usize, value: T) {
-    if let Some(number) = numbers.get_mut(link) {
-        *number = value;
-    }
 }

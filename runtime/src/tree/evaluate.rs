@@ -3,7 +3,7 @@
 
 use core::ops::Range;
 
-use super::block::{Block, WIDEST};
+use super::block::Block;
 use super::interface::Interface;
 use super::layout;
 use super::memory::{LINE, Room, line, odd_lines, take};
@@ -13,7 +13,8 @@ use super::root::RootDrive;
 use super::shared::Shared;
 use super::skeleton::Skeleton;
 use super::sweep::{Sweep, View, Way};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, at};
+use crate::simd::WIDEST;
 use crate::simd::dispatch::in_widest;
 use crate::system::Workspace;
 
@@ -74,10 +75,6 @@ impl<T: Scalar> Evaluation<'_, T> {
             alpha: ends.then_some(alpha),
         });
         if self.tree.sizes.joints {
-            let at = |numbers: &[T], link: usize| match numbers.get(link) {
-                Some(&number) => number,
-                None => T::from_f64(0.0),
-            };
             joint_motions(
                 sweep,
                 &self.tree.plan.parents,
@@ -238,7 +235,7 @@ impl<T: Scalar> Evaluation<'_, T> {
 }
 
 /// A partition, and the state of all threads there.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 struct Level<'a, T> {
     partition: &'a Partition,
     room: &'a Room,
@@ -248,15 +245,7 @@ struct Level<'a, T> {
     alpha: Shared<'a, T>,
 }
 
-impl<T> Clone for Level<'_, T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Level<'_, T> {}
-
-impl<'a, T> Level<'a, T> {
+impl<'a, T: Copy> Level<'a, T> {
     /// The blocks of each thread.
     fn jobs<'b>(
         self,

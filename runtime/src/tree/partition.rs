@@ -4,8 +4,9 @@ use alloc::vec::Vec;
 
 use core::ops::Range;
 
-use super::block::{Block, Generation, WIDEST};
+use super::block::{Block, Generation};
 use super::strips::Strips;
+use crate::simd::WIDEST;
 
 /// How a tree is taken apart.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,6 @@
 
 use alloc::vec::Vec;
 
-use super::block::WIDEST;
 use super::evaluate::{Given, SweepFn, accelerations};
 use super::layout::EvaluationMemory;
 use super::memory::{Sizes, line, odd_lines};
@@ -10,6 +9,7 @@ use super::partition::Policy;
 use super::plan::Plan;
 use crate::scalar::Scalar;
 use crate::scalar::kind::compiled_once;
+use crate::simd::WIDEST;
 use crate::system::Workspace;
 
 /// The shape of a tree, its constants, and how it is computed.
