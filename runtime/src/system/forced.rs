@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::by_reference::by_reference;
+use super::ode::halves;
 use super::{Cast, LaneOde, Ode, Workspace};
 use crate::scalar::Scalar;
 
@@ -323,13 +324,9 @@ fn fill<T: Scalar>(
     rates: &mut [T],
     accelerate: impl FnOnce([&[T]; 3], &mut [T]),
 ) {
-    if state.len() != 2 * links || rates.len() != 2 * links {
-        rates.fill(T::from_f64(f64::NAN));
-        return;
+    if let Some(([theta, omega], [first, alpha])) = halves(links, state, rates) {
+        torques.torques_into(time, theta, omega, first);
+        accelerate([theta, omega, first], alpha);
+        first.copy_from_slice(omega);
     }
-    let (theta, omega) = state.split_at(links);
-    let (first, alpha) = rates.split_at_mut(links);
-    torques.torques_into(time, theta, omega, first);
-    accelerate([theta, omega, first], alpha);
-    first.copy_from_slice(omega);
 }
