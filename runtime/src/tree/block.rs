@@ -95,7 +95,7 @@ impl Generation {
 
 /// Consecutive generations of the subtrees of neighbouring links.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Block<'a> {
+pub(super) struct SubtreeBlock<'a> {
     /// The generations, and where the last one's links have children, these.
     pub(super) generations: &'a [Generation],
     /// How many generations have children.
@@ -124,7 +124,7 @@ pub(super) struct Position {
     pub(super) whole: usize,
 }
 
-impl<'a> Block<'a> {
+impl<'a> SubtreeBlock<'a> {
     /// The generations whose links are computed here.
     pub(super) fn own_generations(&self) -> &'a [Generation] {
         let count = self.inner + usize::from(self.has_leaves);
