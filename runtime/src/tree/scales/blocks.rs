@@ -8,6 +8,7 @@ use super::shape::ScaleShape;
 use super::{ByScale, ScaleEquations};
 use crate::scalar::Scalar;
 use crate::simd::Simd;
+use crate::tree::memory::take;
 
 /// The pieces of a tree.
 pub(super) struct Pieces {
@@ -33,18 +34,20 @@ impl Pieces {
         })
     }
 
-    /// Length of columns along one scale: those above blocks are kept for each.
-    fn sets(&self, scales: usize) -> usize {
-        let kept = if self.block.is_some() { scales } else { 1 };
-        kept * WORKING * self.above.column
+    /// Numbers that are formed above the blocks, or in a tree without any: along each
+    /// scale by itself, which blocks need later, or along one after the other; and two for
+    /// each link and scale. Then those in a block.
+    fn rooms(&self, scales: usize) -> [[usize; 2]; 2] {
+        let room = |column: usize, sets: usize| [sets * WORKING * column, 2 * scales * column];
+        match &self.block {
+            Some((block, _)) => [room(self.above.column, scales), room(block.column, 1)],
+            None => [room(self.above.column, 1), [0; 2]],
+        }
     }
 
-    /// Returns how many numbers are formed along all scales, with two for each link and
-    /// scale of the piece that is taken.
+    /// Returns how many numbers are formed along all scales.
     pub(super) fn room(&self, scales: usize) -> usize {
-        let block = self.block.map_or(0, |(block, _)| block.column);
-        let longest = self.above.column.max(block);
-        self.sets(scales) + WORKING * block + 2 * scales * longest
+        self.rooms(scales).as_flattened().iter().sum()
     }
 }
 
@@ -215,28 +218,34 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     fn turn<V: Simd<T>>(&mut self, pieces: &Pieces, turn: Turn) {
         let scales = self.shape.count();
         let working = core::mem::take(&mut self.working);
-        let (sets, others) = working.split_at_mut(pieces.sets(scales));
+        let mut room = &mut *working;
+        let [[sets, flows], [inner, block_flows]] =
+            (pieces.rooms(scales)).map(|rooms| rooms.map(|length| take(&mut room, length)));
         let (below, cut) = match &pieces.block {
             Some((block, cut)) => (block, *cut),
             None => (&pieces.above, scales),
         };
-        let (inner, flows) =
-            others.split_at_mut(pieces.block.map_or(0, |_| WORKING * below.column));
-        let piece = match turn.block {
-            Some(start) => Piece {
-                own: below,
-                first: cut,
-                count: scales - cut,
-                start,
-                stride: self.shape.at(cut).count,
-            },
-            None => Piece {
-                own: &pieces.above,
-                first: 0,
-                count: cut,
-                start: 0,
-                stride: 1,
-            },
+        let (piece, flows) = match turn.block {
+            Some(start) => {
+                let piece = Piece {
+                    own: below,
+                    first: cut,
+                    count: scales - cut,
+                    start,
+                    stride: self.shape.at(cut).count,
+                };
+                (piece, block_flows)
+            }
+            None => {
+                let piece = Piece {
+                    own: &pieces.above,
+                    first: 0,
+                    count: cut,
+                    start: 0,
+                    stride: 1,
+                };
+                (piece, flows)
+            }
         };
         let mut flows = ScaleColumns {
             numbers: flows,
