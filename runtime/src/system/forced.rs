@@ -18,9 +18,9 @@ use crate::scalar::Scalar;
 )]
 pub trait Forced<T: Scalar>: Cast<T> + Sized {
     /// Writes the angular accelerations, in rad/s², as
-    /// [`Pendulum::accelerations_into`](super::Pendulum::accelerations_into) does, with generalized torques Q (N m) on top of
-    /// all others: M θ̈ + b = Q. Their power is Q·ω. All slices have length
-    /// [`LINKS`](super::Pendulum::LINKS); for others the results are NaN.
+    /// [`Pendulum::accelerations_into`](super::Pendulum::accelerations_into) does, with
+    /// generalized torques Q (N m) on top of all others: M θ̈ + b = Q. Their power is Q·ω. All
+    /// slices have length [`LINKS`](super::Pendulum::LINKS); for others the results are NaN.
     ///
     /// Q_i is a couple on link i. Forces on links have the torques that
     /// [`Positions`](super::Positions) tells. On a link that stands for several of a

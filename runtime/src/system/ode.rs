@@ -44,6 +44,9 @@ by_reference! {
     }
 }
 
+/// Halves of a state, and of its rates.
+type StateHalves<'s, 'r, T> = ([&'s [T]; 2], [&'r mut [T]; 2]);
+
 /// Splits a state and its rates in halves of so many numbers. None, and rates that are NaN,
 /// where lengths do not fit: there is no answer.
 #[inline(always)]
@@ -51,7 +54,7 @@ pub(crate) fn halves<'s, 'r, T: Scalar>(
     half: usize,
     state: &'s [T],
     rates: &'r mut [T],
-) -> Option<([&'s [T]; 2], [&'r mut [T]; 2])> {
+) -> Option<StateHalves<'s, 'r, T>> {
     if [state.len(), rates.len()] != [2 * half; 2] {
         rates.fill(T::from_f64(f64::NAN));
         return None;

@@ -102,16 +102,17 @@ impl<T: Scalar> Bodies<T> {
         }
     }
 
-    /// Returns these bodies with the angles at which the springs of each link or of each generation
-    /// are at rest, rad.
+    /// Returns these bodies with the angles at which the springs of each link or of each
+    /// generation are at rest, rad.
     #[must_use]
     pub fn with_rests(self, rests: Vec<T>) -> Self {
         Self { rests, ..self }
     }
 
-    /// Returns these bodies with friction beside viscous friction and drag: C, q and ε of the
-    /// torque (C/s + q s) w in the pivot of each link or of each generation at the rate w
-    /// relative to the parent, s = √(w² + ε²); q and ε of the torque q s w against the ground.
+    /// Returns these bodies with friction beside viscous friction and drag: C, q and ε of
+    /// the torque (C/s + q s) w in the pivot of each link or of each generation at the rate
+    /// w relative to the parent, s = √(w² + ε²); q and ε of the torque q s w against the
+    /// ground.
     #[must_use]
     pub fn with_laws(self, laws: Vec<T>) -> Self {
         Self { laws, ..self }
@@ -161,8 +162,8 @@ impl<T: Scalar> Bodies<T> {
     }
 
     /// Power −Σ c (ω − ω_parent)² + k ω², W, of friction and drag, with that of
-    /// [other friction](Self::with_laws). NaN for a slice
-    /// of another length than there are links.
+    /// [other friction](Self::with_laws). NaN for a slice of another length than there are
+    /// links.
     #[must_use]
     pub fn friction_power(&self, omega: &[T]) -> T {
         compiled::<FrictionPower, T>()(self, omega)
