@@ -14,11 +14,11 @@ fn mistakes_are_marked_in_the_text() {
 upper: rod(mass = 0.2, length = 0.3) [
     lower: rod(mas = 0.1, length = 0.2),
 ]";
-    let expected = "error: unknown property `mas`
+    let expected = "error: a `rod` has no property `mas`
  --> 3:16
   |
 3 |     lower: rod(mas = 0.1, length = 0.2),
-  |                ^^^ not a property of this link
+  |                ^^^ unknown property
 help: did you mean `mass`?";
     let found = message(text);
     assert_eq!(found, expected);
