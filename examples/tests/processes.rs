@@ -19,7 +19,7 @@ struct Program {
     arguments: &'static [&'static str],
 }
 
-const PROGRAMS: [Program; 12] = [
+const PROGRAMS: [Program; 13] = [
     Program {
         path: env!("CARGO_BIN_EXE_branched-double"),
         arguments: &["--angles", "40:43:0.2", "--duration", "4", "--rate", "50"],
@@ -35,6 +35,10 @@ const PROGRAMS: [Program; 12] = [
     Program {
         path: env!("CARGO_BIN_EXE_analyse"),
         arguments: &["--duration", "1", "--draws", "50"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_identify"),
+        arguments: &["--duration", "5", "--laws", "viscous"],
     },
     Program {
         path: env!("CARGO_BIN_EXE_transfer-orders"),
@@ -297,7 +301,7 @@ fn a_run_is_repeated_from_its_record() {
 #[test]
 #[ignore = "takes minutes unoptimised: cargo test --release --test processes -- --ignored"]
 fn long_runs_are_repeated_from_their_records() {
-    repeated(PROGRAMS[3..5].iter());
+    repeated(PROGRAMS[3..6].iter());
 }
 
 /// Repeats runs. Same bytes in every file, the record included, but for times: what
