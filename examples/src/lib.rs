@@ -17,6 +17,7 @@ pub mod measured_file;
 pub mod program;
 pub mod quadrature;
 pub mod release_map;
+pub mod scenes;
 pub mod solvers;
 pub mod stability_map;
 pub mod swaying_branch;

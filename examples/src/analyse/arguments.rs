@@ -6,7 +6,6 @@ use clap::{Parser, ValueEnum};
 
 use crate::branched_double::Friction;
 use crate::measured_file::MeasuredFile;
-use crate::program::Results;
 use crate::program::command_line::{number, parts};
 
 /// From measured angles of a pendulum to its energy and power with their errors: of the
@@ -76,9 +75,6 @@ pub struct Arguments {
     /// seed of all random numbers
     #[arg(long, value_name = "N", default_value = "1")]
     pub seed: u64,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
 }
 
 /// Trees that can be analysed.
@@ -108,10 +104,6 @@ impl Default for Arguments {
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("analyse-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 
     fn check(&self) -> Result<(), String> {
         if self.pendulum == Tree::Chain && self.measured.file.is_none() {

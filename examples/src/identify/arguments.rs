@@ -3,7 +3,6 @@
 use clap::{Parser, ValueEnum};
 
 use crate::measured_file::MeasuredFile;
-use crate::program::Results;
 use crate::program::command_line::{number, parts};
 
 /// Masses, lengths, inertias and friction of a pendulum from its measured motion: a chain of
@@ -43,9 +42,6 @@ pub struct Arguments {
     /// simulated: seed of the noise
     #[arg(long, value_name = "N", default_value = "1")]
     pub seed: u64,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
 }
 
 /// Trees that can be measured.
@@ -87,10 +83,6 @@ impl Default for Arguments {
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("identify-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 }
 
 fn laws(text: &str) -> Result<Vec<Law>, String> {
