@@ -13,6 +13,7 @@ pub mod failure;
 pub mod film;
 pub mod identify;
 pub mod integration_speed;
+pub mod measured_file;
 pub mod program;
 pub mod quadrature;
 pub mod release_map;

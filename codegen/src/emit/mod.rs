@@ -20,6 +20,7 @@ mod quantities;
 mod shapes;
 mod shown;
 mod sink;
+mod slices;
 mod small;
 mod strip_docs;
 mod strip_forced;
@@ -109,6 +110,24 @@ pub fn emit(
 
         #whole
     }
+}
+
+/// Returns the equations of one link alone, for trees that other code holds; `None` where
+/// the code is no loop.
+pub fn link_equations(
+    item: &StructItem,
+    scene: &Scene,
+    mechanics: &Mechanics,
+    program: &Program,
+) -> Option<TokenStream> {
+    let emission = Emission {
+        item,
+        scene,
+        mechanics,
+        program,
+    };
+    let strips = program.strips.as_ref()?;
+    Some(emission.link_equations(strips))
 }
 
 impl Emission<'_> {

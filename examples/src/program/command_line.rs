@@ -150,6 +150,12 @@ fn values(command: &Command, matches: &ArgMatches) -> Map<String, Value> {
     values
 }
 
+/// The parts of a list that stand between commas.
+pub fn parts(text: &str) -> impl Iterator<Item = &str> {
+    let parts = text.split(',').map(str::trim);
+    parts.filter(|part| !part.is_empty())
+}
+
 /// Reads a number within a range, in the unit that messages name.
 pub fn number(
     range: RangeInclusive<f64>,
