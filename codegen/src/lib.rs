@@ -30,6 +30,7 @@ pub mod exact;
 mod layout;
 #[cfg(feature = "symbolica")]
 pub mod mechanics;
+mod named_members;
 #[cfg(feature = "symbolica")]
 mod pipeline;
 #[cfg(feature = "symbolica")]

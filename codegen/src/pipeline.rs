@@ -105,7 +105,9 @@ fn underivable(description: &Description, error: &AlgebraError) -> Diagnostic {
         AlgebraError::TooManyTerms => SizeMessage::TooManyTerms {
             limit: mechanics::MOST_TERMS,
         },
-        _ => SizeMessage::Algebra(error.to_string()),
+        _ => SizeMessage::Algebra {
+            reason: error.to_string(),
+        },
     };
     Diagnostic::new(Span::call_site(), message)
 }

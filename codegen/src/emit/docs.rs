@@ -3,9 +3,8 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use crate::mechanics::Counting;
-use crate::program::{Argument, Cause, Entry, LinkFunction, Purpose};
-use crate::scene::Solve;
-use crate::scene::{CoordinateKind, Reduction};
+use crate::program::{Argument, Cause, Entry, EntryState, Purpose};
+use crate::scene::{CoordinateKind, Reduction, Solve};
 use proc_macro2::TokenStream;
 
 /// Meaning of w in formulas of transfers.
@@ -230,10 +229,8 @@ impl Emission<'_> {
                 String::new(),
                 format!("ε scales the differences and their momenta. {IN_PHASE}"),
             ],
-            Purpose::HigherTransfer(n, index) => {
-                let truncated = &self.mechanics.transfers[n].higher[index];
-                let (order, next) = (truncated.order, truncated.order + 1);
-                let (what, remainder) = match truncated.counting {
+            Purpose::HigherTransfer(n, counting, order) => {
+                let (what, remainder) = match counting {
                     Counting::Angle => (
                         "the difference angles, momenta untouched",
                         "It grows with the momenta of the differences, which are not counted as small.".to_owned(),
@@ -241,7 +238,7 @@ impl Emission<'_> {
                     // Between two copies only even orders occur.
                     Counting::Amplitude => (
                         "the amplitude of the differences, angles and momenta alike",
-                        format!("Remainder O(ε{}), at pairs one order better.", exponent(next)),
+                        format!("Remainder O(ε{}), at pairs one order better.", exponent(order + 1)),
                     ),
                 };
                 vec![
@@ -255,13 +252,13 @@ impl Emission<'_> {
                 String::new(),
                 IN_PHASE.into(),
             ],
-            Purpose::ExactTransfer(n) => vec![
+            Purpose::ExactTransfer(n, EntryState::Momenta(_)) => vec![
                 format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and momenta: the velocities are solved for, no inverse is expanded. Conservative part; {}.", difference(n), self.on_top()),
             ],
-            Purpose::ExactTransferFromRates(n) => vec![
+            Purpose::ExactTransfer(n, _) => vec![
                 format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; {}.", difference(n), self.on_top()),
             ],
-            Purpose::SplitTransfer(n, cause) => {
+            Purpose::SplitTransfer(n, cause, _) => {
                 let name = difference(n);
                 let what = match cause {
                     Cause::MeanTree => format!("Growth: the part of the energy transfer W (in W) into `{name}` that equal copies with the mean constants would have at the same coordinates and momenta, {{H_d, H₀}}. Quadratic in the differences at leading order."),
@@ -273,12 +270,15 @@ impl Emission<'_> {
             Purpose::FrictionPower(n) => vec![
                 format!("Power (in W) of friction and drag on H_d of `{}`.", difference(n)),
             ],
-            Purpose::Budget(definition) => self.budget_meaning(definition, "friction and drive"),
+            Purpose::Budget(definition, _) => self.budget_meaning(definition, "friction and drive"),
             Purpose::BudgetUnder(definition) => {
                 self.budget_meaning(definition, "friction, drive and the `torques` from outside")
             }
-            Purpose::SectorTransfers(order) => self.sector_transfers_meaning(order),
-            Purpose::TransferMatrix => self.matrix_meaning(),
+            Purpose::SectorTransfers(_) => self.sector_transfers_meaning(None),
+            Purpose::TruncatedSectorTransfers(counting, order) => {
+                self.sector_transfers_meaning(Some((counting, order)))
+            }
+            Purpose::TransferMatrix(_) => self.matrix_meaning(),
             Purpose::AntiphaseDrivePower(n) => vec![
                 format!("Power Σ ∂H_d/∂p Q (in W) of the drive on H_d of `{}` at `time` (in s), by the inertial forces of the moving pivot; a torque on the root has none.", difference(n)),
             ],
@@ -293,18 +293,19 @@ impl Emission<'_> {
                     true => "−2 R − Σ D w",
                     false => "−2 R",
                 };
-                vec![format!("Power {power} (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and `drive_power`.")]
+                let others = self.other_powers();
+                vec![format!("Power {power} (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and {others}.")]
             }
             Purpose::Transverse(_)
             | Purpose::TransverseEnergy(_)
             | Purpose::TransverseTransfer(_)
-            | Purpose::TransverseFriction(_) => self.transverse_meaning(purpose),
+            | Purpose::TransverseFriction(..) => self.transverse_meaning(purpose),
             Purpose::SmallAccelerations | Purpose::SmallEnergy => self.small_meaning(purpose),
             Purpose::Positions(_)
             | Purpose::PointVelocities(_)
             | Purpose::PointTorques(_)
             | Purpose::LinkProperties => self.positions_meaning(purpose),
-            Purpose::Link(function) => vec![link_meaning(function).into()],
+            Purpose::Link(function) => vec![function.meaning().into()],
             Purpose::Scale(function) => vec![function.meaning().into()],
             Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
             Purpose::RootDrive => vec![
@@ -335,28 +336,6 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         Argument::Torques => Some("`torques` (in N m)"),
         Argument::Prescribed(_) => Some("accelerations `prescribed` (in rad/s²)"),
         _ => None,
-    }
-}
-
-/// A function of the recursion, in words.
-fn link_meaning(function: LinkFunction) -> &'static str {
-    match function {
-        LinkFunction::Leaf => {
-            "The response of a link without children: N and γ, and the torque of its joint on the parent where joints have torques."
-        }
-        LinkFunction::Attach => {
-            "The response of a child about the pivot of its parent, whose motion is given: as it is where all children share one pivot."
-        }
-        LinkFunction::Inner => {
-            "The response of a link with children, and b/J and κ/J, which `accelerate` takes."
-        }
-        LinkFunction::Pivot => "The apparent gravity at a child's pivot.",
-        LinkFunction::Accelerate => {
-            "The angular acceleration (in rad/s²) of a link with children, and what it hands them."
-        }
-        LinkFunction::AccelerateLeaf => {
-            "The angular acceleration (in rad/s²) of a link without children."
-        }
     }
 }
 

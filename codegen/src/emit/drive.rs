@@ -1,8 +1,7 @@
 //! Docs of driven trees.
 
 use super::Emission;
-use super::formulas::DocFormula;
-use crate::mechanics::expression::{Expr, SymbolId};
+use crate::mechanics::expression::{Expr, NamedFormula, SymbolId};
 use crate::mechanics::{DriveTerms, PivotMotion, Temporal};
 
 impl Emission<'_> {
@@ -63,28 +62,32 @@ impl Emission<'_> {
         }
     }
 
-    fn has_moving_pivot(&self) -> bool {
+    /// Functions of the powers that change the energy beside that of friction, for docs of this.
+    pub(super) fn other_powers(&self) -> &'static str {
+        match (&self.mechanics.drive, self.scene.requests.forces) {
+            (Some(_), false) => "`drive_power`",
+            (Some(_), true) => "`drive_power` and `outside_power`",
+            (None, _) => "`outside_power`",
+        }
+    }
+
+    pub(super) fn has_moving_pivot(&self) -> bool {
         let drive = self.mechanics.drive.as_ref();
         drive.is_some_and(|drive| !drive.pivot.is_empty())
     }
 
     /// The functions of time, by definition: x and y as given, then τ and the
     /// accelerations that follow.
-    pub(super) fn drive_formulas(&self) -> Vec<DocFormula> {
+    pub(super) fn drive_formulas(&self) -> Vec<NamedFormula> {
         let Some(DriveTerms {
             temporal, pivot, ..
         }) = &self.mechanics.drive
         else {
             return Vec::new();
         };
-        let positions = pivot.iter().map(|PivotMotion { name, position, .. }| {
-            let name = (*name).to_owned();
-            DocFormula {
-                left: name.clone(),
-                left_latex: name,
-                right: position.clone(),
-            }
-        });
+        let positions = pivot
+            .iter()
+            .map(|PivotMotion { name, position, .. }| NamedFormula::of_letter(name, position));
         let given: Vec<(SymbolId, Expr)> = temporal
             .iter()
             .filter_map(|(&symbol, meaning)| match meaning {
@@ -97,14 +100,8 @@ impl Emission<'_> {
     }
 
     /// The power of the drive, and the functions of time in it.
-    pub(super) fn power_formulas(&self, power: &Expr) -> Vec<DocFormula> {
-        let power = DocFormula {
-            left: "P".to_owned(),
-            left_latex: "P".to_owned(),
-            right: power.clone(),
-        };
-        std::iter::once(power)
-            .chain(self.drive_formulas())
-            .collect()
+    pub(super) fn power_formulas(&self, power: &Expr) -> Vec<NamedFormula> {
+        let power = std::iter::once(NamedFormula::of_letter("P", power));
+        power.chain(self.drive_formulas()).collect()
     }
 }

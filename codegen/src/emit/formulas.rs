@@ -1,46 +1,16 @@
 //! The formulas behind each entry point, for its docs.
 
 use super::Emission;
-use crate::mechanics::expression::{Expr, Role, SymbolId};
-use crate::mechanics::{
-    BrakingTorque, Frame, LinkFormula, TransferFormulas, TransferParts, WrittenOut,
-};
+use crate::mechanics::expression::{Expr, NamedFormula, Role, SymbolId};
+use crate::mechanics::{BrakingTorque, Frame, TransferFormulas, TransferParts, WrittenOut};
 use crate::program::{Cause, Purpose};
 
-/// A formula: left side and right side.
-pub(super) struct DocFormula {
-    pub(super) left: String,
-    pub(super) left_latex: String,
-    pub(super) right: Expr,
-}
-
-impl From<LinkFormula> for DocFormula {
-    fn from(line: LinkFormula) -> Self {
-        let LinkFormula {
-            left,
-            left_latex,
-            right,
-        } = line;
-        Self {
-            left,
-            left_latex,
-            right,
-        }
-    }
-}
-
 impl Emission<'_> {
-    pub(super) fn formulas(&self, purpose: Purpose) -> Vec<DocFormula> {
+    pub(super) fn formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
         let mechanics = self.mechanics;
         let absolute = &mechanics.absolute;
         let symmetric = mechanics.symmetric.as_ref();
-        let simple = |left: &str, right: &Expr| {
-            vec![DocFormula {
-                left: left.to_owned(),
-                left_latex: left.to_owned(),
-                right: right.clone(),
-            }]
-        };
+        let simple = |left: &str, right: &Expr| vec![NamedFormula::of_letter(left, right)];
         match purpose {
             Purpose::Accelerations => self.equations(absolute),
             Purpose::KineticEnergy => match &absolute.energies {
@@ -68,10 +38,8 @@ impl Emission<'_> {
             Purpose::AmplitudeTransfer(n) => {
                 self.transfer(&mechanics.transfers[n], |t| &t.amplitude)
             }
-            Purpose::ExactTransfer(n) | Purpose::ExactTransferFromRates(n) => {
-                self.transfer(&mechanics.transfers[n], |t| &t.exact)
-            }
-            Purpose::SplitTransfer(n, cause) => match &mechanics.transfers[n].split {
+            Purpose::ExactTransfer(n, _) => self.transfer(&mechanics.transfers[n], |t| &t.exact),
+            Purpose::SplitTransfer(n, cause, _) => match &mechanics.transfers[n].split {
                 Some([growth, forcing]) => Self::transfer_parts(match cause {
                     Cause::MeanTree => growth,
                     Cause::Mismatch => forcing,
@@ -82,10 +50,8 @@ impl Emission<'_> {
                 Some(form) => ["a_pp", "a_pq", "a_qq"]
                     .iter()
                     .zip(form)
-                    .map(|(name, expr)| DocFormula {
-                        left: (*name).to_owned(),
-                        left_latex: format!("a_{{{}}}", &name[2..]),
-                        right: expr.clone(),
+                    .map(|(&name, expr)| {
+                        NamedFormula::new(name, format!("a_{{{}}}", &name[2..]), expr)
                     })
                     .chain(self.written_out())
                     .collect(),
@@ -112,7 +78,7 @@ impl Emission<'_> {
             Purpose::Transverse(_)
             | Purpose::TransverseEnergy(_)
             | Purpose::TransverseTransfer(_)
-            | Purpose::TransverseFriction(_) => self.transverse_formulas(purpose),
+            | Purpose::TransverseFriction(..) => self.transverse_formulas(purpose),
             Purpose::SmallEnergy => self.small_formulas(),
             Purpose::SmallAccelerations
             | Purpose::AbsoluteVelocities
@@ -123,9 +89,10 @@ impl Emission<'_> {
             | Purpose::BudgetUnder(_)
             | Purpose::TaylorCoefficients
             | Purpose::MassMatrix
-            | Purpose::Budget(_)
+            | Purpose::Budget(..)
             | Purpose::SectorTransfers(_)
-            | Purpose::TransferMatrix
+            | Purpose::TruncatedSectorTransfers(..)
+            | Purpose::TransferMatrix(_)
             | Purpose::HigherTransfer(..)
             | Purpose::StiffnessMatrix
             | Purpose::ToSymmetric
@@ -139,7 +106,7 @@ impl Emission<'_> {
         }
     }
 
-    fn momentum_rates(&self, frame: &Frame) -> Vec<DocFormula> {
+    fn momentum_rates(&self, frame: &Frame) -> Vec<NamedFormula> {
         let rates = frame.momentum_rates.iter().flatten();
         frame
             .momenta
@@ -147,80 +114,58 @@ impl Emission<'_> {
             .zip(rates)
             .map(|(&id, rate)| {
                 let symbol = self.mechanics.symbols.get(id);
-                DocFormula {
-                    left: format!("d{}/dt", symbol.text),
-                    left_latex: format!("\\dot {}", symbol.latex),
-                    right: rate.clone(),
-                }
+                let latex = format!("\\dot {}", symbol.latex);
+                NamedFormula::new(format!("d{}/dt", symbol.text), latex, rate)
             })
             .collect()
     }
 
-    fn momenta(&self, frame: &Frame) -> Vec<DocFormula> {
+    fn momenta(&self, frame: &Frame) -> Vec<NamedFormula> {
         match &frame.momentum {
             Some(momentum) => self.rows(&frame.momenta, momentum),
             None => Vec::new(),
         }
     }
 
-    pub(super) fn rows(&self, symbols: &[SymbolId], exprs: &[Expr]) -> Vec<DocFormula> {
+    pub(super) fn rows(&self, symbols: &[SymbolId], exprs: &[Expr]) -> Vec<NamedFormula> {
         symbols
             .iter()
             .zip(exprs)
-            .map(|(&id, expr)| {
-                let symbol = self.mechanics.symbols.get(id);
-                DocFormula {
-                    left: symbol.text.clone(),
-                    left_latex: symbol.latex.clone(),
-                    right: expr.clone(),
-                }
-            })
+            .map(|(&id, expr)| NamedFormula::of_symbol(&self.mechanics.symbols, id, expr))
             .collect()
     }
 
     /// Entries of M below the diagonal and on it, and the rows of b.
-    fn equations(&self, frame: &Frame) -> Vec<DocFormula> {
+    fn equations(&self, frame: &Frame) -> Vec<NamedFormula> {
         let name = |index: usize| {
             let code = &self.mechanics.symbols.get(frame.coordinates[index]).code;
             code.strip_prefix("theta_").unwrap_or(code).to_owned()
         };
         let tex = |name: &str| name.replace('_', "\\_");
-        let mut formulas: Vec<DocFormula> = frame
+        let mut formulas: Vec<NamedFormula> = frame
             .mass
             .iter()
             .map(|entry| {
                 let (row, column) = (name(entry.row), name(entry.column));
-                DocFormula {
-                    left: format!("M[{row}, {column}]"),
-                    left_latex: format!("M_{{\\mathrm{{{},{}}}}}", tex(&row), tex(&column)),
-                    right: entry.value.clone(),
-                }
+                let latex = format!("M_{{\\mathrm{{{},{}}}}}", tex(&row), tex(&column));
+                NamedFormula::new(format!("M[{row}, {column}]"), latex, &entry.value)
             })
             .collect();
-        formulas.extend(
-            frame
-                .bias
-                .iter()
-                .enumerate()
-                .map(|(index, bias)| DocFormula {
-                    left: format!("b[{}]", name(index)),
-                    left_latex: format!("b_{{\\mathrm{{{}}}}}", tex(&name(index))),
-                    right: bias.clone(),
-                }),
-        );
+        formulas.extend(frame.bias.iter().enumerate().map(|(index, bias)| {
+            let row = name(index);
+            let latex = format!("b_{{\\mathrm{{{}}}}}", tex(&row));
+            NamedFormula::new(format!("b[{row}]"), latex, bias)
+        }));
         formulas.extend(self.braking_formulas(frame));
         formulas
     }
 
     /// Torques of friction that is not viscous, link by link.
-    pub(super) fn braking_formulas(&self, frame: &Frame) -> Vec<DocFormula> {
+    pub(super) fn braking_formulas(&self, frame: &Frame) -> Vec<NamedFormula> {
+        let symbols = &self.mechanics.symbols;
         let formula = |torque: &BrakingTorque| {
-            let symbol = self.mechanics.symbols.get(torque.symbol);
-            Some(DocFormula {
-                left: symbol.text.clone(),
-                left_latex: symbol.latex.clone(),
-                right: torque.formula()?,
-            })
+            let right = torque.formula()?;
+            Some(NamedFormula::of_symbol(symbols, torque.symbol, &right))
         };
         frame.torques.iter().filter_map(formula).collect()
     }
@@ -229,7 +174,7 @@ impl Emission<'_> {
         &self,
         transfer: &TransferFormulas,
         form: fn(&TransferFormulas) -> &Option<TransferParts>,
-    ) -> Vec<DocFormula> {
+    ) -> Vec<NamedFormula> {
         let Some(parts) = form(transfer) else {
             return Vec::new();
         };
@@ -244,17 +189,15 @@ impl Emission<'_> {
         formulas
     }
 
-    fn transfer_parts(parts: &TransferParts) -> Vec<DocFormula> {
-        let named = |name: &str, expr: &Expr| DocFormula {
-            left: name.to_owned(),
-            left_latex: format!("W_{{{}}}", &name[2..]),
-            right: expr.clone(),
+    fn transfer_parts(parts: &TransferParts) -> Vec<NamedFormula> {
+        let named = |name: &str, expr: &Expr| {
+            NamedFormula::new(name, format!("W_{{{}}}", &name[2..]), expr)
         };
         vec![named("W_K", &parts.kinetic), named("W_P", &parts.potential)]
     }
 
     /// w and D, where they are written out.
-    fn written_out(&self) -> Vec<DocFormula> {
+    fn written_out(&self) -> Vec<NamedFormula> {
         let Some(expansion) = &self.mechanics.expansion else {
             return Vec::new();
         };

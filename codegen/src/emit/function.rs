@@ -4,10 +4,11 @@ use super::Emission;
 use super::gather::Gathered;
 use super::names::Locals;
 use super::parts::{self, Line};
+use super::shapes::{argument_type, result_type};
 use super::tokens::{Binding, ident};
 use crate::program::{Argument, Entry, LINK_MOTION, Op, Pass, Purpose, ValueId};
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 
 /// A function before it is put together.
 pub(super) struct Written {
@@ -24,7 +25,8 @@ impl Emission<'_> {
         let name = ident(&entry.name);
         let arguments = entry.arguments.iter();
         let arguments = arguments.map(|&argument| self.parameter(argument));
-        let result = self.result_type(entry);
+        let count = |count| Literal::usize_unsuffixed(count).into_token_stream();
+        let result = result_type(&self.runtime(), entry.shape, entry.outputs.len(), count);
         let needed = self.program.needed(&entry.outputs);
         let (body, parts) = self.body(entry, &needed);
         // Batches and lanes compile the accelerations for wider registers than the rest
@@ -58,14 +60,7 @@ impl Emission<'_> {
     }
 
     pub(super) fn argument_type(&self, argument: Argument) -> TokenStream {
-        if argument == Argument::Time {
-            return quote!(T);
-        }
-        let size = self.argument_size(argument);
-        match argument {
-            Argument::Forces => quote!(&[[T; 2]; #size]),
-            _ => quote!(&[T; #size]),
-        }
+        argument_type(argument, &self.argument_size(argument).into_token_stream())
     }
 
     pub(super) fn argument_size(&self, argument: Argument) -> Literal {
@@ -73,7 +68,7 @@ impl Emission<'_> {
     }
 
     /// Links and coordinates are equally many.
-    fn argument_length(&self, argument: Argument) -> usize {
+    pub(super) fn argument_length(&self, argument: Argument) -> usize {
         match argument {
             Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                 self.transverse_links(sector)

@@ -20,6 +20,7 @@ mod quantities;
 mod shapes;
 mod shown;
 mod sink;
+mod slices;
 mod small;
 mod strip_docs;
 mod strip_forced;

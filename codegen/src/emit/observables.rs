@@ -1,10 +1,9 @@
 //! Docs of observables: what they mean and their formulas.
 
 use super::Emission;
-use super::formulas::DocFormula;
 use crate::mechanics::ObservableFormulas;
-use crate::mechanics::expression::{Expr, SymbolId};
-use crate::program::ObservableForm;
+use crate::mechanics::expression::{Expr, NamedFormula, SymbolId};
+use crate::scene::ObservableForm;
 
 impl Emission<'_> {
     pub(super) fn observable_meaning(&self, number: usize, form: ObservableForm) -> Vec<String> {
@@ -71,14 +70,10 @@ impl Emission<'_> {
         &self,
         number: usize,
         form: ObservableForm,
-    ) -> Vec<DocFormula> {
+    ) -> Vec<NamedFormula> {
         let observable = &self.mechanics.observables.list[number];
         let named = |left: &str, left_latex: &str, right: &Expr| {
-            let mut formulas = vec![DocFormula {
-                left: left.to_owned(),
-                left_latex: left_latex.to_owned(),
-                right: right.clone(),
-            }];
+            let mut formulas = vec![NamedFormula::new(left, left_latex, right)];
             formulas.extend(self.definitions(observable, right));
             formulas
         };
@@ -98,7 +93,7 @@ impl Emission<'_> {
     }
 
     /// The forces and the like that a rate refers to.
-    fn definitions(&self, observable: &ObservableFormulas, rate: &Expr) -> Vec<DocFormula> {
+    fn definitions(&self, observable: &ObservableFormulas, rate: &Expr) -> Vec<NamedFormula> {
         let observables = &self.mechanics.observables;
         let used = match observable.symmetric {
             true => &observables.symmetric,

@@ -218,8 +218,7 @@ impl Emission<'_> {
     /// a trait they are compiled for the instructions that the scalar stands
     /// for, which plain functions would not be.
     pub(super) fn part_implementations(&self) -> TokenStream {
-        let mut entries = self.program.entries.iter();
-        let Some(entry) = entries.find(|entry| entry.purpose == Purpose::Accelerations) else {
+        let Some(entry) = self.entry(Purpose::Accelerations) else {
             return TokenStream::new();
         };
         let needed = self.program.needed(&entry.outputs);

@@ -1,8 +1,7 @@
 //! Where links are: docs and formulas of the functions, and the runtime's trait.
 
 use super::Emission;
-use super::formulas::DocFormula;
-use crate::mechanics::expression::Expr;
+use crate::mechanics::expression::{Expr, NamedFormula};
 use crate::mechanics::{LinkPositions, RelativePosition};
 use crate::program::{PointKind, Purpose};
 use crate::scene::{LINK_PROPERTIES, Layout, LinkId};
@@ -59,7 +58,7 @@ impl Emission<'_> {
     }
 
     /// The steps from pivot to pivot, and from there to the points.
-    pub(super) fn positions_formulas(&self, purpose: Purpose) -> Vec<DocFormula> {
+    pub(super) fn positions_formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
         let Some(links) = &self.mechanics.positions else {
             return Vec::new();
         };
@@ -229,7 +228,7 @@ fn steps(
     parent: Option<&str>,
     values: [Expr; 2],
     rate: bool,
-) -> impl Iterator<Item = DocFormula> {
+) -> impl Iterator<Item = NamedFormula> {
     let from = parent.unwrap_or(link).to_owned();
     let link = link.to_owned();
     let mark = mark.to_owned();
@@ -246,10 +245,8 @@ fn steps(
                 true => (link.clone(), tex(&link)),
                 false => (format!("{mark},{link}"), format!("{mark},{}", tex(&link))),
             };
-            DocFormula {
-                left: format!("{text}_{own} − {text}_{from}"),
-                left_latex: format!("{latex}_{{{own_tex}}} - {latex}_{{{}}}", tex(&from)),
-                right,
-            }
+            let left = format!("{text}_{own} − {text}_{from}");
+            let latex = format!("{latex}_{{{own_tex}}} - {latex}_{{{}}}", tex(&from));
+            NamedFormula::new(left, latex, &right)
         })
 }

@@ -2,13 +2,13 @@
 
 use super::Emission;
 use super::docs::wrapped_names;
-use super::tokens::ident;
-use crate::scene::{LinkId, PrescribedLinks};
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use crate::program::Purpose;
+use crate::scene::{LinkId, PrescribedSet};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
 
 impl Emission<'_> {
-    fn prescribed_names(&self, set: &PrescribedLinks) -> String {
+    fn prescribed_names(&self, set: &PrescribedSet) -> String {
         let links = set.links.iter();
         let names: Vec<&str> = links
             .map(|&LinkId(link)| self.scene.links[link].name.as_str())
@@ -37,32 +37,26 @@ impl Emission<'_> {
             return None;
         }
         let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
-        let constants = sets.iter().map(|PrescribedLinks { name, links }| {
+        let constants = sets.iter().map(|PrescribedSet { name, links }| {
             let links = links.iter().map(|link| Literal::usize_unsuffixed(link.0));
             quote! {
                 #runtime::system::PrescribedLinks { name: #name, links: &[#(#links),*] }
             }
         });
-        let handed = self.mechanics.drive.is_some().then(|| quote!(time,));
-        let some = quote!(::core::option::Option::Some);
-        let fields: Vec<Ident> = ["theta", "omega", "torques"].map(ident).to_vec();
-        let arms = sets.iter().enumerate().map(|(number, set)| {
+        let outputs = ["alpha", "reactions"];
+        let arms = (0..sets.len()).map(|number| {
+            let (purpose, pattern) = (Purpose::Prescribed(number), quote!((first, second)));
+            let written = self.both_written_at_slices(outputs, &pattern, purpose);
             let number = Literal::usize_unsuffixed(number);
-            let function = format_ident!("accelerations_prescribed_{}", set.name);
-            quote! {
-                #number => match (
-                    #runtime::emitted::arrays([#(#fields),*]),
-                    #runtime::emitted::arrays([prescribed]),
-                ) {
-                    (#some([#(#fields),*]), #some([prescribed])) => {
-                        let (all, of_held) = self.#function(#handed #(#fields,)* prescribed);
-                        #runtime::emitted::write(alpha, &all)
-                            & #runtime::emitted::write(reactions, &of_held)
-                    }
-                    _ => false,
-                },
-            }
+            quote!(#number => #written,)
         });
+        let written = quote! {
+            match set {
+                #(#arms)*
+                _ => false,
+            }
+        };
+        let body = self.written_or_nan(&outputs, written);
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
                 const PRESCRIBED: &'static [#runtime::system::PrescribedLinks] =
@@ -79,14 +73,7 @@ impl Emission<'_> {
                 ) {
                     let #runtime::system::PrescribedMotion { theta, omega, torques, prescribed } =
                         motion;
-                    let written = match set {
-                        #(#arms)*
-                        _ => false,
-                    };
-                    if !written {
-                        alpha.fill(T::from_f64(f64::NAN));
-                        reactions.fill(T::from_f64(f64::NAN));
-                    }
+                    #body
                 }
             }
         })

@@ -1,83 +1,89 @@
 //! The shapes in which functions return their outputs.
 
 use super::Emission;
-use crate::program::{Entry, Shape};
-use proc_macro2::{Literal, TokenStream};
+use crate::program::{Argument, Entry, ResultShape};
+use proc_macro2::TokenStream;
 use quote::quote;
 
-impl Emission<'_> {
-    pub(super) fn result_type(&self, entry: &Entry) -> TokenStream {
-        let length = Literal::usize_unsuffixed(entry.outputs.len());
-        let runtime = self.runtime();
-        match entry.shape {
-            Shape::Scalar => quote!(T),
-            Shape::Vector => quote!([T; #length]),
-            Shape::Rows(length) => {
-                let rows = Literal::usize_unsuffixed(entry.outputs.len() / length);
-                let length = Literal::usize_unsuffixed(length);
-                quote!([[T; #length]; #rows])
-            }
-            Shape::Arrays(first) => {
-                let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
-                let first = Literal::usize_unsuffixed(first);
-                quote!(([T; #first], [T; #rest]))
-            }
-            Shape::Split(first) => {
-                let rest = Literal::usize_unsuffixed(entry.outputs.len() - first);
-                let first = match first {
-                    1 => quote!(T),
-                    _ => {
-                        let first = Literal::usize_unsuffixed(first);
-                        quote!([T; #first])
-                    }
-                };
-                quote!((#first, [T; #rest]))
-            }
-            Shape::Transfer => quote!(#runtime::Transfer<T>),
-            Shape::Transfers(count) => {
-                let count = Literal::usize_unsuffixed(count);
-                quote!([#runtime::Transfer<T>; #count])
-            }
-            Shape::Budget(count) => {
-                let count = Literal::usize_unsuffixed(count);
-                quote!(#runtime::Budget<T, #count>)
-            }
+/// The type of an argument, with its length if it is an array.
+pub(super) fn argument_type(argument: Argument, length: &TokenStream) -> TokenStream {
+    match argument {
+        Argument::Time => quote!(T),
+        Argument::Forces => quote!(&[[T; 2]; #length]),
+        _ => quote!(&[T; #length]),
+    }
+}
+
+/// The type of a result of so many outputs; `length` writes the lengths of arrays.
+pub(super) fn result_type(
+    runtime: &TokenStream,
+    shape: ResultShape,
+    outputs: usize,
+    length: impl Fn(usize) -> TokenStream,
+) -> TokenStream {
+    let array = |count| {
+        let length = length(count);
+        quote!([T; #length])
+    };
+    match shape {
+        ResultShape::Scalar => quote!(T),
+        ResultShape::Vector => array(outputs),
+        ResultShape::Rows(rows, columns) => {
+            let (row, rows) = (array(columns), length(rows));
+            quote!([#row; #rows])
+        }
+        ResultShape::Arrays(first, second) => {
+            let (first, second) = (array(first), array(second));
+            quote!((#first, #second))
+        }
+        ResultShape::Split(first) => {
+            let rest = array(outputs - first);
+            let first = if first == 1 { quote!(T) } else { array(first) };
+            quote!((#first, #rest))
+        }
+        ResultShape::Transfer => quote!(#runtime::Transfer<T>),
+        ResultShape::Transfers(count) => {
+            let count = length(count);
+            quote!([#runtime::Transfer<T>; #count])
+        }
+        ResultShape::Budget(count) => {
+            let count = length(count);
+            quote!(#runtime::Budget<T, #count>)
         }
     }
+}
 
+impl Emission<'_> {
     /// The outputs in the shape in which the function returns them.
     pub(super) fn shaped(&self, entry: &Entry, values: Vec<TokenStream>) -> TokenStream {
         let runtime = self.runtime();
         match entry.shape {
-            Shape::Scalar => quote!(#(#values)*),
-            Shape::Vector => quote!([#(#values),*]),
-            Shape::Rows(length) => {
+            ResultShape::Scalar => quote!(#(#values)*),
+            ResultShape::Vector => quote!([#(#values),*]),
+            ResultShape::Rows(_, length) => {
                 let rows = values.chunks(length).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
             }
-            Shape::Arrays(first) => {
+            ResultShape::Arrays(first, _) => {
                 let (first, second) = values.split_at(first);
                 quote!(([#(#first),*], [#(#second),*]))
             }
-            Shape::Split(first) => {
-                let (first, second) = values.split_at(first);
-                match first {
-                    [first] => quote!((#first, [#(#second),*])),
-                    _ => quote!(([#(#first),*], [#(#second),*])),
-                }
-            }
-            Shape::Transfer => {
+            ResultShape::Split(first) => match values.split_at(first) {
+                ([first], rest) => quote!((#first, [#(#rest),*])),
+                (first, rest) => quote!(([#(#first),*], [#(#rest),*])),
+            },
+            ResultShape::Transfer => {
                 let (kinetic, potential) = (&values[0], &values[1]);
                 quote!(#runtime::Transfer { kinetic: #kinetic, potential: #potential })
             }
-            Shape::Transfers(_) => {
+            ResultShape::Transfers(_) => {
                 let transfers = values.chunks(2).map(|parts| {
                     let (kinetic, potential) = (&parts[0], &parts[1]);
                     quote!(#runtime::Transfer { kinetic: #kinetic, potential: #potential })
                 });
                 quote!([#(#transfers),*])
             }
-            Shape::Budget(count) => {
+            ResultShape::Budget(count) => {
                 let (energies, rest) = values.split_at(count);
                 let (transfers, powers) = rest.split_at(count);
                 quote! {

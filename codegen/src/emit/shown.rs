@@ -2,9 +2,8 @@
 
 use super::Emission;
 use super::doc_text::broken;
-use super::formulas::DocFormula;
 use crate::mechanics;
-use crate::mechanics::expression::Expr;
+use crate::mechanics::expression::{Expr, NamedFormula};
 use crate::scene::Link;
 
 /// Formulas of more rows than this are shown up to here.
@@ -59,7 +58,7 @@ impl Emission<'_> {
     /// is too long.
     pub(super) fn show_text(
         &self,
-        formulas: &[DocFormula],
+        formulas: &[NamedFormula],
         most: usize,
         lines: &mut Vec<String>,
     ) -> usize {
@@ -82,7 +81,7 @@ impl Emission<'_> {
     }
 
     /// Formulas as a text block and, folded away, as LaTeX.
-    pub(super) fn show(&self, formulas: &[DocFormula], lines: &mut Vec<String>) {
+    pub(super) fn show(&self, formulas: &[NamedFormula], lines: &mut Vec<String>) {
         let shown = self.show_text(formulas, ROWS, lines);
         if shown == 0 {
             return;

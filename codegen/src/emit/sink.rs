@@ -55,8 +55,7 @@ impl Emission<'_> {
 
     /// The body of `evaluate`, if it has one of its own.
     pub(super) fn sunk(&self) -> Option<TokenStream> {
-        let mut entries = self.program.entries.iter();
-        let entry = entries.find(|entry| entry.purpose == Purpose::Accelerations)?;
+        let entry = self.entry(Purpose::Accelerations)?;
         let needed = self.program.needed(&entry.outputs);
         let written = self.written(entry, &needed);
         if !self.is_sunk(entry, &written) {

@@ -1,8 +1,8 @@
 //! Small differences that act back: names, docs, formulas and the runtime's trait.
 
 use super::Emission;
-use super::formulas::DocFormula;
 use crate::mechanics::SmallMechanics;
+use crate::mechanics::expression::NamedFormula;
 use crate::program::{Argument, Purpose};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -63,21 +63,16 @@ impl Emission<'_> {
         }
     }
 
-    pub(super) fn small_formulas(&self) -> Vec<DocFormula> {
+    pub(super) fn small_formulas(&self) -> Vec<NamedFormula> {
         let Some(small) = self.small_mechanics() else {
             return Vec::new();
-        };
-        let formula = |left: &str, left_latex: &str, right| DocFormula {
-            left: left.to_owned(),
-            left_latex: left_latex.to_owned(),
-            right,
         };
         let parts = small.sectors.iter().map(|of_sector| {
             let name = &self.transverse_sector(of_sector.sector).sector.name;
             let latex = format!("E_{{\\mathrm{{{}}}}}", name.replace('_', "\\_"));
-            formula(&format!("E_{name}"), &latex, of_sector.energy.clone())
+            NamedFormula::new(format!("E_{name}"), latex, &of_sector.energy)
         });
-        let whole = formula("E_0", "E_0", small.energy.clone());
+        let whole = NamedFormula::of_letter("E_0", &small.energy);
         std::iter::once(whole).chain(parts).collect()
     }
 
@@ -88,11 +83,8 @@ impl Emission<'_> {
         let sectors = self.scene.requests.small.iter();
         let sectors = sectors.map(|&sector| Literal::usize_unsuffixed(sector));
         let (other, time) = (super::other_scalar(name), self.time_name());
-        let timed = self.mechanics.drive.is_some().then(|| quote!(time,));
-        let (some, arrays) = (
-            quote!(::core::option::Option::Some),
-            quote!(#runtime::emitted::arrays),
-        );
+        let accelerations = self.fill("accelerations", Purpose::SmallAccelerations);
+        let energy = self.value_at_slices(Purpose::SmallEnergy);
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::SmallDifferences<T> for #name<T> {
                 const SMALL: &'static [usize] = &[#(#sectors),*];
@@ -107,23 +99,7 @@ impl Emission<'_> {
                     difference_rate: &[T],
                     accelerations: &mut [T],
                 ) {
-                    let written = match (
-                        #arrays([theta, omega]),
-                        #arrays([difference, difference_rate]),
-                    ) {
-                        (#some([theta, omega]), #some([difference, difference_rate])) => {
-                            #runtime::emitted::write(
-                                accelerations,
-                                &self.small_accelerations(
-                                    #timed theta, omega, difference, difference_rate,
-                                ),
-                            )
-                        }
-                        _ => false,
-                    };
-                    if !written {
-                        accelerations.fill(T::from_f64(f64::NAN));
-                    }
+                    #accelerations
                 }
 
                 #[inline(always)]
@@ -149,15 +125,7 @@ impl Emission<'_> {
                     difference: &[T],
                     difference_rate: &[T],
                 ) -> T {
-                    match (
-                        #arrays([theta, omega]),
-                        #arrays([difference, difference_rate]),
-                    ) {
-                        (#some([theta, omega]), #some([difference, difference_rate])) => {
-                            self.small_energy(theta, omega, difference, difference_rate)
-                        }
-                        _ => T::from_f64(f64::NAN),
-                    }
+                    #energy
                 }
             }
         })

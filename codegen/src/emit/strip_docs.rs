@@ -1,7 +1,6 @@
 //! Docs of a model in loops, and of the equations of its links.
 
 use super::Emission;
-use super::formulas::DocFormula;
 use crate::scene::Layout;
 
 impl Emission<'_> {
@@ -48,7 +47,6 @@ impl Emission<'_> {
         ];
         if let Some(link) = &self.mechanics.link {
             let formulas = link.formulas(&self.mechanics.symbols);
-            let formulas: Vec<DocFormula> = formulas.into_iter().map(DocFormula::from).collect();
             self.show_text(&formulas, formulas.len(), &mut lines);
         }
         lines

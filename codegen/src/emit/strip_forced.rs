@@ -1,36 +1,10 @@
 //! Torques from outside on trees in loops.
 
 use super::Emission;
-use super::doc_text::doc_lines;
-use crate::program::Purpose;
 use proc_macro2::TokenStream;
 use quote::quote;
 
 impl Emission<'_> {
-    /// `accelerations_under` on arrays.
-    pub(super) fn array_function_under(&self) -> TokenStream {
-        let (runtime, links, drive) = (self.runtime(), self.links(), self.drive_at_time());
-        let time = self.mechanics.drive.is_some().then(|| quote!(time: T,));
-        let docs = doc_lines(&self.meaning(Purpose::AccelerationsUnder));
-        quote! {
-            #docs
-            #[must_use]
-            pub fn accelerations_under(
-                &self,
-                #time
-                theta: &[T; #links],
-                omega: &[T; #links],
-                torques: &[T; #links],
-            ) -> [T; #links] {
-                let mut alpha = [T::from_f64(0.0); #links];
-                let mut workspace = #runtime::system::Workspace::new();
-                let given: [&[T]; 3] = [theta, omega, torques];
-                self.tree.accelerations_under_with(&mut workspace, #drive, given, &mut alpha);
-                alpha
-            }
-        }
-    }
-
     /// `impl Forced`; NaN for slices of a wrong length.
     pub(super) fn strip_forced(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());

@@ -104,21 +104,16 @@ impl Emission<'_> {
         let mut links = self.scene.links.iter();
         let braked = links.any(|link| link.has_friction() || link.has_drag());
         let friction = braked.then(|| {
-            let others = match (&self.mechanics.drive, requests.forces) {
-                (Some(_), false) => "`drive_power`",
-                (Some(_), true) => "`drive_power` and `outside_power`",
-                (None, _) => "`outside_power`",
-            };
-            let laws = match self.has_nonlinear_friction() {
-                true => " + D w",
-                false => "",
-            };
-            let meaning = match self.has_nonlinear_friction() {
-                true => " and of torques D = (C/s + q s) w of other friction at the rate w and the speed s = √(w² + ε²)",
-                false => "",
+            let others = self.other_powers();
+            let (laws, meaning) = match self.has_nonlinear_friction() {
+                true => (
+                    " + D w",
+                    " and of torques D = (C/s + q s) w of other friction at the rate w and the speed s = √(w² + ε²)",
+                ),
+                false => ("", ""),
             };
             let docs = doc_lines(&[format!(
-                "Power −Σ c (ω − ω_parent)² + k ω²{laws} (in W) of friction c and drag k{meaning} on the whole tree, never positive: dE/dt of E = K + U is this and {others}. NaN for a slice of another length than there are links. O(links)."
+                "Power −Σ (c (ω − ω_parent)² + k ω²{laws}) (in W) of friction c and drag k{meaning} on the whole tree, never positive: dE/dt of E = K + U is this and {others}. NaN for a slice of another length than there are links. O(links)."
             )]);
             quote! {
                 #docs

@@ -2,11 +2,11 @@
 //! model.
 
 use super::Emission;
-use super::formulas::DocFormula;
-use crate::program::{Argument, Purpose, ScaleFunction};
+use crate::mechanics::expression::NamedFormula;
+use crate::program::{Purpose, ScaleFunction};
 use crate::scene::{Layout, Link};
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 impl Emission<'_> {
     /// `impl ScaleEquations` and `impl Scales`, where energies by scale are asked for.
@@ -19,13 +19,15 @@ impl Emission<'_> {
         }
         let runtime = self.runtime();
         let (name, equations) = (&self.item.ident, self.equations_name());
-        let functions = ScaleFunction::ALL.map(|function| self.scale_function(function));
+        let functions = ScaleFunction::ALL.into_iter().filter_map(|function| {
+            let results = Literal::usize_unsuffixed(function.results());
+            self.equation_function(Purpose::Scale(function), &quote!([T; #results]))
+        });
         let any = |force: fn(&Link) -> bool| self.scene.links.iter().any(force);
         let springs = any(|link| link.spring.is_some());
         let friction = any(Link::has_friction);
         let drag = any(Link::has_drag);
-        let moved = self.mechanics.drive.as_ref();
-        let moved = moved.is_some_and(|drive| !drive.pivot.is_empty());
+        let moved = self.has_moving_pivot();
         let drive = match self.mechanics.drive {
             Some(_) => quote!(::core::option::Option::Some(self.drive(time))),
             None => quote!(::core::option::Option::None),
@@ -97,36 +99,8 @@ impl Emission<'_> {
         }
     }
 
-    /// A function of the trait, from its entry point.
-    fn scale_function(&self, function: ScaleFunction) -> TokenStream {
-        let Some(entry) = self.entry(Purpose::Scale(function)) else {
-            return TokenStream::new();
-        };
-        let (runtime, docs) = (self.runtime(), self.entry_docs(entry));
-        let body = self.plain_body(entry);
-        let name = format_ident!("{}", function.name());
-        let given = Literal::usize_unsuffixed(function.given().len());
-        let results = Literal::usize_unsuffixed(function.results());
-        let arguments = entry.arguments.iter().map(|argument| {
-            let name = format_ident!("{}", argument.name());
-            let kind = match argument {
-                Argument::Constants => quote!(&Self::Constants<T>),
-                Argument::Motion => quote!(#runtime::tree::LinkMotion<T>),
-                _ => quote!([T; #given]),
-            };
-            quote!(#name: #kind)
-        });
-        quote! {
-            #docs
-            #[inline(always)]
-            fn #name<T: #runtime::Scalar>(#(#arguments),*) -> [T; #results] {
-                #body
-            }
-        }
-    }
-
     /// The derived formulas behind a function of a link.
-    pub(super) fn scale_formulas(&self, function: ScaleFunction) -> Vec<DocFormula> {
+    pub(super) fn scale_formulas(&self, function: ScaleFunction) -> Vec<NamedFormula> {
         let Some(scales) = &self.mechanics.scales else {
             return Vec::new();
         };
@@ -142,7 +116,6 @@ impl Emission<'_> {
             ScaleFunction::Factor => 0..0,
         };
         let formulas = scales.formulas().into_iter();
-        let formulas = formulas.skip(named.start).take(named.len());
-        formulas.map(DocFormula::from).collect()
+        formulas.skip(named.start).take(named.len()).collect()
     }
 }

@@ -4,7 +4,7 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{number_tokens, part_tokens};
-use crate::program::{ConstantId, ConstantOp, Op, Purpose, Strip, Strips, ValueId};
+use crate::program::{ConstantId, ConstantOp, LoopTree, Op, Purpose, StripConstants, ValueId};
 use crate::scene::{LINK_PROPERTIES, Layout};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -35,19 +35,23 @@ const LAWS: [&str; 5] = [
     "width ε of drag (rad/s)",
 ];
 
+/// Column of rest angles.
+const REST: &str = "angle at which the torsion spring is at rest (rad)";
+
+/// Constants of a strip for one of the tables, if it has any.
+type OfStrip = fn(&StripConstants) -> Option<&[ConstantId]>;
+
 impl Emission<'_> {
     /// `Self { … }`, the constants in place.
-    pub(super) fn strip_values(&self, strips: &Strips) -> TokenStream {
+    pub(super) fn strip_values(&self, strips: &LoopTree) -> TokenStream {
         let runtime = self.runtime();
         let (lines, known) = self.formed_constants(strips);
         let rows = strips.strips.iter().map(|strip| strip.constants.as_slice());
-        let columns: Vec<String> = strips
-            .columns
-            .iter()
+        let columns = strips.columns.iter();
+        let columns: Vec<String> = columns
             .map(|column| format!("`{}`: {}", column.name(), column.meaning()))
             .collect();
-        let name = format_ident!("strips");
-        let [table, rows] = self.table(&name, "the equations", &columns, rows.collect(), &known);
+        let [table, rows] = self.table("strips", "the equations", &columns, rows.collect(), &known);
         let gravity = self.root_gravity(&known);
         let (shape, parents, tree) = match self.scene.layout {
             Layout::Generations { .. } => {
@@ -65,52 +69,50 @@ impl Emission<'_> {
                 quote!(with_parents(&PARENTS, &#rows, #gravity)),
             ),
         };
-        let bodies = strips.strips.iter().filter_map(|strip| strip.body.as_ref());
-        let bodies: Vec<&[ConstantId]> = bodies.map(|body| body.as_slice()).collect();
-        let (body_table, body_field) = match bodies.is_empty() {
-            true => (TokenStream::new(), None),
-            false => {
-                let columns = BODIES.map(str::to_owned);
-                let name = format_ident!("body_rows");
-                let [table, rows] =
-                    self.table(&name, "the energies and powers", &columns, bodies, &known);
-                let (rest_table, rests) = self.rest_table(strips, &known);
-                let (law_table, laws) = self.law_table(strips, &known);
-                let value = quote! {
-                    bodies:
-                        #runtime::tree::Bodies::new(#runtime::tree::Shape::#shape, #rows)#rests #laws
-                };
-                (quote!(#table #rest_table #law_table), Some(value))
-            }
+        let optional = |name, purpose, columns: &[&str], of: OfStrip| {
+            let rows: Vec<&[ConstantId]> = strips.strips.iter().filter_map(of).collect();
+            let columns: Vec<String> = columns.iter().map(|&column| column.to_owned()).collect();
+            (!rows.is_empty()).then(|| self.table(name, purpose, &columns, rows, &known))
         };
-        let properties = strips.strips.iter();
-        let properties = properties.filter_map(|strip| strip.properties.as_ref());
-        let properties: Vec<&[ConstantId]> = properties.map(|row| row.as_slice()).collect();
-        let (property_table, property_field) = match properties.is_empty() {
-            true => (TokenStream::new(), None),
-            false => {
-                let columns = LINK_PROPERTIES.map(str::to_owned);
-                let name = format_ident!("properties");
-                let [table, rows] = self.table(&name, "positions", &columns, properties, &known);
-                let value = quote! {
-                    properties:
-                        #runtime::tree::PropertyTable::new(#runtime::tree::Shape::#shape, #rows)
-                };
-                (table, Some(value))
-            }
-        };
+        let bodies = optional("body_rows", "the energies and powers", &BODIES, |strip| {
+            strip.body.as_ref().map(|row| row.as_slice())
+        });
+        let rests = optional("rests", "the springs", &[REST], |strip| {
+            strip.rest.as_ref().map(std::slice::from_ref)
+        });
+        let laws = optional("laws", "friction", &LAWS, |strip| {
+            strip.laws.as_ref().map(|row| row.as_slice())
+        });
+        let properties = optional("properties", "positions", &LINK_PROPERTIES, |strip| {
+            strip.properties.as_ref().map(|row| row.as_slice())
+        });
+        let with_rests = rests.as_ref().map(|[_, rows]| quote!(.with_rests(#rows)));
+        let with_laws = laws.as_ref().map(|[_, rows]| quote!(.with_laws(#rows)));
+        let shape = quote!(#runtime::tree::Shape::#shape);
+        let body_field = bodies.as_ref().map(|[_, rows]| {
+            quote!(bodies: #runtime::tree::Bodies::new(#shape, #rows) #with_rests #with_laws)
+        });
+        let property_field = properties
+            .as_ref()
+            .map(|[_, rows]| quote!(properties: #runtime::tree::PropertyTable::new(#shape, #rows)));
+        let tables = [&bodies, &rests, &laws, &properties].into_iter().flatten();
+        let tables = tables.map(|[table, _]| table);
         let stored = self.stored_constants();
         let stored = stored.iter().map(|&id| {
             let field = self.field(id);
-            let value = self.known_value(id, &known);
-            quote!(#field: #value)
+            match known.get(&id) {
+                Some(value) if *value == field => quote!(#field),
+                _ => {
+                    let value = self.known_value(id, &known);
+                    quote!(#field: #value)
+                }
+            }
         });
         let fields = body_field.into_iter().chain(property_field).chain(stored);
         quote! {
             #parents
             #table
-            #body_table
-            #property_table
+            #(#tables)*
             #(#lines)*
             Self {
                 tree: #runtime::tree::Tree::#tree,
@@ -119,45 +121,14 @@ impl Emission<'_> {
         }
     }
 
-    /// The table of rest angles, and the call that hands them over, if there are any.
-    fn rest_table(
-        &self,
-        strips: &Strips,
-        known: &BTreeMap<ConstantId, Ident>,
-    ) -> (TokenStream, Option<TokenStream>) {
-        let rests = strips.strips.iter().filter_map(|strip| strip.rest.as_ref());
-        let rests: Vec<&[ConstantId]> = rests.map(std::slice::from_ref).collect();
-        if rests.is_empty() {
-            return (TokenStream::new(), None);
-        }
-        let columns = ["angle at which the torsion spring is at rest (rad)".to_owned()];
-        let name = format_ident!("rests");
-        let [table, rows] = self.table(&name, "the springs", &columns, rests, known);
-        (table, Some(quote!(.with_rests(#rows))))
-    }
-
-    /// The table of laws of friction, likewise.
-    fn law_table(
-        &self,
-        strips: &Strips,
-        known: &BTreeMap<ConstantId, Ident>,
-    ) -> (TokenStream, Option<TokenStream>) {
-        let laws = strips.strips.iter().filter_map(|strip| strip.laws.as_ref());
-        let laws: Vec<&[ConstantId]> = laws.map(|row| row.as_slice()).collect();
-        if laws.is_empty() {
-            return (TokenStream::new(), None);
-        }
-        let columns = LAWS.map(str::to_owned);
-        let name = format_ident!("laws");
-        let [table, rows] = self.table(&name, "friction", &columns, laws, known);
-        (table, Some(quote!(.with_laws(#rows))))
-    }
-
     /// `let` lines for all constants that parameters are involved in, of the strips and
     /// of the drive, and their names.
-    fn formed_constants(&self, strips: &Strips) -> (Vec<TokenStream>, BTreeMap<ConstantId, Ident>) {
+    fn formed_constants(
+        &self,
+        strips: &LoopTree,
+    ) -> (Vec<TokenStream>, BTreeMap<ConstantId, Ident>) {
         let rows = strips.strips.iter();
-        let rows = rows.flat_map(Strip::all_constants);
+        let rows = rows.flat_map(StripConstants::all_constants);
         let mut wanted: Vec<ConstantId> = rows.collect();
         wanted.extend(self.stored_constants());
         wanted.extend(self.root_constants());
@@ -191,8 +162,7 @@ impl Emission<'_> {
     }
 
     fn root_outputs(&self) -> &[ValueId] {
-        let mut entries = self.program.entries.iter();
-        let entry = entries.find(|entry| entry.purpose == Purpose::RootGravity);
+        let entry = self.entry(Purpose::RootGravity);
         entry.map_or(&[], |entry| &entry.outputs)
     }
 
@@ -230,14 +200,15 @@ impl Emission<'_> {
     /// the other, in which values of parameters are put in place.
     fn table(
         &self,
-        name: &Ident,
+        name: &str,
         purpose: &str,
         columns: &[String],
         rows: Vec<&[ConstantId]>,
         known: &BTreeMap<ConstantId, Ident>,
     ) -> [TokenStream; 2] {
         let runtime = self.runtime();
-        let constants = format_ident!("{}", name.to_string().to_uppercase());
+        let constants = format_ident!("{}", name.to_uppercase());
+        let name = format_ident!("{name}");
         let row = match self.scene.layout {
             Layout::Generations { .. } => "generation",
             _ => "link",

@@ -3,8 +3,8 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use super::tokens::count;
-use crate::program::{Argument, Entry, LinkFunction, Op, Purpose, Strips};
+use super::tokens::{count, ident};
+use crate::program::{Argument, Entry, LinkFunction, LoopTree, Op, Purpose};
 use crate::scene::Layout;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -14,7 +14,7 @@ const FIELDS: [&str; 3] = ["tree", "bodies", "properties"];
 
 impl Emission<'_> {
     /// The equations and the functions of a model in loops.
-    pub(super) fn in_strips(&self, strips: &Strips) -> TokenStream {
+    pub(super) fn in_strips(&self, strips: &LoopTree) -> TokenStream {
         let equations = self.link_equations(strips);
         let functions = self.strip_functions();
         let pendulum = self.strip_pendulum();
@@ -66,7 +66,7 @@ impl Emission<'_> {
     }
 
     /// The equations of one link: a type without values, and its trait.
-    pub(super) fn link_equations(&self, strips: &Strips) -> TokenStream {
+    pub(super) fn link_equations(&self, strips: &LoopTree) -> TokenStream {
         let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
         let docs = doc_lines(&self.equations_docs());
         let length = |argument| Literal::usize_unsuffixed(strips.length(argument));
@@ -92,7 +92,8 @@ impl Emission<'_> {
                 const FORCED: bool = true;
             )
         });
-        let functions = LinkFunction::ALL.map(|function| self.link_function(function));
+        let functions = LinkFunction::ALL.into_iter();
+        let functions = functions.filter_map(|function| self.link_function(function));
         quote! {
             #docs
             #[derive(
@@ -123,36 +124,8 @@ impl Emission<'_> {
         }
     }
 
-    pub(super) fn entry(&self, purpose: Purpose) -> Option<&Entry> {
-        let mut entries = self.program.entries.iter();
-        entries.find(|entry| entry.purpose == purpose)
-    }
-
-    /// A function of the trait, from its entry point.
-    fn link_function(&self, function: LinkFunction) -> TokenStream {
-        let Some(entry) = self.entry(Purpose::Link(function)) else {
-            return TokenStream::new();
-        };
-        let (runtime, docs) = (self.runtime(), self.entry_docs(entry));
-        let body = match self.handed_on(entry) {
-            Some(body) => body,
-            None => self.plain_body(entry),
-        };
-        let name = format_ident!("{}", function.name());
-        let arguments = entry.arguments.iter().enumerate().map(|(place, argument)| {
-            let name = format_ident!("{}", argument.name());
-            let kind = match argument {
-                Argument::Constants => quote!(&Self::Constants<T>),
-                Argument::Motion => quote!(#runtime::tree::LinkMotion<T>),
-                Argument::Response => quote!(Self::Response<T>),
-                Argument::Sums => quote!(Self::Sums<T>),
-                Argument::Elimination => quote!(Self::Elimination<T>),
-                Argument::Carried => quote!(Self::Carried<T>),
-                _ => quote!([T; 2]),
-            };
-            debug_assert!(place > 0 || *argument == Argument::Constants);
-            quote!(#name: #kind)
-        });
+    /// A function of the trait.
+    fn link_function(&self, function: LinkFunction) -> Option<TokenStream> {
         let result = match function {
             LinkFunction::Leaf => quote!(Self::Response<T>),
             LinkFunction::Attach => quote!(Self::Sums<T>),
@@ -161,13 +134,45 @@ impl Emission<'_> {
             LinkFunction::Accelerate => quote!((T, Self::Carried<T>)),
             LinkFunction::AccelerateLeaf => quote!(T),
         };
-        quote! {
+        self.equation_function(Purpose::Link(function), &result)
+    }
+
+    /// A function of a trait of equations, from its entry point.
+    pub(super) fn equation_function(
+        &self,
+        purpose: Purpose,
+        result: &TokenStream,
+    ) -> Option<TokenStream> {
+        let entry = self.entry(purpose)?;
+        let (runtime, docs, name) = (self.runtime(), self.entry_docs(entry), ident(&entry.name));
+        let body = match self.handed_on(entry) {
+            Some(body) => body,
+            None => self.plain_body(entry),
+        };
+        let arguments = entry.arguments.iter().map(|&argument| {
+            let name = ident(argument.name());
+            let kind = match argument {
+                Argument::Constants => quote!(&Self::Constants<T>),
+                Argument::Motion => quote!(#runtime::tree::LinkMotion<T>),
+                Argument::Response => quote!(Self::Response<T>),
+                Argument::Sums => quote!(Self::Sums<T>),
+                Argument::Elimination => quote!(Self::Elimination<T>),
+                Argument::Carried => quote!(Self::Carried<T>),
+                Argument::Given(function) => {
+                    let given = Literal::usize_unsuffixed(function.given().len());
+                    quote!([T; #given])
+                }
+                _ => quote!([T; 2]),
+            };
+            quote!(#name: #kind)
+        });
+        Some(quote! {
             #docs
             #[inline(always)]
             fn #name<T: #runtime::Scalar>(#(#arguments),*) -> #result {
                 #body
             }
-        }
+        })
     }
 
     /// The body of a function that returns its last argument as it is.
@@ -187,12 +192,9 @@ impl Emission<'_> {
         let own = match self.scene.layout {
             Layout::Generations { .. } => self.generation_functions(),
             _ => {
-                let under = self
-                    .scene
-                    .requests
-                    .forces
-                    .then(|| self.array_function_under());
-                let own = self.array_function();
+                let under = self.scene.requests.forces;
+                let under = under.then(|| self.array_function(Purpose::AccelerationsUnder));
+                let own = self.array_function(Purpose::Accelerations);
                 quote!(#own #under)
             }
         };
@@ -233,27 +235,44 @@ impl Emission<'_> {
         }
     }
 
-    /// `accelerations` on arrays.
-    fn array_function(&self) -> TokenStream {
-        let links = self.links();
-        let driven = self.mechanics.drive.is_some();
-        let time = driven.then(|| quote!(time: T,));
-        let drive = self.drive_at_time();
-        let docs = doc_lines(&[format!(
-            "Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s), in fused arithmetic where the machine has it. O(links).",
-            self.at_time()
-        )]);
+    /// `accelerations` on arrays, or those under torques from outside.
+    fn array_function(&self, purpose: Purpose) -> TokenStream {
+        let (runtime, links, drive) = (self.runtime(), self.links(), self.drive_at_time());
+        let time = self.mechanics.drive.is_some().then(|| quote!(time: T,));
+        let (name, docs, torques, call) = match purpose {
+            Purpose::AccelerationsUnder => (
+                quote!(accelerations_under),
+                self.meaning(purpose),
+                Some(quote!(torques: &[T; #links],)),
+                quote! {
+                    let mut workspace = #runtime::system::Workspace::new();
+                    let given: [&[T]; 3] = [theta, omega, torques];
+                    self.tree.accelerations_under_with(&mut workspace, #drive, given, &mut alpha);
+                },
+            ),
+            _ => (
+                quote!(accelerations),
+                vec![format!(
+                    "Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s), in fused arithmetic where the machine has it. O(links).",
+                    self.at_time()
+                )],
+                None,
+                quote!(self.tree.accelerations_into(#drive, theta, omega, &mut alpha);),
+            ),
+        };
+        let docs = doc_lines(&docs);
         quote! {
             #docs
             #[must_use]
-            pub fn accelerations(
+            pub fn #name(
                 &self,
                 #time
                 theta: &[T; #links],
                 omega: &[T; #links],
+                #torques
             ) -> [T; #links] {
                 let mut alpha = [T::from_f64(0.0); #links];
-                self.tree.accelerations_into(#drive, theta, omega, &mut alpha);
+                #call
                 alpha
             }
         }

@@ -2,46 +2,17 @@
 //! methods without meaning, so that an editor shows the description's errors
 //! and no others.
 
-use super::stub_sectors::{budgets, places};
+use super::shapes::{argument_type, result_type};
+use super::stub_sectors::{places, sector_count};
 use crate::description::Description;
-use crate::program::PointKind;
-use crate::scene::{OBSERVABLE_SUFFIXES, is_keyword, is_method};
-use proc_macro2::{Ident, Span, TokenStream};
-use quote::{format_ident, quote};
+use crate::program::{Argument, Naming, Purpose, Signature};
+use crate::scene::{is_keyword, is_method};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{ToTokens, format_ident, quote};
 use std::collections::BTreeSet;
 
-/// Methods from two arrays to one.
-const MAPS: [&str; 5] = [
-    "momenta",
-    "velocities",
-    "symmetric_momenta",
-    "symmetric_velocities",
-    "transfer_quadratic_form",
-];
-/// Such methods that take the time first where there is a drive.
-const MOTIONS: [&str; 2] = ["accelerations", "symmetric_accelerations"];
-/// Methods from one array to one.
-const TRANSFORMS: [&str; 2] = ["to_symmetric", "from_symmetric"];
-/// Methods from one array to a matrix.
-const MATRICES: [&str; 2] = ["mass_matrix", "stiffness_matrix"];
-/// Methods from two arrays to a number.
-const NUMBERS: [&str; 4] = [
-    "kinetic_energy",
-    "hamiltonian",
-    "antiphase_energy",
-    "antiphase_friction_power",
-];
-/// Methods from the time and two arrays to a number.
-const POWERS: [&str; 2] = ["drive_power", "antiphase_drive_power"];
-/// Methods from two arrays to a transfer.
-const TRANSFERS: [&str; 6] = [
-    "transfer_exact",
-    "transfer_exact_from_rates",
-    "transfer_forcing",
-    "transfer_forcing_from_rates",
-    "transfer_growth",
-    "transfer_growth_from_rates",
-];
+/// Stands for the number of links, which a wrong description need not tell.
+const LINKS: usize = usize::MAX;
 
 /// The type and its documented methods as stubs. They are never run: the
 /// errors beside them keep the crate from compiling.
@@ -50,55 +21,10 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     let constructors = constructors(description, runtime);
     let (attrs, vis, name) = (&item.attrs, &item.vis, &item.ident);
     let other = super::other_scalar(name);
-    let idents = |names: &[&str]| -> Vec<Ident> {
-        names
-            .iter()
-            .map(|name| Ident::new(name, Span::call_site()))
-            .collect()
-    };
-    let (transforms, matrices, motions) =
-        (idents(&TRANSFORMS), idents(&MATRICES), idents(&MOTIONS));
-    let (mut maps, mut powers) = (idents(&MAPS), idents(&POWERS));
-    let time = description.drive.as_ref().map(|_| quote!(time: T,));
-    let (mut numbers, mut transfers) = (idents(&NUMBERS), idents(&TRANSFERS));
-    for order in 1..=8 {
-        transfers.push(format_ident!("transfer_angle_{order}"));
-        transfers.push(format_ident!("transfer_amplitude_{order}"));
-    }
-    // Where there are several differences, each has its functions.
-    let places = places(description);
-    for (functions, family) in [
-        (&mut maps, "transfer_"),
-        (&mut powers, "antiphase_"),
-        (&mut numbers, "antiphase_"),
-        (&mut transfers, "transfer_"),
-    ] {
-        let plain = functions.iter().map(Ident::to_string);
-        let plain: Vec<String> = plain.filter(|name| name.starts_with(family)).collect();
-        let placed = plain.iter().flat_map(|name| {
-            let place = move |place| format_ident!("{name}_{place}");
-            places.iter().map(place)
-        });
-        functions.extend(placed);
-    }
-    numbers.extend(observables(description));
-    let of_points = |suffix: &'static str| {
-        let kinds = PointKind::ALL.into_iter();
-        kinds.map(move |kind| format_ident!("{}{suffix}", kind.name()))
-    };
-    let (points, velocities, torques) = (
-        of_points("s"),
-        of_points("_velocities"),
-        of_points("_torques"),
-    );
+    let naming = naming(description);
+    let functions = functions(&naming, runtime);
     let taylor = taylor(description, runtime);
-    let prescribed = prescribed(description, runtime);
-    let budgets = budgets(description, runtime);
-    let mut outside_powers = vec![format_ident!("antiphase_outside_power")];
-    let placed = places
-        .iter()
-        .map(|place| format_ident!("antiphase_outside_power_{place}"));
-    outside_powers.extend(placed);
+    let prescribed = prescribed(&naming, name, runtime);
     quote! {
         #(#attrs)*
         #vis struct #name<T = f64>(::core::marker::PhantomData<T>);
@@ -107,74 +33,7 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
 
         #[allow(missing_docs, unused_variables, clippy::all)]
         impl<T: #runtime::Scalar> #name<T> {
-            pub fn canonical_rates<const N: usize>(
-                &self, #time theta: &[T; N], momenta: &[T; N],
-            ) -> [[T; N]; 2] {
-                ::core::unimplemented!()
-            }
-            #(pub fn #maps<const N: usize>(&self, first: &[T; N], second: &[T; N]) -> [T; N] {
-                ::core::unimplemented!()
-            })*
-            #(pub fn #motions<const N: usize>(
-                &self, #time first: &[T; N], second: &[T; N],
-            ) -> [T; N] {
-                ::core::unimplemented!()
-            })*
-            #(pub fn #powers<const N: usize>(
-                &self, time: T, first: &[T; N], second: &[T; N],
-            ) -> T {
-                ::core::unimplemented!()
-            })*
-            #(pub fn #transforms<const N: usize>(&self, values: &[T; N]) -> [T; N] {
-                ::core::unimplemented!()
-            })*
-            #(pub fn #matrices<const N: usize>(&self, theta: &[T; N]) -> [[T; N]; N] {
-                ::core::unimplemented!()
-            })*
-            #(pub fn #numbers<const N: usize>(&self, first: &[T; N], second: &[T; N]) -> T {
-                ::core::unimplemented!()
-            })*
-            #(pub fn #transfers<const N: usize>(
-                &self, first: &[T; N], second: &[T; N],
-            ) -> #runtime::Transfer<T> {
-                ::core::unimplemented!()
-            })*
-            pub fn friction_power<const N: usize>(&self, omega: &[T; N]) -> T {
-                ::core::unimplemented!()
-            }
-            pub fn potential_energy<const N: usize>(&self, theta: &[T; N]) -> T {
-                ::core::unimplemented!()
-            }
-            #(pub fn #points<const N: usize>(&self, theta: &[T; N]) -> [[T; 2]; N] {
-                ::core::unimplemented!()
-            })*
-            #(pub fn #velocities<const N: usize>(
-                &self, theta: &[T; N], omega: &[T; N],
-            ) -> [[T; 2]; N] {
-                ::core::unimplemented!()
-            })*
-            #(pub fn #torques<const N: usize>(
-                &self, theta: &[T; N], forces: &[[T; 2]; N],
-            ) -> [T; N] {
-                ::core::unimplemented!()
-            })*
-            pub fn accelerations_under<const N: usize>(
-                &self, #time theta: &[T; N], omega: &[T; N], torques: &[T; N],
-            ) -> [T; N] {
-                ::core::unimplemented!()
-            }
-            pub fn outside_power<const N: usize>(&self, omega: &[T; N], torques: &[T; N]) -> T {
-                ::core::unimplemented!()
-            }
-            #(pub fn #outside_powers<const N: usize>(
-                &self, coordinates: &[T; N], rates: &[T; N], torques: &[T; N],
-            ) -> T {
-                ::core::unimplemented!()
-            })*
-            pub fn link_properties<const N: usize>(&self) -> [[T; 8]; N] {
-                ::core::unimplemented!()
-            }
-            #budgets
+            #functions
         }
 
         impl<T: #runtime::Scalar> #runtime::Sectors for #name<T> {
@@ -253,38 +112,76 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     }
 }
 
-/// The functions of prescribed links.
-fn prescribed(description: &Description, runtime: &TokenStream) -> Option<TokenStream> {
-    let name = &description.item.ident;
-    if description.prescribed.is_empty() {
-        return None;
-    }
-    let mut functions: Vec<Ident> = Vec::new();
-    for clause in &description.prescribed {
+/// What the functions are called after, as far as the description tells.
+fn naming(description: &Description) -> Naming {
+    // Where there are several differences, each has its functions.
+    let places = places(description).into_iter();
+    let places = places.map(|place| format!("_{place}"));
+    let prescribed = description.prescribed.iter().map(|clause| {
         let links: Vec<String> = clause.links.iter().map(Ident::to_string).collect();
-        let function = format!("accelerations_prescribed_{}", links.join("_and_"));
-        let known = functions.iter().any(|known| *known == function);
-        if is_plain(&function) && !known {
-            functions.push(format_ident!("{function}"));
-        }
+        (links.join("_and_"), links.len())
+    });
+    let observables = description.observables.iter();
+    Naming {
+        driven: description.drive.is_some(),
+        links: LINKS,
+        sectors: sector_count(description),
+        places: std::iter::once(String::new()).chain(places).collect(),
+        prescribed: prescribed.collect(),
+        observables: observables.map(|o| (o.name.to_string(), false)).collect(),
+        transverse: Vec::new(),
     }
-    let time = description.drive.as_ref().map(|_| quote!(time: T,));
-    Some(quote! {
-        #[allow(missing_docs, unused_variables, clippy::all)]
-        impl<T: #runtime::Scalar> #name<T> {
-            #(pub fn #functions<const N: usize, const K: usize>(
-                &self, #time theta: &[T; N], omega: &[T; N], torques: &[T; N], prescribed: &[T; K],
-            ) -> ([T; N], [T; K]) {
-                ::core::unimplemented!()
-            })*
-        }
+}
 
-        impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
-            const PRESCRIBED: &'static [#runtime::system::PrescribedLinks] = &[];
-            fn accelerations_prescribed_into(
-                &self, _: usize, _: T, _: #runtime::system::PrescribedMotion<'_, T>,
-                _: &mut [T], _: &mut [T],
-            ) {}
+/// All functions that the model may have, as far as they can stand beside each other.
+fn functions(naming: &Naming, runtime: &TokenStream) -> TokenStream {
+    let length = |count| match count {
+        LINKS => quote!(N),
+        count => Literal::usize_unsuffixed(count).into_token_stream(),
+    };
+    let mut taken = BTreeSet::new();
+    let purposes = naming.purposes().into_iter();
+    let functions = purposes.filter_map(|purpose| {
+        let Signature {
+            name,
+            arguments,
+            shape,
+        } = naming.signature(purpose);
+        let clashes = matches!(purpose, Purpose::Observable(..)) && is_method(&name);
+        if clashes || !is_plain(&name) || !taken.insert(name.clone()) {
+            return None;
+        }
+        let name = format_ident!("{name}");
+        let arguments = arguments.into_iter().map(|argument| {
+            let count = match argument {
+                Argument::Prescribed(set) => naming.prescribed[set].1,
+                _ => LINKS,
+            };
+            let name = format_ident!("{}", argument.name());
+            let kind = argument_type(argument, &length(count));
+            quote!(#name: #kind)
+        });
+        let result = result_type(runtime, shape, LINKS, length);
+        Some(quote! {
+            pub fn #name<const N: usize>(&self, #(#arguments),*) -> #result {
+                ::core::unimplemented!()
+            }
+        })
+    });
+    functions.collect()
+}
+
+/// The trait of prescribed links.
+fn prescribed(naming: &Naming, name: &Ident, runtime: &TokenStream) -> Option<TokenStream> {
+    (!naming.prescribed.is_empty()).then(|| {
+        quote! {
+            impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
+                const PRESCRIBED: &'static [#runtime::system::PrescribedLinks] = &[];
+                fn accelerations_prescribed_into(
+                    &self, _: usize, _: T, _: #runtime::system::PrescribedMotion<'_, T>,
+                    _: &mut [T], _: &mut [T],
+                ) {}
+            }
         }
     })
 }
@@ -327,22 +224,6 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
             }
         }
     })
-}
-
-/// The functions of observables, as far as they can stand beside the others.
-fn observables(description: &Description) -> Vec<Ident> {
-    let mut taken = BTreeSet::new();
-    let mut functions = Vec::new();
-    for observable in &description.observables {
-        let name = observable.name.to_string();
-        for suffix in OBSERVABLE_SUFFIXES {
-            let function = format!("{name}{suffix}");
-            if is_plain(&function) && !is_method(&function) && taken.insert(function.clone()) {
-                functions.push(format_ident!("{function}"));
-            }
-        }
-    }
-    functions
 }
 
 /// Returns true if a name may stand in a stub: no keyword, and spelt in one way only.

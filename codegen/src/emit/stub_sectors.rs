@@ -1,18 +1,9 @@
-//! Substitutes of what a wrong model says of its sectors.
+//! What a wrong description says of its sectors.
 
 use super::stub::is_plain;
 use crate::description::{Description, Expression, ExpressionKind, Node, Value};
-use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
 use std::collections::BTreeSet;
 
-/// Budgets of the sectors.
-const BUDGETS: [&str; 4] = [
-    "budget_rest",
-    "budget_canonical",
-    "budget_velocity",
-    "budget_parseval",
-];
 /// Results of more elements say no more about a description that is wrong.
 const MOST_SECTORS: usize = 1024;
 
@@ -45,44 +36,11 @@ pub(super) fn places(description: &Description) -> BTreeSet<String> {
     names.collect()
 }
 
-/// The functions of sectors. Their results have as many elements as the tree
-/// has sectors, as far as that can be read.
-pub(super) fn budgets(description: &Description, runtime: &TokenStream) -> TokenStream {
-    let time = description.drive.as_ref().map(|_| quote!(time: T,));
+/// Number of sectors that the tree has, as far as that can be read.
+pub(super) fn sector_count(description: &Description) -> usize {
     let differences = description.roots.iter().map(differences);
     let sectors = differences.fold(1_usize, usize::saturating_add);
-    let sectors = Literal::usize_unsuffixed(sectors.min(MOST_SECTORS));
-    let both = |name: &str| [format_ident!("{name}"), format_ident!("symmetric_{name}")];
-    let shares = BUDGETS.iter().flat_map(|name| both(name));
-    let under = BUDGETS.iter().map(|name| format_ident!("{name}_under"));
-    let mut transfers = both("sector_transfers").to_vec();
-    for order in 1..=8 {
-        transfers.push(format_ident!("sector_transfers_angle_{order}"));
-        transfers.push(format_ident!("sector_transfers_amplitude_{order}"));
-    }
-    let matrices = both("transfer_matrix");
-    quote! {
-        #(pub fn #shares<const N: usize>(
-            &self, #time first: &[T; N], second: &[T; N],
-        ) -> #runtime::Budget<T, #sectors> {
-            ::core::unimplemented!()
-        })*
-        #(pub fn #under<const N: usize>(
-            &self, #time theta: &[T; N], omega: &[T; N], torques: &[T; N],
-        ) -> #runtime::Budget<T, #sectors> {
-            ::core::unimplemented!()
-        })*
-        #(pub fn #transfers<const N: usize>(
-            &self, first: &[T; N], second: &[T; N],
-        ) -> [#runtime::Transfer<T>; #sectors] {
-            ::core::unimplemented!()
-        })*
-        #(pub fn #matrices<const N: usize>(
-            &self, first: &[T; N], second: &[T; N],
-        ) -> [[T; #sectors]; #sectors] {
-            ::core::unimplemented!()
-        })*
-    }
+    sectors.min(MOST_SECTORS)
 }
 
 /// Differences between copies in a subtree: a group of k has k − 1 of them

@@ -7,7 +7,7 @@ use super::doc_text::doc_lines;
 use super::taylor_order::Recurrences;
 use super::tokens::{Binding, ident};
 use crate::exact::Rational;
-use crate::program::{Argument, Entry, Op, TaylorOutputs, ValueId};
+use crate::program::{Argument, Entry, Op, Purpose, TaylorOutputs, ValueId};
 use crate::scene::LinkId;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -161,8 +161,7 @@ impl Emission<'_> {
     pub(super) fn taylor_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let other = super::other_scalar(name);
-        let entry = self.program.entry("taylor_coefficients");
-        let Some(entry) = entry else {
+        let Some(entry) = self.entry(Purpose::TaylorCoefficients) else {
             unreachable!("the request makes the entry");
         };
         let outputs = TaylorOutputs::of(&entry.outputs, self.scene.links.len());
@@ -171,7 +170,7 @@ impl Emission<'_> {
         let time = self.time_name();
         let argument = self.mechanics.drive.as_ref().map(|_| quote!(time,));
         let body = self.with_arrays(
-            &["theta", "omega"],
+            &[vec!["theta", "omega"]],
             quote!({
                 let (coefficients, _) = coefficients.as_chunks_mut::<#links>();
                 let (coefficients, _) = coefficients.as_chunks_mut::<2>();

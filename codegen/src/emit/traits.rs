@@ -55,50 +55,6 @@ impl Emission<'_> {
         Ident::new(name, Span::call_site())
     }
 
-    /// Slices as arrays of the same names.
-    pub(super) fn with_arrays(
-        &self,
-        slices: &[&str],
-        success: TokenStream,
-        failure: TokenStream,
-    ) -> TokenStream {
-        let links = self.links();
-        let names: Vec<Ident> = slices
-            .iter()
-            .map(|name| Ident::new(name, Span::call_site()))
-            .collect();
-        if let [name] = names.as_slice() {
-            return quote! {
-                match <&[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#name) {
-                    ::core::result::Result::Ok(#name) => #success,
-                    ::core::result::Result::Err(_) => #failure,
-                }
-            };
-        }
-        quote! {
-            match (#(<&[T; #links] as ::core::convert::TryFrom<&[T]>>::try_from(#names),)*) {
-                (#(::core::result::Result::Ok(#names),)*) => #success,
-                _ => #failure,
-            }
-        }
-    }
-
-    fn fill(&self, output: &Ident, slices: &[&str], call: TokenStream) -> TokenStream {
-        let links = self.links();
-        let body = self.with_arrays(
-            slices,
-            quote!(#output.copy_from_slice(&#call)),
-            quote!(#output.fill(T::from_f64(f64::NAN))),
-        );
-        quote! {
-            if #output.len() != #links {
-                #output.fill(T::from_f64(f64::NAN));
-                return;
-            }
-            #body
-        }
-    }
-
     fn pendulum(&self) -> TokenStream {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let link_names = self.scene.links.iter().map(|link| &link.name);
@@ -175,12 +131,7 @@ impl Emission<'_> {
     fn forced(&self) -> TokenStream {
         let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
         let other = super::other_scalar(name);
-        let output = Ident::new("alpha", Span::call_site());
-        let call = match self.mechanics.drive.is_some() {
-            true => quote!(self.accelerations_under(time, theta, omega, torques)),
-            false => quote!(self.accelerations_under(theta, omega, torques)),
-        };
-        let body = self.fill(&output, &["theta", "omega", "torques"], call);
+        let body = self.fill("alpha", Purpose::AccelerationsUnder);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
                 #[inline(always)]
@@ -215,24 +166,11 @@ impl Emission<'_> {
     /// `impl Canonical`; NaN for slices of a wrong length.
     fn canonical(&self) -> TokenStream {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
-        let timed = self.mechanics.drive.is_some();
-        let (parameter, time) = if timed {
-            (quote!(time), quote!(time,))
-        } else {
-            (quote!(_time), TokenStream::new())
-        };
-        let body = self.with_arrays(
-            &["theta", "momenta"],
-            quote! {{
-                let [velocities, torques] = self.canonical_rates(#time theta, momenta);
-                q_rates.copy_from_slice(&velocities);
-                p_rates.copy_from_slice(&torques);
-            }},
-            quote! {{
-                q_rates.fill(T::from_f64(f64::NAN));
-                p_rates.fill(T::from_f64(f64::NAN));
-            }},
-        );
+        let rates = ["q_rates", "p_rates"];
+        let pattern = quote!([first, second]);
+        let written = self.both_written_at_slices(rates, &pattern, Purpose::CanonicalRates);
+        let body = self.written_or_nan(&rates, written);
+        let time = self.time_name();
         quote! {
             impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
                 #[inline]
@@ -243,17 +181,12 @@ impl Emission<'_> {
                 #[inline]
                 fn canonical_rates(
                     &self,
-                    #parameter: T,
+                    #time: T,
                     theta: &[T],
                     momenta: &[T],
                     q_rates: &mut [T],
                     p_rates: &mut [T],
                 ) {
-                    if q_rates.len() != #links || p_rates.len() != #links {
-                        q_rates.fill(T::from_f64(f64::NAN));
-                        p_rates.fill(T::from_f64(f64::NAN));
-                        return;
-                    }
                     #body
                 }
             }
@@ -262,13 +195,8 @@ impl Emission<'_> {
 
     fn energy(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let value =
-            |slices: &[&str], call| self.with_arrays(slices, call, quote!(T::from_f64(f64::NAN)));
-        let kinetic = value(
-            &["theta", "omega"],
-            quote!(self.kinetic_energy(theta, omega)),
-        );
-        let potential = value(&["theta"], quote!(self.potential_energy(theta)));
+        let kinetic = self.value_at_slices(Purpose::KineticEnergy);
+        let potential = self.value_at_slices(Purpose::PotentialEnergy);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Energy<T> for #name<T> {
                 #[inline]
@@ -287,21 +215,7 @@ impl Emission<'_> {
     fn symmetric_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let names = coordinate_names(self.mechanics);
-        let output = Ident::new("accelerations", Span::call_site());
-        debug_assert!(
-            self.program
-                .entries
-                .iter()
-                .any(|entry| entry.purpose == Purpose::SymmetricAccelerations)
-        );
-        let body = self.fill(
-            &output,
-            &["coordinates", "rates"],
-            match self.mechanics.drive.is_some() {
-                true => quote!(self.symmetric_accelerations(time, coordinates, rates)),
-                false => quote!(self.symmetric_accelerations(coordinates, rates)),
-            },
-        );
+        let body = self.fill("accelerations", Purpose::SymmetricAccelerations);
         let time = self.time_name();
         quote! {
             impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {

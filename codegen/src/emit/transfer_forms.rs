@@ -3,7 +3,7 @@
 
 use super::Emission;
 use crate::mechanics::Counting;
-use crate::program::{Argument, Entry, Purpose};
+use crate::program::{Entry, EntryState, Purpose};
 use crate::scene::{SectorVariables, sectors};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -23,17 +23,14 @@ type Calls = Vec<(ListedForm, TokenStream)>;
 impl Emission<'_> {
     pub(super) fn transfer_forms(&self) -> Option<TokenStream> {
         let all = sectors(&self.mechanics.coordinates);
-        let (receivers, forms, small) = match self.budget_forms() {
+        let (receivers, forms) = match self.budget_forms() {
             Some(forms) => {
                 let receivers = all.iter().map(|sector| sector.name.clone()).collect();
-                (receivers, forms, self.small_sectors(&all))
+                (receivers, forms)
             }
-            None => {
-                let (receivers, forms) = self.leaf_forms()?;
-                (receivers, forms, self.small_sectors(&all))
-            }
+            None => self.leaf_forms()?,
         };
-        Some(self.implementation(&receivers, &forms, &small))
+        Some(self.implementation(&receivers, &forms, &self.small_sectors(&all)))
     }
 
     /// Calls for W of all sectors; none without both a truncated and the exact
@@ -43,10 +40,10 @@ impl Emission<'_> {
         for entry in &self.program.entries {
             let call = call(entry);
             match entry.purpose {
-                Purpose::SectorTransfers(Some((counting, order))) => {
+                Purpose::TruncatedSectorTransfers(counting, order) => {
                     forms.insert(truncated(counting, order), call);
                 }
-                Purpose::SectorTransfers(None) if entry.arguments.contains(&Argument::Rates) => {
+                Purpose::SectorTransfers(EntryState::Rates) => {
                     let name = format_ident!("{}", entry.name);
                     let exact = quote! {{
                         let rates = self.symmetric_velocities(coordinates, momenta);
@@ -67,11 +64,8 @@ impl Emission<'_> {
             let form = match entry.purpose {
                 Purpose::AngleTransfer(_) => truncated(Counting::Angle, 1),
                 Purpose::AmplitudeTransfer(_) => truncated(Counting::Amplitude, 2),
-                Purpose::HigherTransfer(transfer, form) => {
-                    let form = &self.mechanics.transfers[transfer].higher[form];
-                    truncated(form.counting, form.order)
-                }
-                Purpose::ExactTransfer(_) => ListedForm::Exact,
+                Purpose::HigherTransfer(_, counting, order) => truncated(counting, order),
+                Purpose::ExactTransfer(_, EntryState::Momenta(_)) => ListedForm::Exact,
                 _ => continue,
             };
             // Entries stand in the order of the transfers.
@@ -106,7 +100,7 @@ impl Emission<'_> {
         forms: &[(ListedForm, TokenStream)],
         small: &[SectorVariables],
     ) -> TokenStream {
-        let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
+        let (name, runtime) = (&self.item.ident, self.runtime());
         let names = forms.iter().map(|&(form, _)| match form {
             ListedForm::Angle(order) => {
                 let order = Literal::u32_unsuffixed(order);
@@ -132,7 +126,7 @@ impl Emission<'_> {
             quote!(#number => ::core::option::Option::Some(#call))
         });
         let found = self.with_arrays(
-            &["coordinates", "momenta"],
+            &[vec!["coordinates", "momenta"]],
             quote! {
                 match form {
                     #(#arms,)*
@@ -142,11 +136,7 @@ impl Emission<'_> {
             quote!(::core::option::Option::None),
         );
         let count = Literal::usize_unsuffixed(receivers.len());
-        let momenta = self.with_arrays(
-            &["coordinates", "rates"],
-            quote!(momenta.copy_from_slice(&self.symmetric_momenta(coordinates, rates))),
-            quote!(momenta.fill(T::from_f64(f64::NAN))),
-        );
+        let momenta = self.fill("momenta", Purpose::SymmetricMomenta);
         quote! {
             // As for the functions above.
             #[allow(clippy::possible_missing_comma)]
@@ -183,10 +173,6 @@ impl Emission<'_> {
                     rates: &[T],
                     momenta: &mut [T],
                 ) {
-                    if momenta.len() != #links {
-                        momenta.fill(T::from_f64(f64::NAN));
-                        return;
-                    }
                     #momenta
                 }
             }

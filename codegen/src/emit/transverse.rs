@@ -1,14 +1,12 @@
 //! Small differences beside an in-phase motion: docs, formulas and the runtime's trait.
 
 use super::Emission;
-use super::formulas::DocFormula;
-use super::tokens::ident;
 use crate::mechanics::TransverseFormulas;
-use crate::mechanics::expression::Expr;
+use crate::mechanics::expression::{Expr, NamedFormula};
 use crate::program::Purpose;
-use crate::scene::TransverseSector;
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use crate::scene::TransverseCopies;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
 
 impl Emission<'_> {
     /// Number of links of a transverse sector.
@@ -62,14 +60,8 @@ impl Emission<'_> {
         }
     }
 
-    pub(super) fn transverse_formulas(&self, purpose: Purpose) -> Vec<DocFormula> {
-        let simple = |left: &str, right: &Expr| {
-            vec![DocFormula {
-                left: left.to_owned(),
-                left_latex: left.to_owned(),
-                right: right.clone(),
-            }]
-        };
+    pub(super) fn transverse_formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
+        let simple = |left: &str, right: &Expr| vec![NamedFormula::of_letter(left, right)];
         match purpose {
             Purpose::Transverse(sector) => {
                 let formulas = self.transverse_sector(sector);
@@ -78,11 +70,8 @@ impl Emission<'_> {
                     let symbol = self.mechanics.symbols.get(*symbol);
                     let name = symbol.text.trim_start_matches("δ_");
                     let tex = symbol.latex.trim_start_matches("\\delta");
-                    rows.push(DocFormula {
-                        left: format!("r_{name}"),
-                        left_latex: format!("r{tex}"),
-                        right: residual.clone(),
-                    });
+                    let latex = format!("r{tex}");
+                    rows.push(NamedFormula::new(format!("r_{name}"), latex, residual));
                 }
                 rows
             }
@@ -92,7 +81,7 @@ impl Emission<'_> {
             Purpose::TransverseTransfer(sector) => {
                 simple("W", &self.transverse_sector(sector).transfer)
             }
-            Purpose::TransverseFriction(sector) => {
+            Purpose::TransverseFriction(sector, _) => {
                 simple("P", &self.transverse_sector(sector).friction)
             }
             _ => Vec::new(),
@@ -106,9 +95,16 @@ impl Emission<'_> {
         let sectors = transverse.sectors.iter();
         let sectors = sectors.map(|formulas| self.sector_constant(&formulas.sector));
         let (other, time) = (super::other_scalar(name), self.time_name());
-        let energy = self.by_sector("energy", &["theta"], false);
-        let transfer = self.by_sector("transfer", &["theta", "omega", "alpha"], true);
-        let accelerations = self.by_sector("accelerations", &["theta", "omega", "alpha"], true);
+        let energy = self.match_sector(&nan(), |number, _| {
+            self.value_at_slices(Purpose::TransverseEnergy(number))
+        });
+        let transfer = self.match_sector(&nan(), |number, _| {
+            self.value_at_slices(Purpose::TransverseTransfer(number))
+        });
+        let accelerations = self.match_sector(&quote!(false), |number, _| {
+            self.written_at_slices("accelerations", Purpose::Transverse(number))
+        });
+        let accelerations = self.written_or_nan(&["accelerations"], accelerations);
         let power = self.friction_by_sector();
         let braked = transverse.sectors.iter().any(|formulas| formulas.braked);
         let along = braked.then(|| {
@@ -144,10 +140,7 @@ impl Emission<'_> {
                     accelerations: &mut [T],
                 ) {
                     #motion
-                    let written: bool = #accelerations;
-                    if !written {
-                        accelerations.fill(T::from_f64(f64::NAN));
-                    }
+                    #accelerations
                 }
 
                 #[inline(always)]
@@ -203,9 +196,9 @@ impl Emission<'_> {
         })
     }
 
-    /// `TransverseSector { … }`.
-    fn sector_constant(&self, sector: &TransverseSector) -> TokenStream {
-        let TransverseSector {
+    /// `TransverseCopies { … }`.
+    fn sector_constant(&self, sector: &TransverseCopies) -> TokenStream {
+        let TransverseCopies {
             name,
             first,
             links,
@@ -226,99 +219,54 @@ impl Emission<'_> {
         }
     }
 
-    /// `match sector { 0 => …, … }`: a quantity of each sector, from these slices of the
-    /// motion, the differences and their rates. Accelerations are written, and true.
-    fn by_sector(&self, quantity: &str, motion: &[&str], timed: bool) -> TokenStream {
-        let runtime = self.runtime();
-        let motion: Vec<Ident> = motion.iter().map(|name| ident(name)).collect();
-        let timed = timed && self.mechanics.drive.is_some();
-        let time = timed.then(|| quote!(time,));
-        let (some, none) = (
-            quote!(::core::option::Option::Some),
-            self.no_answer(quantity),
-        );
-        let arms = self.sector_arms(|formulas| {
-            let function = format_ident!("transverse_{quantity}_{}", formulas.sector.name);
-            let value = quote!(self.#function(#time #(#motion,)* difference, difference_rate));
-            let value = match quantity {
-                "accelerations" => quote!(#runtime::emitted::write(accelerations, &#value)),
-                _ => value,
-            };
-            quote! {
-                match (
-                    #runtime::emitted::arrays([#(#motion),*]),
-                    #runtime::emitted::arrays([difference, difference_rate]),
-                ) {
-                    (#some([#(#motion),*]), #some([difference, difference_rate])) => #value,
-                    _ => #none,
-                }
-            }
-        });
-        quote! {
-            match sector {
-                #(#arms,)*
-                _ => #none,
-            }
-        }
-    }
-
     /// The power of friction of sectors where it depends on the motion, and of the others.
     fn friction_along(&self) -> TokenStream {
-        let (runtime, none) = (self.runtime(), self.no_answer("friction_power"));
-        let some = quote!(::core::option::Option::Some);
-        let arms = self.sector_arms(|formulas| match formulas.braked {
+        let runtime = self.runtime();
+        self.match_sector(&nan(), |number, formulas| match formulas.braked {
             true => {
-                let name = &formulas.sector.name;
-                let function = format_ident!("transverse_friction_power_{name}");
-                quote! {
-                    match (
-                        #runtime::emitted::arrays([motion.omega]),
-                        #runtime::emitted::arrays([difference_rate]),
-                    ) {
-                        (#some([omega]), #some([difference_rate])) => {
-                            self.#function(omega, difference_rate)
-                        }
-                        _ => #none,
-                    }
-                }
+                let power = self.value_at_slices(Purpose::TransverseFriction(number, true));
+                quote! {{
+                    let omega = motion.omega;
+                    #power
+                }}
             }
             false => quote! {
                 #runtime::Transverse::transverse_friction_power_of(self, sector, difference_rate)
             },
-        });
-        quote! {
-            match sector {
-                #(#arms,)*
-                _ => #none,
-            }
-        }
+        })
     }
 
     /// The function for the power of friction, which takes the rates alone and may be zero. None
     /// where it takes the motion too.
     fn friction_by_sector(&self) -> TokenStream {
-        let (runtime, none) = (self.runtime(), self.no_answer("friction_power"));
-        let some = quote!(::core::option::Option::Some);
-        let arms = self.sector_arms(|formulas| {
+        let runtime = self.runtime();
+        self.match_sector(&nan(), |number, formulas| {
             let links = Literal::usize_unsuffixed(formulas.sector.links);
-            let (known, power) = match (formulas.friction.is_zero(), formulas.braked) {
-                (true, _) => (quote!(_), quote!(T::from_f64(0.0))),
-                (_, true) => (quote!(_), none.clone()),
-                (false, false) => {
-                    let name = &formulas.sector.name;
-                    let function = format_ident!("transverse_friction_power_{name}");
-                    (
-                        quote!([difference_rate]),
-                        quote!(self.#function(difference_rate)),
-                    )
-                }
-            };
-            quote! {
-                match #runtime::emitted::arrays::<T, #links, 1>([difference_rate]) {
-                    #some(#known) => #power,
-                    _ => #none,
-                }
+            match (formulas.friction.is_zero(), formulas.braked) {
+                (true, _) => quote! {
+                    match #runtime::emitted::arrays::<T, #links, 1>([difference_rate]) {
+                        ::core::option::Option::Some(_) => T::from_f64(0.0),
+                        _ => T::from_f64(f64::NAN),
+                    }
+                },
+                (_, true) => nan(),
+                _ => self.value_at_slices(Purpose::TransverseFriction(number, false)),
             }
+        })
+    }
+
+    /// `match sector { 0 => …, … }`, a value of each sector, and one where there is none.
+    fn match_sector(
+        &self,
+        none: &TokenStream,
+        of_sector: impl Fn(usize, &TransverseFormulas) -> TokenStream,
+    ) -> TokenStream {
+        let transverse = self.mechanics.transverse.iter();
+        let sectors = transverse.flat_map(|transverse| &transverse.sectors);
+        let arms = sectors.enumerate().map(|(number, formulas)| {
+            let value = of_sector(number, formulas);
+            let number = Literal::usize_unsuffixed(number);
+            quote!(#number => #value)
         });
         quote! {
             match sector {
@@ -327,26 +275,9 @@ impl Emission<'_> {
             }
         }
     }
+}
 
-    /// `0 => …`, for each sector.
-    fn sector_arms(
-        &self,
-        of_sector: impl Fn(&TransverseFormulas) -> TokenStream,
-    ) -> Vec<TokenStream> {
-        let transverse = self.mechanics.transverse.iter();
-        let sectors = transverse.flat_map(|transverse| &transverse.sectors);
-        let arms = sectors.enumerate().map(|(number, formulas)| {
-            let (number, value) = (Literal::usize_unsuffixed(number), of_sector(formulas));
-            quote!(#number => #value)
-        });
-        arms.collect()
-    }
-
-    /// Stand-in for a quantity that has no answer.
-    fn no_answer(&self, quantity: &str) -> TokenStream {
-        match quantity {
-            "accelerations" => quote!(false),
-            _ => quote!(T::from_f64(f64::NAN)),
-        }
-    }
+/// Stand-in for a number that there is not.
+fn nan() -> TokenStream {
+    quote!(T::from_f64(f64::NAN))
 }

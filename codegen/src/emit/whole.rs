@@ -2,7 +2,7 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use crate::scene::{Reduction, WholeMotion, WholeOrbit, WholeOrder};
+use crate::scene::{NodeMotion, Reduction, WholeNode, WholeOrder};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -16,7 +16,7 @@ impl Emission<'_> {
         } = self.scene.reduction.as_ref()?;
         let (name, runtime) = (&self.item.ident, self.runtime());
         let entries = orbits.iter().map(|orbit| {
-            let WholeOrbit {
+            let WholeNode {
                 copies,
                 in_phase,
                 end,
@@ -28,12 +28,12 @@ impl Emission<'_> {
                 Literal::usize_unsuffixed(*end),
             );
             let motion = match motion {
-                WholeMotion::Moving { offset, stride } => {
+                NodeMotion::Moving { offset, stride } => {
                     let offset = Literal::usize_unsuffixed(*offset);
                     let stride = Literal::usize_unsuffixed(*stride);
                     quote!(Moving { offset: #offset, stride: #stride })
                 }
-                WholeMotion::Locked { angle } => {
+                NodeMotion::Locked { angle } => {
                     let angle = Literal::f64_unsuffixed(angle.to_f64());
                     quote!(Locked { angle: #angle })
                 }

@@ -5,8 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::DerivedFrame;
-use super::friction::LawConstants;
-use crate::scene::LinkId;
+use crate::scene::{FrictionLaw, LinkId};
 
 /// Constants of the links of one orbit; each is an expression in named
 /// constants, parameters and numbers, zero where the scene has no such thing.
@@ -28,11 +27,11 @@ pub struct Joint {
     /// Relative angle at which the spring is at rest.
     pub rest: Expr,
     /// Laws of friction in the pivot and against the ground, beside viscous ones.
-    pub laws: [LawConstants; 2],
+    pub laws: [FrictionLaw<Expr>; 2],
 }
 
 /// The quantities from which the articulated recursion is formed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Articulation {
     /// Gravitational acceleration.
     pub gravity: Expr,
@@ -53,14 +52,10 @@ impl Derivation<'_> {
             let LinkId(index) = orbit.links[0];
             let link = &scene.links[index];
             let angle = frame.coordinates[index];
-            let named = |letter: &str| match self.symbols.find(&format!("{letter}_{}", orbit.name))
-            {
-                Some(symbol) => Expr::Symbol(symbol),
-                None => Expr::zero(),
-            };
-            let optional = |value: &Option<_>, letter| match value {
-                Some(_) => named(letter),
-                None => Expr::zero(),
+            let optional = |value: &Option<_>, letter: &str| {
+                let known = || self.symbols.find(&format!("{letter}_{}", orbit.name));
+                let symbol = value.as_ref().and_then(|_| known());
+                symbol.map_or_else(Expr::zero, Expr::Symbol)
             };
             Joint {
                 inertia: expr(frame.mass.get(index, index)),

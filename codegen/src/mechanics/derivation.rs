@@ -10,12 +10,12 @@ use super::print::latex_name;
 use crate::scene::Scene;
 use std::collections::BTreeMap;
 
-/// Index of a [`Combination`] in its table.
+/// Index of an [`AngleCombination`] in its table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct CombinationId(pub usize);
 
 /// A sum of coordinates with integer weights, the first one positive.
-pub type Combination = Vec<(SymbolId, i64)>;
+pub type AngleCombination = Vec<(SymbolId, i64)>;
 
 /// Meaning of a trigonometric symbol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,7 +51,7 @@ pub(super) struct Derivation<'s> {
     names: BTreeMap<SymbolId, String>,
     of_one: BTreeMap<SymbolId, (SymbolId, SymbolId)>,
     pub(super) of_two: BTreeMap<(SymbolId, SymbolId), (SymbolId, SymbolId)>,
-    pub(super) combinations: Vec<Combination>,
+    pub(super) combinations: Vec<AngleCombination>,
     pub(super) drive: DerivedDrive,
     pub(super) groups_of: BTreeMap<SymbolId, usize>,
     of_combination: Vec<(SymbolId, SymbolId)>,
@@ -160,7 +160,7 @@ impl<'s> Derivation<'s> {
 
     /// 1 − cos and sin of a combination as symbols of their own: expanded in
     /// those of single coordinates, nested differences would fill pages.
-    pub(super) fn combination(&mut self, combination: &Combination) -> (SymbolId, SymbolId) {
+    pub(super) fn combination(&mut self, combination: &AngleCombination) -> (SymbolId, SymbolId) {
         if let Some(known) = self.combinations.iter().position(|c| c == combination) {
             return self.of_combination[known];
         }

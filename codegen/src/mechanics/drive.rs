@@ -10,7 +10,8 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
 use super::frame::DerivedFrame;
-use super::print::{latex, latex_name, text};
+use super::letters;
+use super::print::{latex, text};
 use crate::scene::{Signal, TimeFunction};
 use std::collections::BTreeMap;
 
@@ -159,24 +160,13 @@ impl Derivation<'_> {
         let mut moments = Vec::new();
         for (index, &angle) in angles.iter().enumerate() {
             let orbit = self.orbit_name(index);
-            let tex = latex_name(&orbit);
             let (cos, sin) = (self.cos(angle), self.sin(angle));
-            let along = self.constant(
-                &format!("moment_{orbit}"),
-                &format!("h_{orbit}"),
-                &format!("h_{{\\mathrm{{{tex}}}}}"),
-                &format!("mass that `{orbit}` carries times its lever"),
-                "kg m",
-                -total.derivative(cos).expand(),
-            );
-            let lateral = self.constant(
-                &format!("lateral_moment_{orbit}"),
-                &format!("e_{orbit}"),
-                &format!("e_{{\\mathrm{{{tex}}}}}"),
-                &format!("mass that `{orbit}` carries times its lateral lever"),
-                "kg m",
-                total.derivative(sin).expand(),
-            );
+            let slope = |function| total.derivative(function).expand();
+            let (along, lateral) = (-slope(cos), slope(sin));
+            let meaning = format!("mass that `{orbit}` carries times its lever");
+            let along = self.lettered(letters::MOMENT, &[&orbit], &meaning, along);
+            let meaning = format!("mass that `{orbit}` carries times its lateral lever");
+            let lateral = self.lettered(letters::LATERAL_MOMENT, &[&orbit], &meaning, lateral);
             moments.push((along, lateral));
         }
         moments

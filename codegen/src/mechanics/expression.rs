@@ -132,6 +132,12 @@ pub enum Expr {
     Power(Box<Expr>, i32),
 }
 
+impl Default for Expr {
+    fn default() -> Self {
+        Self::zero()
+    }
+}
+
 impl Expr {
     /// The number zero.
     pub fn zero() -> Self {
@@ -260,4 +266,37 @@ fn compare_all(a: &[Expr], b: &[Expr], symbols: &Symbols, compare: Compare) -> O
         }
     }
     a.len().cmp(&b.len())
+}
+
+/// A formula with what stands on its left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedFormula {
+    /// Left side in text.
+    pub left: String,
+    /// Left side in LaTeX.
+    pub left_latex: String,
+    /// Right side.
+    pub right: Expr,
+}
+
+impl NamedFormula {
+    /// left = right.
+    pub fn new(left: impl Into<String>, left_latex: impl Into<String>, right: &Expr) -> Self {
+        Self {
+            left: left.into(),
+            left_latex: left_latex.into(),
+            right: right.clone(),
+        }
+    }
+
+    /// A formula for what is spelt alike in text and in LaTeX.
+    pub fn of_letter(letter: &str, right: &Expr) -> Self {
+        Self::new(letter, letter, right)
+    }
+
+    /// A formula for what a symbol stands for.
+    pub fn of_symbol(symbols: &Symbols, symbol: SymbolId, right: &Expr) -> Self {
+        let symbol = symbols.get(symbol);
+        Self::new(&symbol.text, &symbol.latex, right)
+    }
 }

@@ -2,19 +2,18 @@
 
 use super::algebra::{AlgebraError, Formula};
 use super::derivation::Derivation;
-use super::expression::{Expr, Symbols};
+use super::expression::Expr;
 use super::frame::{DerivedFrame, MassMatrix};
 use super::inverse_mass::{Counting, DerivedExpansion};
 use super::mismatch::Mismatch;
 use super::series::VelocitySeries;
 use super::transfer::{self, SubHamiltonian};
 use super::{
-    Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics, Observables,
-    TransferFormulas, TransferParts, Truncated, WrittenOut,
+    Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics, TransferFormulas,
+    TransferParts, Truncated, WrittenOut,
 };
 use crate::scene::TransferRequest;
 use crate::scene::coordinates::{self, Coordinate};
-use std::collections::BTreeMap;
 
 impl Derivation<'_> {
     pub(super) fn finish(mut self) -> Result<Mechanics, AlgebraError> {
@@ -23,26 +22,12 @@ impl Derivation<'_> {
         }
         let absolute = self.absolute_frame();
         let mut mechanics = Mechanics {
-            symbols: Symbols::default(),
             parameters: self.parameters.clone(),
-            trigonometry: BTreeMap::new(),
-            combinations: Vec::new(),
-            constants: Vec::new(),
             drive: self.plain_drive(Some(&absolute)),
             friction_power: self.total_friction_power(),
             absolute: self.frame(&absolute),
             articulation: self.articulation(&absolute),
-            positions: None,
-            link: None,
-            scales: None,
-            coordinates: Vec::new(),
-            symmetric: None,
-            sectors: None,
-            transverse: None,
-            expansion: None,
-            mean_tree: None,
-            transfers: Vec::new(),
-            observables: Observables::default(),
+            ..Mechanics::default()
         };
         let requests = &self.scene.requests;
         let requests_transverse = requests.transverse;
@@ -132,15 +117,7 @@ impl Derivation<'_> {
             coordinates: names.iter().map(|name| self.coordinate(name)).collect(),
             velocities: names.iter().map(|name| self.velocity(name)).collect(),
             momenta: names.iter().map(|name| self.momentum(name)).collect(),
-            mass: Vec::new(),
-            stiffness: None,
-            energies: None,
-            momentum: None,
-            momentum_rates: None,
-            torques: Vec::new(),
-            dissipative_forces: Vec::new(),
-            drive: Vec::new(),
-            bias: Vec::new(),
+            ..Frame::default()
         }
     }
 

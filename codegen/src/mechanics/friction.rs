@@ -8,18 +8,6 @@ use super::frame::DerivedFrame;
 use super::print::latex_name;
 use crate::scene::{Coordinate, FrictionLaw, Link, LinkId};
 
-/// Constants of a law of friction; each is an expression in named constants, zero where
-/// the law has no such part.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LawConstants {
-    /// C.
-    pub coulomb: Expr,
-    /// q.
-    pub quadratic: Expr,
-    /// ε.
-    pub width: Expr,
-}
-
 /// The part of a link that friction acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrictionPlace {
@@ -52,7 +40,7 @@ pub enum TorqueSource {
         /// Its rate w in the frame's velocities.
         rate: Expr,
         /// Its law.
-        law: Box<LawConstants>,
+        law: Box<FrictionLaw<Expr>>,
         /// The speed s, a symbol for formulas alone.
         speed: SymbolId,
     },
@@ -209,8 +197,9 @@ impl Derivation<'_> {
         }
     }
 
-    /// The constants of the laws of an orbit, in the pivot and against the ground.
-    pub(super) fn law_constants(&self, orbit: &str) -> [LawConstants; 2] {
+    /// The laws of an orbit in named constants, in the pivot and against the ground; zero
+    /// where a law has no such part.
+    pub(super) fn law_constants(&self, orbit: &str) -> [FrictionLaw<Expr>; 2] {
         FrictionPlace::ALL.map(|place| {
             let named = |letter: &str| {
                 let text = format!("{letter}{}_{orbit}", place.mark());
@@ -218,7 +207,7 @@ impl Derivation<'_> {
                 let found = found.filter(|id| self.constants.contains_key(id));
                 found.map_or_else(Expr::zero, Expr::Symbol)
             };
-            LawConstants {
+            FrictionLaw {
                 coulomb: named("C"),
                 quadratic: named("q"),
                 width: named("ε"),
@@ -309,7 +298,7 @@ impl Derivation<'_> {
         torques.collect()
     }
 
-    fn law(&self, LinkId(link): LinkId, place: FrictionPlace) -> LawConstants {
+    fn law(&self, LinkId(link): LinkId, place: FrictionPlace) -> FrictionLaw<Expr> {
         let [joint, ground] = self.law_constants(&self.orbit_name(link));
         match place {
             FrictionPlace::Joint => joint,

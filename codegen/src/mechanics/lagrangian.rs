@@ -6,16 +6,8 @@ use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::friction::DerivedTorque;
-use super::print::latex_name;
+use super::letters;
 use crate::scene::{Link, LinkId, Offset, Quantity};
-
-/// A constant to be named.
-struct Letter {
-    code: String,
-    letter: &'static str,
-    meaning: String,
-    unit: &'static str,
-}
 
 impl Derivation<'_> {
     /// The Lagrangian in absolute angles: the mass matrix from the velocities
@@ -143,15 +135,10 @@ impl Derivation<'_> {
                 "diagonal entry of {orbit_i} is not constant: {sum:?}"
             );
             let value = (&square + &coefficient(0, 0)).expand();
-            let constant = self.constant(
-                &format!("inertia_{orbit_i}"),
-                &format!("M_{orbit_i}"),
-                &format!("M_{{\\mathrm{{{}}}}}", latex_name(&orbit_i)),
-                &format!("moment of inertia of `{orbit_i}` about its pivot, with what hangs from it as points at their pivots"),
-                "kg m²",
-                value,
+            let meaning = format!(
+                "moment of inertia of `{orbit_i}` about its pivot, with what hangs from it as points at their pivots"
             );
-            return constant;
+            return self.lettered(letters::INERTIA, &[&orbit_i], &meaning, value);
         }
         let table = sum.coefficients(&[self.cos(i), self.sin(i), self.cos(j), self.sin(j)]);
         let coefficient = |key: [u32; 4]| {
@@ -170,23 +157,11 @@ impl Derivation<'_> {
             "entry {orbit_i}, {orbit_j} does not depend on the difference of angles alone: {sum:?}"
         );
         let (cos, sin) = self.between(i, j);
-        let tex = format!("{},{}", latex_name(&orbit_i), latex_name(&orbit_j));
-        let a = self.constant(
-            &format!("coupling_{orbit_i}_{orbit_j}"),
-            &format!("μ_{orbit_i},{orbit_j}"),
-            &format!("\\mu_{{\\mathrm{{{tex}}}}}"),
-            &format!("inertial coupling of `{orbit_i}` to `{orbit_j}`"),
-            "kg m²",
-            cosine,
-        );
-        let b = self.constant(
-            &format!("lateral_coupling_{orbit_i}_{orbit_j}"),
-            &format!("ν_{orbit_i},{orbit_j}"),
-            &format!("\\nu_{{\\mathrm{{{tex}}}}}"),
-            &format!("inertial coupling of `{orbit_i}` to `{orbit_j}` by lateral offsets"),
-            "kg m²",
-            sine,
-        );
+        let orbits = [orbit_i.as_str(), &orbit_j];
+        let meaning = format!("inertial coupling of `{orbit_i}` to `{orbit_j}`");
+        let a = self.lettered(letters::COUPLING, &orbits, &meaning, cosine);
+        let meaning = format!("{meaning} by lateral offsets");
+        let b = self.lettered(letters::LATERAL_COUPLING, &orbits, &meaning, sine);
         &(&a * &Formula::symbol(cos)) + &(&b * &Formula::symbol(sin))
     }
 
@@ -218,22 +193,12 @@ impl Derivation<'_> {
         for (index, &angle) in angles.iter().enumerate() {
             let orbit = self.orbit_name(index);
             let (cos, sin) = (self.cos(angle), self.sin(angle));
-            let along = self.constant(
-                &format!("gravity_{orbit}"),
-                &format!("G_{orbit}"),
-                &format!("G_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
-                &format!("weight that `{orbit}` carries times its lever"),
-                "J",
-                -total.derivative(cos).expand(),
-            );
-            let lateral = self.constant(
-                &format!("lateral_gravity_{orbit}"),
-                &format!("F_{orbit}"),
-                &format!("F_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
-                &format!("weight that `{orbit}` carries times its lateral lever"),
-                "J",
-                total.derivative(sin).expand(),
-            );
+            let slope = |function| total.derivative(function).expand();
+            let (along, lateral) = (-slope(cos), slope(sin));
+            let meaning = format!("weight that `{orbit}` carries times its lever");
+            let along = self.lettered(letters::GRAVITY, &[&orbit], &meaning, along);
+            let meaning = format!("weight that `{orbit}` carries times its lateral lever");
+            let lateral = self.lettered(letters::LATERAL_GRAVITY, &[&orbit], &meaning, lateral);
             // Kept as G (1 − cos θ): multiplied out it would lose digits.
             potential.push(&along * &(&Formula::integer(1) - &Formula::symbol(cos)));
             potential.push(&lateral * &Formula::symbol(sin));
@@ -245,30 +210,22 @@ impl Derivation<'_> {
     /// of friction in the pivots and drag against the ground, so that the
     /// generalized torque of both is −∂R/∂ω_i, term by term.
     fn dissipation(&mut self, velocities: &[SymbolId]) -> Vec<Formula> {
-        let mut terms = Vec::new();
+        let (scene, mut terms) = (self.scene, Vec::new());
         for index in 0..velocities.len() {
             let orbit = self.orbit_name(index);
-            let link = &self.scene.links[index];
-            let (friction, drag) = (link.friction.clone(), link.drag.clone());
-            if let Some(friction) = friction {
-                let letter = Letter {
-                    code: format!("friction_{orbit}"),
-                    letter: "c",
-                    meaning: format!("viscous friction in the pivot of `{orbit}`"),
-                    unit: "N m s",
-                };
+            let link = &scene.links[index];
+            if let Some(friction) = &link.friction {
+                let meaning = format!("viscous friction in the pivot of `{orbit}`");
                 let relative = self.relative(index, velocities);
-                terms.push(self.half_square(letter, &orbit, &friction, &relative));
+                let value = self.quantity(friction);
+                let c = self.lettered(letters::FRICTION, &[&orbit], &meaning, value);
+                terms.push(half_square(&c, &relative));
             }
-            if let Some(drag) = drag {
-                let letter = Letter {
-                    code: format!("drag_{orbit}"),
-                    letter: "k",
-                    meaning: format!("viscous drag of `{orbit}` against the ground"),
-                    unit: "N m s",
-                };
-                let own = Formula::symbol(velocities[index]);
-                terms.push(self.half_square(letter, &orbit, &drag, &own));
+            if let Some(drag) = &link.drag {
+                let meaning = format!("viscous drag of `{orbit}` against the ground");
+                let value = self.quantity(drag);
+                let k = self.lettered(letters::DRAG, &[&orbit], &meaning, value);
+                terms.push(half_square(&k, &Formula::symbol(velocities[index])));
             }
         }
         terms
@@ -276,32 +233,24 @@ impl Derivation<'_> {
 
     /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i) − ρ_i)².
     fn springs(&mut self, angles: &[SymbolId]) -> Formula {
-        let mut terms = Vec::new();
+        let (scene, mut terms) = (self.scene, Vec::new());
         for index in 0..angles.len() {
             let orbit = self.orbit_name(index);
-            let Some(spring) = self.scene.links[index].spring.clone() else {
+            let link = &scene.links[index];
+            let Some(spring) = &link.spring else {
                 continue;
             };
-            let letter = Letter {
-                code: format!("spring_{orbit}"),
-                letter: "κ",
-                meaning: format!("stiffness of the torsion spring in the pivot of `{orbit}`"),
-                unit: "N m",
-            };
             let mut strain = self.relative(index, angles);
-            if let Some(rest) = self.scene.links[index].rest.clone() {
-                let value = self.quantity(&rest);
-                let rest = self.constant(
-                    &format!("rest_{orbit}"),
-                    &format!("ρ_{orbit}"),
-                    &format!("\\rho_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
-                    &format!("angle at which the torsion spring of `{orbit}` is at rest"),
-                    "rad",
-                    value,
-                );
+            if let Some(rest) = &link.rest {
+                let meaning = format!("angle at which the torsion spring of `{orbit}` is at rest");
+                let value = self.quantity(rest);
+                let rest = self.lettered(letters::REST, &[&orbit], &meaning, value);
                 strain = &strain - &rest;
             }
-            terms.push(self.half_square(letter, &orbit, &spring, &strain));
+            let meaning = format!("stiffness of the torsion spring in the pivot of `{orbit}`");
+            let value = self.quantity(spring);
+            let stiffness = self.lettered(letters::SPRING, &[&orbit], &meaning, value);
+            terms.push(half_square(&stiffness, &strain));
         }
         terms.into_iter().sum::<Formula>()
     }
@@ -313,29 +262,6 @@ impl Derivation<'_> {
             Some(LinkId(parent)) => &own - &Formula::symbol(symbols[parent]),
             None => own,
         }
-    }
-
-    /// ½ constant · x², with the constant named.
-    fn half_square(
-        &mut self,
-        letter: Letter,
-        orbit: &str,
-        value: &Quantity,
-        x: &Formula,
-    ) -> Formula {
-        let Letter {
-            code,
-            letter,
-            meaning,
-            unit,
-        } = letter;
-        let command = if letter == "κ" { "\\kappa" } else { letter };
-        let latex = format!("{command}_{{\\mathrm{{{}}}}}", latex_name(orbit));
-        let text = format!("{letter}_{orbit}");
-        let value = self.quantity(value);
-        let constant = self.constant(&code, &text, &latex, &meaning, unit, value);
-        let half = Formula::integer(2).pow(-1);
-        &(&half * &constant) * &x.pow(2)
     }
 
     pub(super) fn orbit_name(&self, link: usize) -> String {
@@ -386,4 +312,10 @@ impl Derivation<'_> {
         }
         Formula::symbol(id)
     }
+}
+
+/// ½ constant · x².
+fn half_square(constant: &Formula, x: &Formula) -> Formula {
+    let half = Formula::integer(2).pow(-1);
+    &(&half * constant) * &x.pow(2)
 }

@@ -8,7 +8,7 @@
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
-use super::expression::{Expr, Role, SymbolId, Symbols};
+use super::expression::{Expr, NamedFormula, Role, SymbolId, Symbols};
 
 /// Constants of a link with the mass σ on its pivot (ℓ, w).
 #[derive(Clone, Debug, PartialEq)]
@@ -86,27 +86,10 @@ pub struct LinkBalance {
     pub child_pivot: [Expr; 2],
 }
 
-/// A line of the balance.
-pub struct LinkFormula {
-    /// Left side in text.
-    pub left: String,
-    /// Left side in LaTeX.
-    pub left_latex: String,
-    /// Right side.
-    pub right: Expr,
-}
-
 impl LinkBalance {
     /// The balance as formulas, in the order in which they are used.
-    pub fn formulas(&self, symbols: &Symbols) -> Vec<LinkFormula> {
-        let named = |id: SymbolId, right: &Expr| {
-            let symbol = symbols.get(id);
-            LinkFormula {
-                left: symbol.text.clone(),
-                left_latex: symbol.latex.clone(),
-                right: right.clone(),
-            }
-        };
+    pub fn formulas(&self, symbols: &Symbols) -> Vec<NamedFormula> {
+        let named = |id: SymbolId, right: &Expr| NamedFormula::of_symbol(symbols, id, right);
         let primed = |id: SymbolId, right: &Expr| {
             let mut formula = named(id, right);
             formula.left = prime(&formula.left);

@@ -10,29 +10,27 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
+use super::letters::{self, Letter};
 use super::print::latex_name;
 use super::transfer::{DerivedParts, SubHamiltonian};
-use super::{MeanTree, System};
+use super::{LinearSystem, MeanTree};
 use crate::scene::{Coordinate, LinkId, UnequalNode};
-
-/// A letter of constants in code, in text and in LaTeX.
-type Letter = (&'static str, &'static str, &'static str);
 
 /// Constants of a link.
 const LETTERS: [Letter; 9] = [
-    ("inertia", "M", "M"),
-    ("gravity", "G", "G"),
-    ("lateral_gravity", "F", "F"),
-    ("friction", "c", "c"),
-    ("drag", "k", "k"),
-    ("spring", "κ", "\\kappa"),
-    ("rest", "ρ", "\\rho"),
-    ("moment", "h", "h"),
-    ("lateral_moment", "e", "e"),
+    letters::INERTIA,
+    letters::GRAVITY,
+    letters::LATERAL_GRAVITY,
+    letters::FRICTION,
+    letters::DRAG,
+    letters::SPRING,
+    letters::REST,
+    letters::MOMENT,
+    letters::LATERAL_MOMENT,
 ];
 
 /// Constants of a link and one above it.
-const COUPLINGS: [Letter; 2] = [("coupling", "μ", "\\mu"), ("lateral_coupling", "ν", "\\nu")];
+const COUPLINGS: [Letter; 2] = [letters::COUPLING, letters::LATERAL_COUPLING];
 
 /// Constants of copies that differ, in terms of means and mismatches.
 #[derive(Default)]
@@ -79,7 +77,12 @@ impl Derivation<'_> {
         &mut self,
         node: &UnequalNode,
         coordinates: &[Coordinate],
-        (word, letter, latex): Letter,
+        Letter {
+            code: word,
+            text: letter,
+            latex,
+            ..
+        }: Letter,
         others: &[LinkId],
         constants: &mut CopyConstants,
     ) {
@@ -234,7 +237,7 @@ impl Derivation<'_> {
         });
         MeanTree {
             frame,
-            added: System {
+            added: LinearSystem {
                 unknowns: mismatch.added.clone(),
                 right: right.collect(),
             },

@@ -17,6 +17,7 @@ mod friction;
 mod hamiltonian;
 mod inverse_mass;
 mod lagrangian;
+mod letters;
 mod link;
 mod lock;
 mod mismatch;
@@ -37,18 +38,17 @@ mod transfer;
 mod transverse;
 mod work_limit;
 
-use crate::scene::Coordinate;
 pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
-pub use derivation::{Combination, CombinationId, Trigonometric};
+pub use derivation::{AngleCombination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
-pub use friction::{BrakingTorque, FrictionPlace, LawConstants, TorqueSource};
+pub use friction::{BrakingTorque, FrictionPlace, TorqueSource};
 pub use inverse_mass::Counting;
-pub use link::{Composite, LinkBalance, LinkFormula, LinkSymbols};
+pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
-    CanonicalRate, EnergySymbols, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame,
-    Observables, System,
+    CanonicalRate, EnergySymbols, FunctionOf, LinearSystem, NestedSymbols, ObservableFormulas,
+    ObservableFrame, Observables,
 };
 pub use positions::{LinkPositions, RelativePosition};
 pub use print::{latex, text};
@@ -58,7 +58,7 @@ pub use small::{SmallFormulas, SmallMechanics};
 pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 
-use crate::scene::Scene;
+use crate::scene::{Coordinate, Scene};
 use derivation::Derivation;
 use expression::{Expr, SymbolId, Symbols};
 use std::collections::BTreeMap;
@@ -217,7 +217,7 @@ pub struct MeanTree {
     pub frame: Frame,
     /// The velocities that the mismatch adds at given momenta; solved for with the mass
     /// matrix of the mean tree.
-    pub added: System,
+    pub added: LinearSystem,
 }
 
 /// Formulas for people: what the code solves, written out.
@@ -237,7 +237,7 @@ pub struct WrittenOut {
 
 /// Everything derived for a scene. Invariants: mass matrices symmetric and
 /// zero between unrelated branches; K = ½ vᵀ M v.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mechanics {
     /// All symbols.
     pub symbols: Symbols,
@@ -246,7 +246,7 @@ pub struct Mechanics {
     /// Meaning of every trigonometric symbol.
     pub trigonometry: BTreeMap<SymbolId, Trigonometric>,
     /// Combinations of differences whose sine and versine appear.
-    pub combinations: Vec<Combination>,
+    pub combinations: Vec<AngleCombination>,
     /// Constants of the model, in the order of their symbols.
     pub constants: Vec<Constant>,
     /// The drive, if the scene has one.

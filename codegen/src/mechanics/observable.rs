@@ -5,8 +5,9 @@ use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::print;
-use crate::scene::Coordinate;
-use crate::scene::{CoordinateIndex, Function, LinkId, Observed, Variable, VariableKind};
+use crate::scene::{
+    Coordinate, CoordinateIndex, Function, LinkId, Observed, Variable, VariableKind,
+};
 
 /// Meaning of a symbol that stands for a function of an expression.
 pub(super) struct CompositeObservable {

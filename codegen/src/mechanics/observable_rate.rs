@@ -29,8 +29,8 @@ use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::observable::Setting;
 use super::observables::{
-    CanonicalRate, FunctionOf, NestedSymbols, ObservableFormulas, ObservableFrame, Observables,
-    System,
+    CanonicalRate, FunctionOf, LinearSystem, NestedSymbols, ObservableFormulas, ObservableFrame,
+    Observables,
 };
 use super::print::latex_name;
 use super::rate_symbols::RateSymbols;
@@ -177,7 +177,7 @@ impl Derivation<'_> {
         ];
         CanonicalRate {
             rate: self.expr(&rate.into_iter().sum()),
-            adjoint: moving.then(|| System {
+            adjoint: moving.then(|| LinearSystem {
                 unknowns: adjoint,
                 right: self.exprs(&gradients.velocities),
             }),
@@ -264,7 +264,7 @@ impl Derivation<'_> {
         ObservableFrame {
             accelerations,
             nested: NestedSymbols::default(),
-            friction: uses(&symbols.friction_accelerations).then(|| System {
+            friction: uses(&symbols.friction_accelerations).then(|| LinearSystem {
                 unknowns: symbols.friction_accelerations.clone(),
                 right: self.exprs(&torques()),
             }),

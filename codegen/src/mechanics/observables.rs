@@ -49,12 +49,12 @@ pub struct CanonicalRate {
     /// {F, H} and the part of friction, with the unknowns y of `adjoint`.
     pub rate: Expr,
     /// M y = ∂F/∂v, if velocities occur in F.
-    pub adjoint: Option<System>,
+    pub adjoint: Option<LinearSystem>,
 }
 
 /// A linear system with the mass matrix.
 #[derive(Clone, Debug, PartialEq)]
-pub struct System {
+pub struct LinearSystem {
     /// The unknowns, for which the system is solved.
     pub unknowns: Vec<SymbolId>,
     /// The right side.
@@ -99,7 +99,7 @@ pub struct ObservableFrame {
     /// Generalized accelerations; none where no rate holds them.
     pub accelerations: Vec<SymbolId>,
     /// Accelerations by friction and drag alone: M a = Q.
-    pub friction: Option<System>,
+    pub friction: Option<LinearSystem>,
     /// Symbols that the program forms on means and differences, on nested
     /// trees.
     pub nested: NestedSymbols,

@@ -6,8 +6,7 @@ use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::observables::EnergySymbols;
 use super::print::latex_name;
-use crate::scene::Coordinate;
-use crate::scene::LinkId;
+use crate::scene::{Coordinate, LinkId};
 
 /// Symbols that the rates of one frame are written in.
 pub(super) struct RateSymbols {

@@ -8,8 +8,8 @@
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
-use super::expression::{Expr, Role, SymbolId, Symbols};
-use super::link::{LinkFormula, LinkSymbols, Plane, dot, plus, times};
+use super::expression::{Expr, NamedFormula, Role, SymbolId, Symbols};
+use super::link::{LinkSymbols, Plane, dot, plus, times};
 
 /// Symbols of a link's scales beside those of its balance.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,7 +95,7 @@ const NAMES: [(&str, &str); 19] = [
 
 impl LinkScales {
     /// The formulas, in the order in which they are used.
-    pub fn formulas(&self) -> Vec<LinkFormula> {
+    pub fn formulas(&self) -> Vec<NamedFormula> {
         let Self {
             symbols: _,
             torques,
@@ -112,11 +112,7 @@ impl LinkScales {
         let named = NAMES.iter().zip(all.chain([angle_slope]));
         let named = named.chain([(&("Q_moved", "Q_{moved}"), inertial)]);
         named
-            .map(|(&(left, left_latex), right)| LinkFormula {
-                left: left.to_owned(),
-                left_latex: left_latex.to_owned(),
-                right: right.clone(),
-            })
+            .map(|(&(left, latex), right)| NamedFormula::new(left, latex, right))
             .collect()
     }
 }

@@ -9,11 +9,11 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::DerivedFrame;
-use super::friction::LawConstants;
-use crate::scene::{Coordinate, LinkId, Offset, SectorVariables, sectors};
+use crate::scene::{Coordinate, LinkId, SectorVariables, sectors};
 
-/// Constants of the links of one orbit; each is an expression in named
-/// constants, parameters and numbers, zero where the scene has no such thing.
+/// Constants of the links of one orbit beside those of their joint, see
+/// [`Articulation`](super::Articulation); each is an expression in named constants, parameters
+/// and numbers, zero where the scene has no such thing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrbitConstants {
     /// Mass.
@@ -22,24 +22,10 @@ pub struct OrbitConstants {
     pub inertia: Expr,
     /// Centre of mass from the link's pivot, along and across.
     pub com: [Expr; 2],
-    /// The link's pivot from its parent's, along and across.
-    pub pivot: [Expr; 2],
-    /// Diagonal entry of the mass matrix.
-    pub moment: Expr,
     /// G in G (1 − cos θ).
     pub gravity: Expr,
     /// F in F sin θ, of lateral offsets.
     pub lateral_gravity: Expr,
-    /// Stiffness of the torsion spring in the pivot.
-    pub spring: Expr,
-    /// Relative angle at which the spring is at rest.
-    pub rest: Expr,
-    /// Viscous friction in the pivot.
-    pub friction: Expr,
-    /// Viscous drag against the ground.
-    pub drag: Expr,
-    /// Laws of friction in the pivot and against the ground, beside viscous ones.
-    pub laws: [LawConstants; 2],
     /// Functions of time c, s, τ in the generalized force of the drive,
     /// Q = s cos θ − c sin θ + τ.
     pub drive: [Expr; 3],
@@ -71,6 +57,14 @@ pub struct OrbitMechanics {
     pub sectors: Vec<SectorVariables>,
 }
 
+impl OrbitMechanics {
+    /// Group and number of the difference of each sector; `None` for the means.
+    pub fn differences(&self) -> Vec<Option<(usize, usize)>> {
+        let sectors = self.sectors.iter();
+        sectors.map(|sector| sector.difference).collect()
+    }
+}
+
 impl Derivation<'_> {
     /// Reads the constants of each orbit out of the Lagrangian of the absolute
     /// angles; one link stands for all of its orbit.
@@ -87,33 +81,14 @@ impl Derivation<'_> {
             let link = &scene.links[index];
             let angle = frame.coordinates[index];
             let slope = |symbol| frame.potential.derivative(symbol).expand();
-            let named = |letter: &str| match self.symbols.find(&format!("{letter}_{}", orbit.name))
-            {
-                Some(symbol) => Expr::Symbol(symbol),
-                None => Expr::zero(),
-            };
-            let optional = |value: &Option<_>, letter| match value {
-                Some(_) => named(letter),
-                None => Expr::zero(),
-            };
-            let offset = |offset: &Offset| {
-                [&offset.along, &offset.lateral]
-                    .map(|component| self.quantity(component).expand().to_expr(&self.symbols))
-            };
             let expr = |formula: Formula| formula.to_expr(&self.symbols);
             orbits.push(OrbitConstants {
                 mass: expr(self.quantity(&link.mass)),
                 inertia: expr(self.quantity(&link.inertia)),
-                com: offset(&link.com),
-                pivot: offset(&link.pivot),
-                moment: expr(frame.mass.get(index, index)),
+                com: [&link.com.along, &link.com.lateral]
+                    .map(|component| expr(self.quantity(component).expand())),
                 gravity: expr(-slope(self.cos(angle))),
                 lateral_gravity: expr(slope(self.sin(angle))),
-                spring: optional(&link.spring, "κ"),
-                rest: optional(&link.rest, "ρ"),
-                friction: optional(&link.friction, "c"),
-                drag: optional(&link.drag, "k"),
-                laws: self.law_constants(&orbit.name),
                 drive: [self.cos(angle), self.sin(angle), angle]
                     .map(|symbol| expr(frame.drive.derivative(symbol).expand())),
             });

@@ -2,8 +2,8 @@
 
 use super::expression::{Expr, SymbolId};
 use super::{
-    Counting, DriveTerms, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree,
-    Mechanics, OrbitMechanics, RelativePosition, Temporal, TransferParts, text,
+    DriveTerms, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree, Mechanics,
+    OrbitMechanics, RelativePosition, Temporal, TransferParts, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
@@ -91,11 +91,7 @@ impl fmt::Display for Mechanics {
                 }
             }
             for truncated in &transfer.higher {
-                let counting = match truncated.counting {
-                    Counting::Angle => "angle",
-                    Counting::Amplitude => "amplitude",
-                };
-                let name = format!("{counting} order {}", truncated.order);
+                let name = format!("{} order {}", truncated.counting.name(), truncated.order);
                 self.parts(f, &name, &Some(truncated.parts.clone()))?;
             }
             self.parts(f, "exact", &transfer.exact)?;
@@ -328,7 +324,7 @@ impl Mechanics {
                     let names = [row, column].map(|index| &self.coordinates[index].name);
                     write!(f, "  B[{}, {}] = ", names[0], names[1])?;
                     if row == column {
-                        let moment = self.text(&sectors.orbits[of_row].moment);
+                        let moment = self.text(&self.articulation.joints[of_row].inertia);
                         writeln!(f, "{norm} {moment}")?;
                         continue;
                     }

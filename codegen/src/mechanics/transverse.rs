@@ -11,14 +11,14 @@ use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::small::SmallMechanics;
-use crate::scene::TransverseSector;
+use crate::scene::TransverseCopies;
 use std::ops::Range;
 
 /// The equations of one sector: M δ̈ + residual = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransverseFormulas {
     /// Its links.
-    pub sector: TransverseSector,
+    pub sector: TransverseCopies,
     /// Differences of its links.
     pub differences: Vec<SymbolId>,
     /// Their rates.
@@ -111,7 +111,7 @@ impl Derivation<'_> {
         frame: &DerivedFrame,
         small: &SmallMotion,
         balances: &[Formula],
-        sector: TransverseSector,
+        sector: TransverseCopies,
     ) -> TransverseFormulas {
         let block = sector.first.0..sector.first.0 + sector.links;
         let holders = Formula::integer(i64::try_from(sector.holders).unwrap_or(i64::MAX));

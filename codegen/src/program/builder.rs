@@ -3,8 +3,8 @@
 use super::rules::RULES;
 use super::rules::sharing::KnownOperations;
 use super::{
-    Argument, Choice, ConstantId, ConstantOp, Definition, Entry, MOST_VALUES, Op, Pass, Program,
-    Setup, TooManyValues, ValueId,
+    Argument, ConstantId, ConstantOp, Definition, Entry, MOST_VALUES, Op, Pass, Program, Setup,
+    SolveChoice, TooManyValues, ValueId,
 };
 use crate::exact::Rational;
 use crate::scene::Scene;
@@ -44,7 +44,7 @@ impl Builder {
     pub(super) fn finish(
         self,
         entries: Vec<Entry>,
-        choice: Choice,
+        choice: SolveChoice,
     ) -> Result<Program, TooManyValues> {
         if self.is_exceeded() {
             return Err(TooManyValues);
@@ -275,7 +275,7 @@ impl Builder {
 impl Builder {
     /// A program with one entry point, for tests of passes.
     pub(super) fn program(self, purpose: super::Purpose, outputs: Vec<ValueId>) -> Program {
-        let choice = Choice {
+        let choice = SolveChoice {
             solve: crate::scene::Solve::Factorization,
             factorization: Default::default(),
             recursion: Default::default(),
@@ -285,7 +285,7 @@ impl Builder {
             purpose,
             arguments: vec![Argument::Theta],
             outputs,
-            shape: super::Shape::Vector,
+            shape: super::ResultShape::Vector,
         };
         let program = self.finish(vec![entry], choice).expect("a small program");
         assert_eq!(program.verify(), Ok(()));

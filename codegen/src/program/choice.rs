@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 /// The solve for the accelerations in absolute angles, and the cost of both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Choice {
+pub struct SolveChoice {
     /// The solve that is emitted.
     pub solve: Solve,
     /// Operations of the factorisation; `None` where it is too long to be formed.
@@ -62,13 +62,13 @@ impl Lowering<'_> {
         &mut self,
         scene: &Scene,
         environment: &mut Environment<'_>,
-    ) -> (Vec<ValueId>, Choice) {
+    ) -> (Vec<ValueId>, SolveChoice) {
         let (mut other, mut other_environment) = (self.clone(), environment.clone());
         let compared = self.builder.off == Some(Pass::Choice)
             || scene.requests.solve == Some(Solve::Factorization);
         if is_deep(scene) && !compared {
             let recursion = self.recursion(scene, environment);
-            let choice = Choice {
+            let choice = SolveChoice {
                 solve: Solve::Recursion,
                 factorization: None,
                 recursion: operations(&self.builder.definitions, &recursion),
@@ -89,7 +89,7 @@ impl Lowering<'_> {
             true => Solve::Recursion,
             false => Solve::Factorization,
         });
-        let choice = Choice {
+        let choice = SolveChoice {
             solve,
             factorization: Some(factorization_cost),
             recursion: recursion_cost,

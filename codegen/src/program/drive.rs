@@ -2,7 +2,7 @@
 
 use super::entries::EntryList;
 use super::lower::{Environment, Lowering};
-use super::{Argument, Purpose, Shape, ValueId};
+use super::{Argument, Purpose, ValueId};
 use crate::mechanics::expression::SymbolId;
 use crate::mechanics::{DriveTerms, Mechanics, Temporal};
 use crate::scene::Scene;
@@ -40,14 +40,6 @@ impl Lowering<'_> {
 }
 
 impl EntryList<'_, '_> {
-    /// The arguments of an entry point that depends on time where there is a
-    /// drive.
-    pub(super) fn timed(&self, arguments: &[Argument]) -> Vec<Argument> {
-        let time = self.lowering.mechanics.drive.as_ref();
-        let time = time.map(|_| Argument::Time);
-        time.into_iter().chain(arguments.iter().copied()).collect()
-    }
-
     /// The drive as a function of time alone: acceleration of the root's pivot,
     /// torque on the root. What is not given is zero.
     pub(super) fn drive(&mut self, mechanics: &Mechanics, drive: &DriveTerms) {
@@ -60,13 +52,7 @@ impl EntryList<'_, '_> {
             Some(symbol) => self.lowering.temporal(&mut environment, symbol),
             None => self.lowering.builder.integer(0),
         });
-        self.push(
-            "drive",
-            Purpose::Drive,
-            &[Argument::Time],
-            outputs.to_vec(),
-            Shape::Vector,
-        );
+        self.push(Purpose::Drive, outputs.to_vec());
     }
 
     /// The powers of drive, friction and torques from outside, which balance the energy.
@@ -76,27 +62,15 @@ impl EntryList<'_, '_> {
         mechanics: &Mechanics,
         environment: &mut Environment<'_>,
     ) {
-        use Argument::{Omega, Theta, Time, Torques};
+        use Argument::{Omega, Torques};
         let drive = mechanics.drive.as_ref();
         if let Some(power) = drive.and_then(|drive| drive.power.as_ref()) {
             let power = self.lowering.expr(environment, power);
-            self.push(
-                "drive_power",
-                Purpose::DrivePower,
-                &[Time, Theta, Omega],
-                vec![power],
-                Shape::Scalar,
-            );
+            self.push(Purpose::DrivePower, vec![power]);
         }
         if let Some(power) = &mechanics.friction_power {
             let power = self.lowering.expr(environment, power);
-            self.push(
-                "friction_power",
-                Purpose::TotalFrictionPower,
-                &[Omega],
-                vec![power],
-                Shape::Scalar,
-            );
+            self.push(Purpose::TotalFrictionPower, vec![power]);
         }
         if scene.requests.energies && scene.requests.forces {
             let builder = &mut self.lowering.builder;
@@ -107,13 +81,7 @@ impl EntryList<'_, '_> {
                 let own = builder.mul(torque, rate);
                 power = builder.add(power, own);
             }
-            self.push(
-                "outside_power",
-                Purpose::OutsidePower,
-                &[Omega, Torques],
-                vec![power],
-                Shape::Scalar,
-            );
+            self.push(Purpose::OutsidePower, vec![power]);
         }
     }
 }

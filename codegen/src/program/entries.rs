@@ -1,23 +1,20 @@
 //! The entry points that a scene's requests lead to.
 
 use super::lower::{Environment, Lowering};
-use super::{Argument, Choice, Entry, Operations, Purpose, Shape, Strips, ValueId};
+use super::{Argument, Entry, LoopTree, Naming, Operations, Purpose, SolveChoice, ValueId};
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{Frame, MatrixEntry, Mechanics};
 use crate::scene::{LinkId, Scene, Solve};
 
 /// Entry points, the solve that they take, and the constants by strip.
-type Lowered = (Vec<Entry>, Choice, Option<Strips>);
+type Lowered = (Vec<Entry>, SolveChoice, Option<LoopTree>);
 
 /// Those of a tree in loops, which take the recursion through it link by link.
 pub(super) fn link_entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     let mechanics = lowering.mechanics;
-    let mut list = EntryList {
-        lowering,
-        entries: Vec::new(),
-    };
+    let mut list = EntryList::new(scene, lowering);
     let strips = list.link_functions(scene, mechanics);
-    let choice = Choice {
+    let choice = SolveChoice {
         solve: Solve::Recursion,
         factorization: None,
         recursion: Operations::default(),
@@ -27,10 +24,7 @@ pub(super) fn link_entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowere
 
 pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     let mechanics = lowering.mechanics;
-    let mut list = EntryList {
-        lowering,
-        entries: Vec::new(),
-    };
+    let mut list = EntryList::new(scene, lowering);
     let choice = list.absolute(scene, mechanics);
     if let Some(symmetric) = &mechanics.symmetric {
         list.transforms(scene, mechanics);
@@ -67,24 +61,22 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
 pub(super) struct EntryList<'l, 'm> {
     pub(super) lowering: &'l mut Lowering<'m>,
     pub(super) entries: Vec<Entry>,
+    pub(super) naming: Naming,
 }
 
-impl EntryList<'_, '_> {
-    pub(super) fn push(
-        &mut self,
-        name: &str,
-        purpose: Purpose,
-        arguments: &[Argument],
-        outputs: Vec<ValueId>,
-        shape: Shape,
-    ) {
-        self.entries.push(Entry {
-            name: name.to_owned(),
-            purpose,
-            arguments: arguments.to_vec(),
-            outputs,
-            shape,
-        });
+impl<'l, 'm> EntryList<'l, 'm> {
+    fn new(scene: &Scene, lowering: &'l mut Lowering<'m>) -> Self {
+        Self {
+            naming: Naming::of(scene, lowering.mechanics),
+            lowering,
+            entries: Vec::new(),
+        }
+    }
+
+    /// Adds the entry point for a purpose.
+    pub(super) fn push(&mut self, purpose: Purpose, outputs: Vec<ValueId>) {
+        let signature = self.naming.signature(purpose);
+        self.entries.push(signature.entry(purpose, outputs));
     }
 
     pub(super) fn exprs(
@@ -98,31 +90,18 @@ impl EntryList<'_, '_> {
             .collect()
     }
 
-    fn absolute(&mut self, scene: &Scene, mechanics: &Mechanics) -> Choice {
+    fn absolute(&mut self, scene: &Scene, mechanics: &Mechanics) -> SolveChoice {
         use Argument::{AbsoluteMomenta, Omega, Theta};
         let frame = &mechanics.absolute;
         let mut motion = Environment::new(frame, Theta, Some(Omega), None);
         let (alpha, choice) = self.lowering.accelerations(scene, &mut motion);
-        let both = [Theta, Omega];
-        self.push(
-            "accelerations",
-            Purpose::Accelerations,
-            &self.timed(&both),
-            alpha,
-            Shape::Vector,
-        );
+        self.push(Purpose::Accelerations, alpha);
         if scene.requests.forces {
             let mut pushed = motion.clone();
             let lowering = &mut self.lowering;
             let alpha = lowering.accelerations_under(scene, &mut pushed, choice.solve);
-            self.push(
-                "accelerations_under",
-                Purpose::AccelerationsUnder,
-                &self.timed(&[Theta, Omega, Argument::Torques]),
-                alpha,
-                Shape::Vector,
-            );
-            for (number, set) in scene.prescribed.iter().enumerate() {
+            self.push(Purpose::AccelerationsUnder, alpha);
+            for number in 0..scene.prescribed.len() {
                 let mut held = motion.clone();
                 let moved = (self.lowering).accelerations_prescribed(
                     scene,
@@ -132,81 +111,40 @@ impl EntryList<'_, '_> {
                 );
                 let mut outputs = moved.accelerations;
                 outputs.extend(moved.reactions);
-                self.push(
-                    &format!("accelerations_prescribed_{}", set.name),
-                    Purpose::Prescribed(number),
-                    &self.timed(&[
-                        Theta,
-                        Omega,
-                        Argument::Torques,
-                        Argument::Prescribed(number),
-                    ]),
-                    outputs,
-                    Shape::Arrays(scene.links.len()),
-                );
+                self.push(Purpose::Prescribed(number), outputs);
             }
         }
         if let Some(energies) = &frame.energies {
             let kinetic = self.lowering.expr(&mut motion, &energies.kinetic);
             let potential = self.lowering.expr(&mut motion, &energies.potential);
-            self.push(
-                "kinetic_energy",
-                Purpose::KineticEnergy,
-                &both,
-                vec![kinetic],
-                Shape::Scalar,
-            );
-            self.push(
-                "potential_energy",
-                Purpose::PotentialEnergy,
-                &[Theta],
-                vec![potential],
-                Shape::Scalar,
-            );
+            self.push(Purpose::KineticEnergy, vec![kinetic]);
+            self.push(Purpose::PotentialEnergy, vec![potential]);
         }
         self.powers(scene, mechanics, &mut motion);
         if let Some(momentum) = &frame.momentum {
             let momenta = self.exprs(&mut motion, momentum);
-            self.push(
-                "momenta",
-                Purpose::AbsoluteMomenta,
-                &both,
-                momenta,
-                Shape::Vector,
-            );
+            self.push(Purpose::AbsoluteMomenta, momenta);
             let mut phase = Environment::new(frame, Theta, None, Some(AbsoluteMomenta));
             let velocities: Vec<ValueId> = frame
                 .velocities
                 .iter()
                 .map(|&v| self.lowering.symbol(&mut phase, v))
                 .collect();
-            self.push(
-                "velocities",
-                Purpose::AbsoluteVelocities,
-                &[Theta, AbsoluteMomenta],
-                velocities.clone(),
-                Shape::Vector,
-            );
+            self.push(Purpose::AbsoluteVelocities, velocities.clone());
             if let Some(rates) = &frame.momentum_rates {
                 let mut outputs = velocities;
                 outputs.extend(self.exprs(&mut phase, rates));
-                self.push(
-                    "canonical_rates",
-                    Purpose::CanonicalRates,
-                    &self.timed(&[Theta, AbsoluteMomenta]),
-                    outputs,
-                    Shape::Rows(frame.coordinates.len()),
-                );
+                self.push(Purpose::CanonicalRates, outputs);
             }
         }
         if let Some(stiffness) = &frame.stiffness {
             let size = frame.coordinates.len();
-            for (name, purpose, entries) in [
-                ("mass_matrix", Purpose::MassMatrix, &frame.mass),
-                ("stiffness_matrix", Purpose::StiffnessMatrix, stiffness),
+            for (purpose, entries) in [
+                (Purpose::MassMatrix, &frame.mass),
+                (Purpose::StiffnessMatrix, stiffness),
             ] {
                 let dense = self.dense(&mut motion, entries, size);
-                self.push(name, purpose, &[Theta], dense, Shape::Rows(size));
+                self.push(purpose, dense);
             }
         }
         choice
@@ -256,42 +194,18 @@ impl EntryList<'_, '_> {
                 backward[link] = builder.add(backward[link], term);
             }
         }
-        self.push(
-            "to_symmetric",
-            Purpose::ToSymmetric,
-            &[Argument::Absolute],
-            forward,
-            Shape::Vector,
-        );
-        self.push(
-            "from_symmetric",
-            Purpose::FromSymmetric,
-            &[Argument::Symmetric],
-            backward,
-            Shape::Vector,
-        );
+        self.push(Purpose::ToSymmetric, forward);
+        self.push(Purpose::FromSymmetric, backward);
     }
 
     fn symmetric(&mut self, frame: &Frame) {
         use Argument::{Coordinates, Momenta, Rates};
         let mut motion = Environment::new(frame, Coordinates, Some(Rates), None);
         let accelerations = self.lowering.factorization(&mut motion);
-        self.push(
-            "symmetric_accelerations",
-            Purpose::SymmetricAccelerations,
-            &self.timed(&[Coordinates, Rates]),
-            accelerations,
-            Shape::Vector,
-        );
+        self.push(Purpose::SymmetricAccelerations, accelerations);
         if let Some(momentum) = &frame.momentum {
             let momenta = self.exprs(&mut motion, momentum);
-            self.push(
-                "symmetric_momenta",
-                Purpose::SymmetricMomenta,
-                &[Coordinates, Rates],
-                momenta,
-                Shape::Vector,
-            );
+            self.push(Purpose::SymmetricMomenta, momenta);
             let mut phase = Environment::new(frame, Coordinates, None, Some(Momenta));
             let velocities: Vec<ValueId> = frame
                 .velocities
@@ -311,21 +225,9 @@ impl EntryList<'_, '_> {
                 let kinetic = builder.div(twice_kinetic, two);
                 let potential = self.lowering.expr(&mut phase, &energies.potential);
                 let total = self.lowering.builder.add(kinetic, potential);
-                self.push(
-                    "hamiltonian",
-                    Purpose::Hamiltonian,
-                    &[Coordinates, Momenta],
-                    vec![total],
-                    Shape::Scalar,
-                );
+                self.push(Purpose::Hamiltonian, vec![total]);
             }
-            self.push(
-                "symmetric_velocities",
-                Purpose::SymmetricVelocities,
-                &[Coordinates, Momenta],
-                velocities,
-                Shape::Vector,
-            );
+            self.push(Purpose::SymmetricVelocities, velocities);
         }
     }
 }

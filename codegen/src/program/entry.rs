@@ -2,6 +2,8 @@
 
 use super::{ScaleFunction, ValueId};
 use crate::mechanics::Counting;
+use crate::named_members::named_members;
+use crate::scene::ObservableForm;
 
 /// An argument of an entry point: an array, but for the time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -63,79 +65,103 @@ pub enum Argument {
 
 /// The shape in which an entry point returns its outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum ResultShape {
     /// One number.
     Scalar,
     /// An array.
     Vector,
-    /// Arrays of that length.
-    Rows(usize),
+    /// That many arrays of the other length.
+    Rows(usize, usize),
     /// A `Transfer`: kinetic part, potential part.
     Transfer,
     /// A number of `Transfer`s.
     Transfers(usize),
-    /// Two arrays, the first of that length.
-    Arrays(usize),
+    /// Two arrays of these lengths.
+    Arrays(usize, usize),
     /// That many numbers (one alone is no array), and an array of the others.
     Split(usize),
     /// A `Budget` of that many sectors: energies, transfers, powers.
     Budget(usize),
 }
 
-/// Definition of the kinetic energy of a sector (physics §5).
+/// Form of the state that an entry point receives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EnergyDefinition {
-    /// A0: ½ pᵀ B(0)⁻¹ p.
-    Rest,
-    /// A1: ½ pᵀ B(θ)⁻¹ p.
-    Canonical,
-    /// B: Parseval for the velocities.
-    Parseval,
-    /// C: ½ ωᵀ B(θ) ω.
-    Velocity,
+pub enum EntryState {
+    /// Absolute angles and angular velocities.
+    Absolute,
+    /// Symmetric coordinates and their velocities.
+    Rates,
+    /// Symmetric coordinates and their momenta; where differences are small,
+    /// the momenta are or are not.
+    Momenta(Counting),
 }
 
-/// A kind of points that all links have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PointKind {
-    /// The pivot.
-    Pivot,
-    /// The centre of mass.
-    Centre,
-    /// The end.
-    End,
-}
+/// Without a truncation nothing is counted.
+pub(super) const CANONICAL: EntryState = EntryState::Momenta(Counting::Amplitude);
 
-impl PointKind {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Pivot, Self::Centre, Self::End];
-
-    /// Its name in code.
-    pub fn name(self) -> &'static str {
+impl EntryState {
+    /// The arguments that hold it.
+    pub fn arguments(self) -> [Argument; 2] {
         match self {
-            Self::Pivot => "pivot",
-            Self::Centre => "centre",
-            Self::End => "end",
+            Self::Absolute => [Argument::Theta, Argument::Omega],
+            Self::Rates => [Argument::Coordinates, Argument::Rates],
+            Self::Momenta(_) => [Argument::Coordinates, Argument::Momenta],
+        }
+    }
+
+    /// Beginning of the names of functions of sectors.
+    pub(super) fn prefix(self) -> &'static str {
+        match self {
+            Self::Absolute => "",
+            Self::Rates | Self::Momenta(_) => "symmetric_",
+        }
+    }
+
+    /// End of the names of transfers, which are canonical by themselves.
+    pub(super) fn source(self) -> &'static str {
+        match self {
+            Self::Momenta(_) => "",
+            Self::Absolute | Self::Rates => "_from_rates",
         }
     }
 }
 
-/// Cause of an energy transfer between copies that differ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
-    /// The tree of equal copies that have the means of all constants.
-    MeanTree,
-    /// Values in which the copies differ.
-    Mismatch,
+named_members! {
+    /// Definition of the kinetic energy of a sector (physics §5).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum EnergyDefinition {
+        /// A0: ½ pᵀ B(0)⁻¹ p.
+        Rest = "rest",
+        /// A1: ½ pᵀ B(θ)⁻¹ p.
+        Canonical = "canonical",
+        /// B: Parseval for the velocities.
+        Parseval = "parseval",
+        /// C: ½ ωᵀ B(θ) ω.
+        Velocity = "velocity",
+    }
 }
 
-impl Cause {
-    /// Name of its part of W in code.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::MeanTree => "growth",
-            Self::Mismatch => "forcing",
-        }
+named_members! {
+    /// A kind of points that all links have.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum PointKind {
+        /// The pivot.
+        Pivot = "pivot",
+        /// The centre of mass.
+        Centre = "centre",
+        /// The end.
+        End = "end",
+    }
+}
+
+named_members! {
+    /// Cause of an energy transfer between copies that differ.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Cause {
+        /// The tree of equal copies that have the means of all constants.
+        MeanTree = "growth",
+        /// Values in which the copies differ.
+        Mismatch = "forcing",
     }
 }
 
@@ -184,27 +210,27 @@ pub enum Purpose {
     AngleTransfer(usize),
     /// W to second order in the amplitude.
     AmplitudeTransfer(usize),
-    /// W to another order: the transfer, and the form in its list.
-    HigherTransfer(usize, usize),
+    /// W through another order.
+    HigherTransfer(usize, Counting, u32),
     /// The coefficients of that quadratic form.
     QuadraticForm(usize),
-    /// W exactly, from coordinates and momenta.
-    ExactTransfer(usize),
-    /// W exactly, from coordinates and velocities.
-    ExactTransferFromRates(usize),
+    /// W exactly.
+    ExactTransfer(usize, EntryState),
     /// The part of W that has this cause.
-    SplitTransfer(usize, Cause),
+    SplitTransfer(usize, Cause, EntryState),
     /// Power of friction on H_d.
     FrictionPower(usize),
     /// Energies of all sectors, the transfers into them and the power of other
     /// forces.
-    Budget(EnergyDefinition),
-    /// That budget with the power of torques from outside.
+    Budget(EnergyDefinition, EntryState),
+    /// That budget with the power of torques from outside, from absolute angles.
     BudgetUnder(EnergyDefinition),
-    /// W of all sectors by parts: exact, or through an order.
-    SectorTransfers(Option<(Counting, u32)>),
+    /// W of all sectors by parts.
+    SectorTransfers(EntryState),
+    /// W of all sectors by parts, through an order.
+    TruncatedSectorTransfers(Counting, u32),
     /// {E_s, E_r} of the sectors by Parseval.
-    TransferMatrix,
+    TransferMatrix(EntryState),
     /// Power of the drive on H_d.
     AntiphaseDrivePower(usize),
     /// Power of torques from outside on H_d.
@@ -225,8 +251,8 @@ pub enum Purpose {
     TransverseEnergy(usize),
     /// Its rate without friction.
     TransverseTransfer(usize),
-    /// The power of friction on it.
-    TransverseFriction(usize),
+    /// The power of friction on it; true where that depends on the motion in phase.
+    TransverseFriction(usize, bool),
     /// Accelerations of angles and of small differences that act back.
     SmallAccelerations,
     /// Their energy.
@@ -249,60 +275,23 @@ pub enum Purpose {
     RootDrive,
 }
 
-/// The functions that the recursion calls for each link of a tree in loops.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LinkFunction {
-    /// The response of a link without children.
-    Leaf,
-    /// The response of a child about its parent's pivot.
-    Attach,
-    /// The response and the elimination of a link with children.
-    Inner,
-    /// The apparent gravity at a child's pivot.
-    Pivot,
-    /// The acceleration of a link with children, and what it hands down.
-    Accelerate,
-    /// The acceleration of a link without children.
-    AccelerateLeaf,
-}
-
-impl LinkFunction {
-    /// All of them, in the order of their entry points.
-    pub const ALL: [Self; 6] = [
-        Self::Leaf,
-        Self::Attach,
-        Self::Inner,
-        Self::Pivot,
-        Self::Accelerate,
-        Self::AccelerateLeaf,
-    ];
-
-    /// Its name in code.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Leaf => "leaf",
-            Self::Attach => "attach",
-            Self::Inner => "inner",
-            Self::Pivot => "pivot",
-            Self::Accelerate => "accelerate",
-            Self::AccelerateLeaf => "accelerate_leaf",
-        }
+named_members! {
+    /// The functions that the recursion calls for each link of a tree in loops.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum LinkFunction {
+        Leaf = "leaf":
+            "The response of a link without children: N and γ, and the torque of its joint on the parent where joints have torques.",
+        Attach = "attach":
+            "The response of a child about the pivot of its parent, whose motion is given: as it is where all children share one pivot.",
+        Inner = "inner":
+            "The response of a link with children, and b/J and κ/J, which `accelerate` takes.",
+        Pivot = "pivot":
+            "The apparent gravity at a child's pivot.",
+        Accelerate = "accelerate":
+            "The angular acceleration (in rad/s²) of a link with children, and what it hands them.",
+        AccelerateLeaf = "accelerate_leaf":
+            "The angular acceleration (in rad/s²) of a link without children.",
     }
-}
-
-/// Quantity that a function gives of an observable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ObservableForm {
-    /// F from coordinates and velocities.
-    Value,
-    /// dF/dt from coordinates and velocities.
-    Rate,
-    /// The part of dF/dt that is friction and drag.
-    FrictionRate,
-    /// F from coordinates and momenta.
-    FromMomenta,
-    /// dF/dt from coordinates and momenta.
-    RateFromMomenta,
 }
 
 /// An entry point: the program pruned to its outputs becomes a function.
@@ -317,5 +306,5 @@ pub struct Entry {
     /// Output values.
     pub outputs: Vec<ValueId>,
     /// Shape of the outputs.
-    pub shape: Shape,
+    pub shape: ResultShape,
 }

@@ -2,93 +2,71 @@
 
 use super::lower::{Environment, Lowering};
 use super::symmetric::{
-    ConstantValues, CouplingValues, Fields, LawValues, OrbitLinks, OrbitValues, Pose,
-    SeriesArithmetic, SymmetricMotion, SymmetricTree, TruncatedSeries,
+    ConstantValues, CouplingValues, Fields, LawValues, OrbitValues, Pose, SeriesArithmetic,
+    SymmetricMotion, SymmetricTree, TruncatedSeries,
 };
-use super::{Argument, ValueId};
+use super::{Argument, EntryState, ValueId};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Counting, LawConstants, Mechanics, OrbitMechanics};
-use crate::scene::{LinkId, Scene};
+use crate::mechanics::{Counting, Mechanics, OrbitMechanics};
+use crate::scene::{FrictionLaw, LinkId, Scene};
 
-/// Form of the state that an entry point receives.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum EntryState {
-    /// Absolute angles and angular velocities.
-    Absolute,
-    /// Symmetric coordinates and their velocities.
-    Rates,
-    /// Symmetric coordinates and their momenta; where differences are small,
-    /// the momenta are or are not.
-    Momenta(Counting),
-}
-
-/// Without a truncation nothing is counted.
-pub(super) const CANONICAL: EntryState = EntryState::Momenta(Counting::Amplitude);
-
+/// Arithmetic on means and differences, on series up to an order or on values alone.
 pub(super) fn symmetric_tree<'b>(
     lowering: &'b mut Lowering<'_>,
-    orbits: &'b [OrbitLinks],
     truncation: Option<usize>,
 ) -> SymmetricTree<'b> {
-    let builder = &mut lowering.builder;
     SymmetricTree {
+        orbits: lowering.orbits,
         series: SeriesArithmetic {
-            builder,
+            builder: &mut lowering.builder,
             truncation,
         },
-        orbits,
+    }
+}
+
+/// A constant as a series; zero is an empty one.
+fn constant(lowering: &Lowering<'_>, value: ValueId) -> TruncatedSeries {
+    match lowering.builder.is(value, 0) {
+        true => TruncatedSeries::default(),
+        false => TruncatedSeries::of_order(0, value),
     }
 }
 
 /// The constants of a law of friction as values of the program.
-pub(super) fn law_values(lowering: &mut Lowering<'_>, law: &LawConstants) -> LawValues {
+pub(super) fn law_values(lowering: &mut Lowering<'_>, law: &FrictionLaw<Expr>) -> LawValues {
     let frame = &lowering.mechanics.absolute;
     let mut environment = Environment::new(frame, Argument::Theta, Some(Argument::Omega), None);
     let law = lowering.law(&mut environment, law);
-    let [coulomb, quadratic, width] =
-        [law.coulomb, law.quadratic, law.width].map(|value| match lowering.builder.is(value, 0) {
-            true => TruncatedSeries::default(),
-            false => TruncatedSeries::of_order(0, value),
-        });
-    LawValues {
-        coulomb,
-        quadratic,
-        width,
-    }
+    law.map(|&value| constant(lowering, value))
 }
 
 /// The constants as values of the program.
 pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> ConstantValues {
-    let mut environment = Environment::new(
-        &lowering.mechanics.absolute,
-        Argument::Theta,
-        Some(Argument::Omega),
-        None,
-    );
+    let mechanics = lowering.mechanics;
+    let frame = &mechanics.absolute;
+    let mut environment = Environment::new(frame, Argument::Theta, Some(Argument::Omega), None);
     let mut series = |expr: &Expr| {
         let value = lowering.expr(&mut environment, expr);
-        if lowering.builder.is(value, 0) {
-            TruncatedSeries::default()
-        } else {
-            TruncatedSeries::of_order(0, value)
-        }
+        constant(lowering, value)
     };
+    let joints = &mechanics.articulation.joints;
     let mut orbits: Vec<OrbitValues> = sectors
         .orbits
         .iter()
-        .map(|orbit| OrbitValues {
+        .zip(joints)
+        .map(|(orbit, joint)| OrbitValues {
             mass: series(&orbit.mass),
             inertia: series(&orbit.inertia),
-            com: [series(&orbit.com[0]), series(&orbit.com[1])],
-            pivot: [series(&orbit.pivot[0]), series(&orbit.pivot[1])],
-            moment: series(&orbit.moment),
+            com: orbit.com.each_ref().map(&mut series),
+            pivot: joint.pivot.each_ref().map(&mut series),
+            moment: series(&joint.inertia),
             gravity: series(&orbit.gravity),
             lateral_gravity: series(&orbit.lateral_gravity),
-            spring: series(&orbit.spring),
-            rest: series(&orbit.rest),
-            friction: series(&orbit.friction),
-            drag: series(&orbit.drag),
-            drive: [0, 1, 2].map(|part| series(&orbit.drive[part])),
+            spring: series(&joint.spring),
+            rest: series(&joint.rest),
+            friction: series(&joint.friction),
+            drag: series(&joint.drag),
+            drive: orbit.drive.each_ref().map(&mut series),
             laws: [LawValues::default(), LawValues::default()],
         })
         .collect();
@@ -102,8 +80,8 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
             sine: series(&coupling.sine),
         })
         .collect();
-    for (values, orbit) in orbits.iter_mut().zip(&sectors.orbits) {
-        values.laws = orbit.laws.each_ref().map(|law| law_values(lowering, law));
+    for (values, joint) in orbits.iter_mut().zip(joints) {
+        values.laws = joint.laws.each_ref().map(|law| law_values(lowering, law));
     }
     ConstantValues { orbits, couplings }
 }
@@ -162,11 +140,7 @@ pub(super) fn motion(
             }
         }
     };
-    let [positions, motions] = match state {
-        EntryState::Absolute => [Argument::Theta, Argument::Omega],
-        EntryState::Rates => [Argument::Coordinates, Argument::Rates],
-        EntryState::Momenta(_) => [Argument::Coordinates, Argument::Momenta],
-    };
+    let [positions, motions] = state.arguments();
     let angles = received(tree, positions);
     let pose: Pose = tree.pose(values, angles);
     let received = received(tree, motions);

@@ -9,15 +9,11 @@ use super::entry_state::{law_values, symmetric_tree};
 use super::lower::{Environment, Lowering};
 use super::symmetric::Fields;
 use crate::mechanics::expression::{Expr, SymbolId};
-use crate::mechanics::{BrakingTorque, FrictionPlace, LawConstants, TorqueSource};
+use crate::mechanics::{BrakingTorque, FrictionPlace, TorqueSource};
+use crate::scene::FrictionLaw;
 
-/// The constants of a law as values.
-#[derive(Clone, Copy)]
-pub(super) struct Law {
-    pub(super) coulomb: ValueId,
-    pub(super) quadratic: ValueId,
-    pub(super) width: ValueId,
-}
+/// A law with values as its constants.
+pub(super) type Law = FrictionLaw<ValueId>;
 
 impl Builder {
     /// √(w² + ε²).
@@ -86,13 +82,12 @@ impl Builder {
 }
 
 impl Lowering<'_> {
-    pub(super) fn law(&mut self, environment: &mut Environment<'_>, law: &LawConstants) -> Law {
-        let mut at = |expr: &Expr| self.expr(environment, expr);
-        Law {
-            coulomb: at(&law.coulomb),
-            quadratic: at(&law.quadratic),
-            width: at(&law.width),
-        }
+    pub(super) fn law(
+        &mut self,
+        environment: &mut Environment<'_>,
+        law: &FrictionLaw<Expr>,
+    ) -> Law {
+        law.map(|expr| self.expr(environment, expr))
     }
 
     /// The value of a torque of friction or of its slope, if the symbol stands for one.
@@ -134,12 +129,11 @@ impl Lowering<'_> {
         let velocities: Vec<ValueId> = velocities
             .map(|&velocity| self.symbol(environment, velocity))
             .collect();
-        let orbits = self.orbits;
         let laws = mechanics.articulation.joints.iter();
         let laws: Vec<_> = laws
             .map(|joint| law_values(self, &joint.laws[place as usize]))
             .collect();
-        let mut tree = symmetric_tree(self, orbits, None);
+        let mut tree = symmetric_tree(self, None);
         let mut rates: Fields = tree.zeros();
         for (coordinate, &velocity) in mechanics.coordinates.iter().zip(&velocities) {
             let (orbit, sector) = coordinate.kind.orbit_and_difference();

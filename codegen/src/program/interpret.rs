@@ -2,7 +2,7 @@
 //! emitted code does: the two agree bit for bit.
 
 use super::constants::{ConstantId, ConstantOp, Setup};
-use super::{Argument, Op, Program, ValueId};
+use super::{Argument, FusedSum, Op, Program, ValueId};
 use crate::exact::Rational;
 
 impl Setup {
@@ -43,8 +43,92 @@ fn product(number: &Rational, powers: &[(ConstantId, i32)], at: impl Fn(Constant
     below.map_or(above, |divisor| above / divisor)
 }
 
+/// An entry point made ready to be evaluated many times: constants are rounded, needed
+/// operations and fused sums found once.
+#[derive(Clone, Debug)]
+pub struct Interpreter {
+    /// One for each definition; those of numbers and constants stand in them.
+    values: Vec<f64>,
+    steps: Vec<(ValueId, Step)>,
+    outputs: Vec<ValueId>,
+}
+
+#[derive(Clone, Debug)]
+enum Step {
+    Op(Op),
+    /// Product and sum at once, with the product's factors.
+    Fused([ValueId; 2], FusedSum),
+}
+
+impl Interpreter {
+    /// Returns the outputs.
+    ///
+    /// `sin_cos` and `mul_add`, x · y + z, are those that emitted code would use, `input`
+    /// supplies the elements of the arguments. Linear in the length of the entry point.
+    pub fn evaluate(
+        &self,
+        sin_cos: impl Fn(f64) -> (f64, f64),
+        mul_add: impl Fn(f64, f64, f64) -> f64,
+        input: impl Fn(Argument, usize) -> f64,
+    ) -> Vec<f64> {
+        let mut values = self.values.clone();
+        for (id, step) in &self.steps {
+            let at = |id: ValueId| values[id.0 as usize];
+            values[id.0 as usize] = match *step {
+                Step::Fused([x, y], sum) => {
+                    let signed = |value: f64, minus: bool| if minus { -value } else { value };
+                    let x = signed(at(x), sum.minus_product);
+                    let addend = signed(at(sum.addend), sum.minus_addend);
+                    mul_add(x, at(y), addend)
+                }
+                Step::Op(Op::Input(argument, index)) => input(argument, index),
+                Step::Op(Op::Constant(_) | Op::Number(_)) => at(*id),
+                Step::Op(Op::Sin(a)) => sin_cos(at(a)).0,
+                Step::Op(Op::Cos(a)) => sin_cos(at(a)).1,
+                Step::Op(Op::Sqrt(a)) => at(a).sqrt(),
+                Step::Op(Op::Neg(a)) => -at(a),
+                Step::Op(Op::Add(a, b)) => at(a) + at(b),
+                Step::Op(Op::Sub(a, b)) => at(a) - at(b),
+                Step::Op(Op::Mul(a, b)) => at(a) * at(b),
+                Step::Op(Op::Div(a, b)) => at(a) / at(b),
+            };
+        }
+        let outputs = self.outputs.iter().map(|id| values[id.0 as usize]);
+        outputs.collect()
+    }
+}
+
 impl Program {
-    /// The outputs of an entry point.
+    /// Returns the interpreter of an entry point for `parameters`, the scene's in order, or
+    /// nothing if there is no such entry point.
+    pub fn interpreter(&self, entry: &str, parameters: &[f64]) -> Option<Interpreter> {
+        let entry = self.entry(entry)?;
+        let fused = self.fused(entry);
+        let constants = self.setup.evaluate(parameters);
+        let mut values: Vec<f64> = vec![0.0; self.definitions.len()];
+        let mut steps = Vec::new();
+        for id in self.needed(&entry.outputs) {
+            let op = &self.definition(id).op;
+            let sum = fused.get(&id);
+            let factors = sum.map(|sum| (&self.definition(sum.product).op, *sum));
+            match (op, factors) {
+                (_, Some((&Op::Mul(x, y), sum))) => steps.push((id, Step::Fused([x, y], sum))),
+                (Op::Constant(constant), _) => {
+                    values[id.0 as usize] = constants[constant.0 as usize];
+                }
+                (Op::Number(number), _) => values[id.0 as usize] = number.to_f64(),
+                _ => steps.push((id, Step::Op(op.clone()))),
+            }
+        }
+        let outputs = entry.outputs.clone();
+        Some(Interpreter {
+            values,
+            steps,
+            outputs,
+        })
+    }
+
+    /// Returns the outputs of an entry point, evaluated once, without fused sums.
     ///
     /// `parameters` are the scene's parameters in order, `input` supplies the
     /// elements of the arguments, and `sin_cos` is the sine and cosine that
@@ -57,55 +141,7 @@ impl Program {
         input: impl Fn(Argument, usize) -> f64,
     ) -> Option<Vec<f64>> {
         let unfused = |x: f64, y: f64, z: f64| x * y + z;
-        self.evaluate_fused(sin_cos, unfused, entry, parameters, input)
-    }
-
-    /// As [`evaluate`](Self::evaluate), with a fused multiply-add `x * y + z`
-    /// of the caller's wherever emitted code has one.
-    pub fn evaluate_fused(
-        &self,
-        sin_cos: impl Fn(f64) -> (f64, f64),
-        mul_add: impl Fn(f64, f64, f64) -> f64,
-        entry: &str,
-        parameters: &[f64],
-        input: impl Fn(Argument, usize) -> f64,
-    ) -> Option<Vec<f64>> {
-        let entry = self.entry(entry)?;
-        let fused = self.fused(entry);
-        let constants = self.setup.evaluate(parameters);
-        let mut values: Vec<f64> = vec![0.0; self.definitions.len()];
-        for id in self.needed(&entry.outputs) {
-            let at = |id: ValueId| values[id.0 as usize];
-            if let Some(sum) = fused.get(&id)
-                && let Op::Mul(x, y) = self.definition(sum.product).op
-            {
-                let signed = |value: f64, minus: bool| if minus { -value } else { value };
-                let x = signed(at(x), sum.minus_product);
-                let addend = signed(at(sum.addend), sum.minus_addend);
-                values[id.0 as usize] = mul_add(x, at(y), addend);
-                continue;
-            }
-            let value = match self.definition(id).op {
-                Op::Input(argument, index) => input(argument, index),
-                Op::Constant(constant) => constants[constant.0 as usize],
-                Op::Number(ref number) => number.to_f64(),
-                Op::Sin(a) => sin_cos(at(a)).0,
-                Op::Cos(a) => sin_cos(at(a)).1,
-                Op::Sqrt(a) => at(a).sqrt(),
-                Op::Neg(a) => -at(a),
-                Op::Add(a, b) => at(a) + at(b),
-                Op::Sub(a, b) => at(a) - at(b),
-                Op::Mul(a, b) => at(a) * at(b),
-                Op::Div(a, b) => at(a) / at(b),
-            };
-            values[id.0 as usize] = value;
-        }
-        Some(
-            entry
-                .outputs
-                .iter()
-                .map(|id| values[id.0 as usize])
-                .collect(),
-        )
+        let interpreter = self.interpreter(entry, parameters)?;
+        Some(interpreter.evaluate(sin_cos, unfused, input))
     }
 }

@@ -11,7 +11,7 @@ use super::symmetric::OrbitLinks;
 use super::{Argument, ValueId};
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{
-    Frame, MassExpansion, MatrixEntry, MeanTree, Mechanics, ObservableFrame, System,
+    Frame, LinearSystem, MassExpansion, MatrixEntry, MeanTree, Mechanics, ObservableFrame,
 };
 use std::collections::BTreeMap;
 
@@ -216,7 +216,7 @@ impl<'a> Lowering<'a> {
         environment: &mut Environment<'_>,
         mean_tree: &MeanTree,
     ) -> Vec<ValueId> {
-        let System { unknowns, right } = &mean_tree.added;
+        let LinearSystem { unknowns, right } = &mean_tree.added;
         let matrix = self.matrix(environment, &mean_tree.frame.mass);
         let right = right.iter();
         let right = right.map(|right| self.expr(environment, right)).collect();

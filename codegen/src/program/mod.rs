@@ -35,6 +35,7 @@ mod rotations;
 mod rules;
 mod scale;
 mod sectors;
+mod signature;
 mod small;
 mod solve;
 mod symmetric;
@@ -45,19 +46,21 @@ mod transfers;
 mod transverse;
 mod verify;
 
-pub use choice::{Choice, cost};
+pub use choice::{SolveChoice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use entry::{
-    Argument, Cause, EnergyDefinition, Entry, LinkFunction, ObservableForm, PointKind, Purpose,
-    Shape,
+    Argument, Cause, EnergyDefinition, Entry, EntryState, LinkFunction, PointKind, Purpose,
+    ResultShape,
 };
 pub use fuse::FusedSum;
-pub use link::{Column, LINK_MOTION, ScaleFunction, Strip, Strips};
+pub use interpret::Interpreter;
+pub use link::{Column, LINK_MOTION, LoopTree, ScaleFunction, StripConstants};
 pub use operation::{Definition, Op, ValueId};
 use passes::PASSES;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
+pub use signature::{Naming, Signature};
 pub use taylor::TaylorOutputs;
 pub use verify::Fault;
 
@@ -107,9 +110,9 @@ pub struct Program {
     /// The model's constants.
     pub setup: Setup,
     /// The solve for the accelerations, and its cost.
-    pub choice: Choice,
+    pub choice: SolveChoice,
     /// The constants by strip, where the code is loops.
-    pub strips: Option<Strips>,
+    pub strips: Option<LoopTree>,
     /// The pass that was left out, for comparison.
     pub without: Option<Pass>,
 }

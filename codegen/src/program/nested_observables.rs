@@ -2,19 +2,18 @@
 //! differences: momenta, forces, energies, and the solves with the mass matrix.
 //! Components that the symmetry makes zero are exactly zero here too.
 
-use super::ValueId;
-use super::entry_state::{EntryState, motion, symmetric_tree, values};
+use super::entry_state::{motion, symmetric_tree, values};
 use super::lower::{Environment, Lowering};
 use super::sectors::by_coordinate;
-use super::symmetric::{ConstantValues, Fields, MassFactors, OrbitLinks, SymmetricTree, orbits};
+use super::symmetric::{ConstantValues, Fields, MassFactors, SymmetricTree};
+use super::{EntryState, ValueId};
 use crate::mechanics::expression::SymbolId;
-use crate::mechanics::{ObservableFrame, OrbitMechanics, System};
+use crate::mechanics::{LinearSystem, ObservableFrame, OrbitMechanics};
 use crate::scene::Scene;
 
 /// A nested tree on which observables are formed.
 pub(super) struct NestedObservables<'s> {
     scene: &'s Scene,
-    orbits: Vec<OrbitLinks>,
     values: ConstantValues,
     /// The mass matrix at the coordinates that are handed over.
     factors: MassFactors,
@@ -27,14 +26,12 @@ impl<'s> NestedObservables<'s> {
         sectors: &OrbitMechanics,
     ) -> Self {
         let mechanics = lowering.mechanics;
-        let orbits = orbits(scene, &mechanics.coordinates);
         let values = values(lowering, sectors);
-        let mut tree = symmetric_tree(lowering, &orbits, None);
+        let mut tree = symmetric_tree(lowering, None);
         let motion = motion(&mut tree, scene, mechanics, &values, EntryState::Rates);
         let factors = tree.factors(&values, &motion.pose);
         Self {
             scene,
-            orbits,
             values,
             factors,
         }
@@ -49,7 +46,7 @@ impl<'s> NestedObservables<'s> {
         state: EntryState,
     ) {
         let (mechanics, values, used) = (lowering.mechanics, &self.values, &used.nested);
-        let mut tree = symmetric_tree(lowering, &self.orbits, None);
+        let mut tree = symmetric_tree(lowering, None);
         let motion = motion(&mut tree, self.scene, mechanics, values, state);
         let mut found: Vec<(SymbolId, ValueId)> = Vec::new();
         let mut project = |tree: &mut _, symbols: &[SymbolId], fields: &Fields| {
@@ -104,7 +101,7 @@ impl<'s> NestedObservables<'s> {
         &self,
         lowering: &mut Lowering<'_>,
         environment: &mut Environment<'_>,
-        system: &System,
+        system: &LinearSystem,
     ) {
         let mechanics = lowering.mechanics;
         let right: Vec<ValueId> = system
@@ -112,7 +109,7 @@ impl<'s> NestedObservables<'s> {
             .iter()
             .map(|right| lowering.expr(environment, right))
             .collect();
-        let mut tree = symmetric_tree(lowering, &self.orbits, None);
+        let mut tree = symmetric_tree(lowering, None);
         let mut momenta = tree.zeros();
         for (coordinate, &value) in mechanics.coordinates.iter().zip(&right) {
             if !tree.series.builder.is(value, 0) {

@@ -1,13 +1,13 @@
 //! Entry points of observables: values and rates.
 
 use super::entries::EntryList;
-use super::entry_state::{CANONICAL, EntryState};
+use super::entry::CANONICAL;
 use super::lower::{Environment, Lowering};
 use super::nested_observables::NestedObservables;
-use super::{Argument, ObservableForm, Purpose, Shape, ValueId};
+use super::{Argument, EntryState, Purpose, ValueId};
 use crate::mechanics::expression::{Expr, SymbolId};
-use crate::mechanics::{Frame, Mechanics, ObservableFrame, System};
-use crate::scene::{Function, Scene};
+use crate::mechanics::{Frame, LinearSystem, Mechanics, ObservableFrame};
+use crate::scene::{Function, ObservableForm, Scene};
 
 impl Lowering<'_> {
     /// The value of a symbol that only observables have.
@@ -30,7 +30,7 @@ impl Lowering<'_> {
     }
 
     /// Solves a system with the mass matrix and hands its unknowns over.
-    fn solve_system(&mut self, environment: &mut Environment<'_>, system: &System) {
+    fn solve_system(&mut self, environment: &mut Environment<'_>, system: &LinearSystem) {
         let matrix = self.mass_matrix(environment);
         let right = system
             .right
@@ -53,10 +53,6 @@ struct Ways<'a> {
     motion: Environment<'a>,
     /// Supply from coordinates and momenta.
     phase: Environment<'a>,
-    velocities: [Argument; 2],
-    momenta: [Argument; 2],
-    /// Arguments from which the accelerations are computed.
-    rates: Vec<Argument>,
     /// The solver with the mass matrix, on nested trees.
     nested: Option<NestedObservables<'a>>,
 }
@@ -118,10 +114,8 @@ impl EntryList<'_, '_> {
         let mut phase = Environment::new(frame, momenta[0], None, Some(momenta[1]));
         motion.observed = Some(used);
         phase.observed = Some(used);
-        let mut rates = velocities.to_vec();
         // The accelerations are solved for anyway.
         if let Some(entry) = self.entries.iter().find(|entry| entry.purpose == solved) {
-            rates.clone_from(&entry.arguments);
             for (&symbol, &value) in used.accelerations.iter().zip(&entry.outputs) {
                 motion.supply(symbol, value);
             }
@@ -132,38 +126,29 @@ impl EntryList<'_, '_> {
         Ways {
             motion,
             phase,
-            velocities,
-            momenta,
-            rates,
             nested: None,
         }
     }
 
     fn observable(&mut self, mechanics: &Mechanics, number: usize, ways: &mut Ways<'_>) {
         let observable = &mechanics.observables.list[number];
-        let (velocities, momenta, rates) = (ways.velocities, ways.momenta, ways.rates.clone());
         use ObservableForm::{FrictionRate, FromMomenta, Rate, RateFromMomenta, Value};
         let motion = &mut ways.motion;
-        self.form(number, Value, "", &velocities, motion, &observable.value);
-        self.form(number, Rate, "_rate", &rates, motion, &observable.rate);
+        self.form(number, Value, motion, &observable.value);
+        self.form(number, Rate, motion, &observable.rate);
         if !observable.friction.is_zero() {
-            let friction = &observable.friction;
-            let suffix = "_friction_rate";
-            self.form(number, FrictionRate, suffix, &velocities, motion, friction);
+            self.form(number, FrictionRate, motion, &observable.friction);
         }
         if let Some(canonical) = &observable.canonical {
             let phase = &mut ways.phase;
-            let (value, rate) = (&observable.value, &canonical.rate);
-            self.form(number, FromMomenta, "_from_momenta", &momenta, phase, value);
+            self.form(number, FromMomenta, phase, &observable.value);
             if let Some(system) = &canonical.adjoint {
                 match &ways.nested {
                     Some(nested) => nested.solve(self.lowering, phase, system),
                     None => self.lowering.solve_system(phase, system),
                 }
             }
-            let suffix = "_rate_from_momenta";
-            let momenta = self.timed(&momenta);
-            self.form(number, RateFromMomenta, suffix, &momenta, phase, rate);
+            self.form(number, RateFromMomenta, phase, &canonical.rate);
         }
     }
 
@@ -171,20 +156,10 @@ impl EntryList<'_, '_> {
         &mut self,
         number: usize,
         form: ObservableForm,
-        suffix: &str,
-        arguments: &[Argument],
         environment: &mut Environment<'_>,
         expr: &Expr,
     ) {
-        let name = &self.lowering.mechanics.observables.list[number].name;
-        let name = format!("{name}{suffix}");
         let value = self.lowering.expr(environment, expr);
-        self.push(
-            &name,
-            Purpose::Observable(number, form),
-            arguments,
-            vec![value],
-            Shape::Scalar,
-        );
+        self.push(Purpose::Observable(number, form), vec![value]);
     }
 }

@@ -17,31 +17,34 @@
 use super::count::{Operations, operations};
 use super::{Entry, LinkFunction, Program, ValueId, factors, lower};
 use crate::mechanics::Mechanics;
+use crate::named_members::named_members;
 use crate::scene::Scene;
 use std::fmt::Write;
 
-/// A step that can be left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pass {
-    /// Equal operations on equal operands are one value.
-    Sharing,
-    /// Operations on constants become constants of the model, exactly.
-    Folding,
-    /// Signs move outwards and into sums and differences.
-    Signs,
-    /// Sines and cosines of differences are formed from those of single angles.
-    AngleAddition,
-    /// A common factor of several terms is multiplied once.
-    CommonFactors,
-    /// The cheaper of two solves is taken.
-    Choice,
-    /// Products are part of the sums that they feed.
-    Fusing,
-    /// Where values outnumber registers, inputs are read, sines asked for and results
-    /// handed over each where its turn comes.
-    Order,
-    /// Long functions are written in parts.
-    Splitting,
+named_members! {
+    /// A step that can be left out.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Pass {
+        /// Equal operations on equal operands are one value.
+        Sharing = "sharing",
+        /// Operations on constants become constants of the model, exactly.
+        Folding = "folding",
+        /// Signs move outwards and into sums and differences.
+        Signs = "signs",
+        /// Sines and cosines of differences are formed from those of single angles.
+        AngleAddition = "angle-addition",
+        /// A common factor of several terms is multiplied once.
+        CommonFactors = "common-factors",
+        /// The cheaper of two solves is taken.
+        Choice = "choice",
+        /// Products are part of the sums that they feed.
+        Fusing = "fusing",
+        /// Where values outnumber registers, inputs are read, sines asked for and results
+        /// handed over each where its turn comes.
+        Order = "order",
+        /// Long functions are written in parts.
+        Splitting = "splitting",
+    }
 }
 
 /// A pass over whole programs.
@@ -51,34 +54,6 @@ type Over = fn(Program) -> Program;
 pub(super) const PASSES: [(Pass, Over); 1] = [(Pass::CommonFactors, factors::common_factors)];
 
 impl Pass {
-    /// All passes, in the order in which tables show them.
-    pub const ALL: [Self; 9] = [
-        Self::Sharing,
-        Self::Folding,
-        Self::Signs,
-        Self::AngleAddition,
-        Self::CommonFactors,
-        Self::Choice,
-        Self::Fusing,
-        Self::Order,
-        Self::Splitting,
-    ];
-
-    /// Its name in tables and options.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sharing => "sharing",
-            Self::Folding => "folding",
-            Self::Signs => "signs",
-            Self::AngleAddition => "angle-addition",
-            Self::CommonFactors => "common-factors",
-            Self::Choice => "choice",
-            Self::Fusing => "fusing",
-            Self::Order => "order",
-            Self::Splitting => "splitting",
-        }
-    }
-
     /// The pass of that name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|pass| pass.name() == name)

@@ -4,10 +4,10 @@
 use super::entries::EntryList;
 use super::lower::Environment;
 use super::pair::Pair;
-use super::{Argument, PointKind, Purpose, Shape, ValueId};
+use super::{Argument, PointKind, Purpose, ValueId};
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{LinkPositions, Mechanics, RelativePosition};
-use crate::scene::{LINK_PROPERTIES, LinkId, Scene};
+use crate::scene::{LinkId, Scene};
 
 /// The tree, the positions in it, and a kind of points.
 #[derive(Clone, Copy)]
@@ -45,49 +45,24 @@ impl EntryList<'_, '_> {
         mechanics: &Mechanics,
         links: &[LinkPositions],
     ) {
-        use Argument::{Forces, Omega, Theta};
+        use Argument::{Omega, Theta};
         let frame = &mechanics.absolute;
         let mut environment = Environment::new(frame, Theta, Some(Omega), None);
         for kind in PointKind::ALL {
             let points = Points { scene, links, kind };
-            let of = kind.name();
             let positions = self.along_tree(&mut environment, points, "pivot", |of| &of.position);
-            self.push(
-                &format!("{of}s"),
-                Purpose::Positions(kind),
-                &[Theta],
-                positions,
-                Shape::Rows(2),
-            );
+            self.push(Purpose::Positions(kind), positions);
             let velocities =
                 self.along_tree(&mut environment, points, "velocity", |of| &of.velocity);
-            self.push(
-                &format!("{of}_velocities"),
-                Purpose::PointVelocities(kind),
-                &[Theta, Omega],
-                velocities,
-                Shape::Rows(2),
-            );
+            self.push(Purpose::PointVelocities(kind), velocities);
             let torques = self.torques(&mut environment, points);
-            self.push(
-                &format!("{of}_torques"),
-                Purpose::PointTorques(kind),
-                &[Theta, Forces],
-                torques,
-                Shape::Vector,
-            );
+            self.push(Purpose::PointTorques(kind), torques);
         }
         let properties = scene.links.iter().flat_map(|link| link.properties());
         let properties: Vec<_> = properties
             .map(|quantity| self.lowering.value_of(quantity))
             .collect();
-        self.push(
-            "link_properties",
-            Purpose::LinkProperties,
-            &[],
-            properties,
-            Shape::Rows(LINK_PROPERTIES.len()),
-        );
+        self.push(Purpose::LinkProperties, properties);
     }
 
     fn pair(&mut self, environment: &mut Environment<'_>, exprs: &[Expr; 2]) -> Pair {

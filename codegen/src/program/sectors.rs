@@ -2,12 +2,13 @@
 //! in symmetric coordinates, and the budgets of sectors.
 
 use super::entries::EntryList;
-use super::entry_state::{self, CANONICAL, EntryState, motion, symmetric_tree, values};
+use super::entry::CANONICAL;
+use super::entry_state::{self, motion, symmetric_tree, values};
 use super::symmetric::{
     ConstantValues, Fields, SectorId, Share, SymmetricField, SymmetricMotion, SymmetricTree,
-    TruncatedSeries, orbits,
+    TruncatedSeries,
 };
-use super::{Argument, EnergyDefinition, Purpose, Shape, ValueId};
+use super::{EnergyDefinition, EntryState, Purpose, ValueId};
 use crate::mechanics::{Counting, Mechanics, OrbitMechanics};
 use crate::scene::{BudgetRequest, Scene};
 
@@ -15,11 +16,9 @@ impl EntryList<'_, '_> {
     /// Motion and momenta in symmetric coordinates, as [`EntryList::symmetric`]
     /// gives them for flat trees.
     pub(super) fn symmetric_of_nested(&mut self, scene: &Scene, sectors: &OrbitMechanics) {
-        use Argument::{Coordinates, Momenta, Rates};
         let mechanics = self.lowering.mechanics;
-        let orbits = orbits(scene, &mechanics.coordinates);
         let values = values(self.lowering, sectors);
-        let mut tree = symmetric_tree(self.lowering, &orbits, None);
+        let mut tree = symmetric_tree(self.lowering, None);
         let motion = motion(&mut tree, scene, mechanics, &values, EntryState::Rates);
         let [conservative, other] = tree.accelerations(&values, &motion);
         let accelerations = tree.sum(&conservative, &other);
@@ -54,39 +53,15 @@ impl EntryList<'_, '_> {
             let name = format!("alpha_{}", mechanics.coordinates[index].name);
             self.lowering.builder.name(value, &name);
         }
-        self.push(
-            "symmetric_accelerations",
-            Purpose::SymmetricAccelerations,
-            &self.timed(&[Coordinates, Rates]),
-            accelerations,
-            Shape::Vector,
-        );
+        self.push(Purpose::SymmetricAccelerations, accelerations);
         let Some((hamiltonian, velocities)) = canonical else {
             return;
         };
-        self.push(
-            "symmetric_momenta",
-            Purpose::SymmetricMomenta,
-            &[Coordinates, Rates],
-            momenta,
-            Shape::Vector,
-        );
+        self.push(Purpose::SymmetricMomenta, momenta);
         if let Some(energy) = hamiltonian {
-            self.push(
-                "hamiltonian",
-                Purpose::Hamiltonian,
-                &[Coordinates, Momenta],
-                vec![energy],
-                Shape::Scalar,
-            );
+            self.push(Purpose::Hamiltonian, vec![energy]);
         }
-        self.push(
-            "symmetric_velocities",
-            Purpose::SymmetricVelocities,
-            &[Coordinates, Momenta],
-            velocities,
-            Shape::Vector,
-        );
+        self.push(Purpose::SymmetricVelocities, velocities);
     }
 
     /// Budgets of the sectors, from absolute angles and, where those are asked
@@ -124,114 +99,61 @@ impl EntryList<'_, '_> {
         under: bool,
     ) {
         let mechanics = self.lowering.mechanics;
-        let orbits = orbits(scene, &mechanics.coordinates);
         let values = values(self.lowering, sectors);
-        let mut tree = symmetric_tree(self.lowering, &orbits, None);
+        let mut tree = symmetric_tree(self.lowering, None);
         let mut motion = motion(&mut tree, scene, mechanics, &values, state);
         if under {
             let outside = entry_state::outside_torques(&mut tree, scene);
             motion.forces = tree.sum(&motion.forces, &outside);
         }
-        let ids: Vec<SectorId> = sectors
-            .sectors
-            .iter()
-            .map(|sector| sector.difference)
-            .collect();
-        let count = ids.len();
-        let mut found: Vec<(&str, Purpose, Vec<ValueId>, Shape)> = Vec::new();
-        let mut shares = |tree: &mut SymmetricTree<'_>, name, definition, shares: Vec<Share>| {
-            let outputs = flattened(tree, &shares);
-            found.push((
-                name,
-                match under {
-                    true => Purpose::BudgetUnder(definition),
-                    false => Purpose::Budget(definition),
-                },
-                outputs,
-                Shape::Budget(count),
-            ));
+        let ids = sectors.differences();
+        let budget = |definition| match under {
+            true => Purpose::BudgetUnder(definition),
+            false => Purpose::Budget(definition, state),
         };
-        for (wanted, name, definition, at_rest) in [
-            (request.rest, "budget_rest", EnergyDefinition::Rest, true),
-            (
-                request.canonical,
-                "budget_canonical",
-                EnergyDefinition::Canonical,
-                false,
-            ),
+        let mut found: Vec<(Purpose, Vec<ValueId>)> = Vec::new();
+        for (wanted, definition) in [
+            (request.rest, EnergyDefinition::Rest),
+            (request.canonical, EnergyDefinition::Canonical),
         ] {
             if wanted {
-                let all = ids
-                    .iter()
+                let at_rest = definition == EnergyDefinition::Rest;
+                let shares = ids.iter();
+                let shares: Vec<Share> = shares
                     .map(|&sector| tree.canonical_share(&values, &motion, sector, at_rest))
                     .collect();
-                shares(&mut tree, name, definition, all);
+                found.push((budget(definition), flattened(&mut tree, &shares)));
             }
         }
         if request.velocity || request.parseval {
             let [conservative, other] = tree.accelerations(&values, &motion);
             let accelerations = [&conservative, &other];
             if request.velocity {
-                let all = ids
-                    .iter()
+                let shares = ids.iter();
+                let shares: Vec<Share> = shares
                     .map(|&sector| tree.velocity_share(&values, &motion, sector, accelerations))
                     .collect();
-                shares(
-                    &mut tree,
-                    "budget_velocity",
-                    EnergyDefinition::Velocity,
-                    all,
-                );
+                let outputs = flattened(&mut tree, &shares);
+                found.push((budget(EnergyDefinition::Velocity), outputs));
             }
             if request.parseval {
-                let all = tree.parseval_shares(&values, &motion, &ids, accelerations);
-                shares(
-                    &mut tree,
-                    "budget_parseval",
-                    EnergyDefinition::Parseval,
-                    all,
-                );
+                let shares = tree.parseval_shares(&values, &motion, &ids, accelerations);
+                let outputs = flattened(&mut tree, &shares);
+                found.push((budget(EnergyDefinition::Parseval), outputs));
             }
         }
         if request.canonical && !under {
             let outputs = transfers(&mut tree, &values, &motion, &ids, |_| false);
-            found.push((
-                "sector_transfers",
-                Purpose::SectorTransfers(None),
-                outputs,
-                Shape::Transfers(count),
-            ));
+            found.push((Purpose::SectorTransfers(state), outputs));
         }
         if request.matrix && !under {
             let matrix = tree.transfer_matrix(&values, &motion, &ids);
-            let outputs = matrix
-                .iter()
-                .flatten()
-                .map(|value| tree.series.total(value))
-                .collect();
-            found.push((
-                "transfer_matrix",
-                Purpose::TransferMatrix,
-                outputs,
-                Shape::Rows(count),
-            ));
+            let outputs = matrix.iter().flatten();
+            let outputs = outputs.map(|value| tree.series.total(value)).collect();
+            found.push((Purpose::TransferMatrix(state), outputs));
         }
-        for (name, purpose, outputs, shape) in found {
-            let (name, mut arguments) = match state {
-                EntryState::Absolute if under => (
-                    format!("{name}_under"),
-                    vec![Argument::Theta, Argument::Omega, Argument::Torques],
-                ),
-                EntryState::Absolute => (name.to_owned(), vec![Argument::Theta, Argument::Omega]),
-                EntryState::Rates | EntryState::Momenta(_) => (
-                    format!("symmetric_{name}"),
-                    vec![Argument::Coordinates, Argument::Rates],
-                ),
-            };
-            if matches!(purpose, Purpose::Budget(_) | Purpose::BudgetUnder(_)) {
-                arguments = self.timed(&arguments);
-            }
-            self.push(&name, purpose, &arguments, outputs, shape);
+        for (purpose, outputs) in found {
+            self.push(purpose, outputs);
         }
     }
 
@@ -244,16 +166,11 @@ impl EntryList<'_, '_> {
         order: u32,
     ) {
         let mechanics = self.lowering.mechanics;
-        let orbits = orbits(scene, &mechanics.coordinates);
         let values = values(self.lowering, sectors);
-        let mut tree = symmetric_tree(self.lowering, &orbits, Some(order as usize));
+        let mut tree = symmetric_tree(self.lowering, Some(order as usize));
         let state = EntryState::Momenta(counting);
         let motion = motion(&mut tree, scene, mechanics, &values, state);
-        let ids: Vec<SectorId> = sectors
-            .sectors
-            .iter()
-            .map(|sector| sector.difference)
-            .collect();
+        let ids = sectors.differences();
         let small = scene.requests.budget.as_ref();
         let small = small.map_or(&[][..], |budget| budget.small.as_slice());
         let loses = |sector: SectorId| {
@@ -261,17 +178,7 @@ impl EntryList<'_, '_> {
                 && sector.is_some_and(|id| small.is_empty() || small.contains(&id))
         };
         let outputs = transfers(&mut tree, &values, &motion, &ids, loses);
-        let name = match counting {
-            Counting::Angle => "angle",
-            Counting::Amplitude => "amplitude",
-        };
-        self.push(
-            &format!("sector_transfers_{name}_{order}"),
-            Purpose::SectorTransfers(Some((counting, order))),
-            &[Argument::Coordinates, Argument::Momenta],
-            outputs,
-            Shape::Transfers(ids.len()),
-        );
+        self.push(Purpose::TruncatedSectorTransfers(counting, order), outputs);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::entries::EntryList;
 use super::lower::Environment;
-use super::{Argument, Purpose, Shape};
+use super::{Argument, Purpose};
 use crate::mechanics::{Mechanics, SmallMechanics, TransverseMechanics};
 
 impl EntryList<'_, '_> {
@@ -67,20 +67,7 @@ impl EntryList<'_, '_> {
             .map(|value| self.lowering.builder.neg(value))
             .collect();
         let outputs = self.lowering.builder.solve(matrix, right, &unknowns);
-        let arguments = [Theta, Omega, SmallDifferences, SmallRates];
-        self.push(
-            "small_accelerations",
-            Purpose::SmallAccelerations,
-            &self.timed(&arguments),
-            outputs,
-            Shape::Vector,
-        );
-        self.push(
-            "small_energy",
-            Purpose::SmallEnergy,
-            &arguments,
-            vec![energy],
-            Shape::Scalar,
-        );
+        self.push(Purpose::SmallAccelerations, outputs);
+        self.push(Purpose::SmallEnergy, vec![energy]);
     }
 }

@@ -7,7 +7,7 @@
 
 use super::entries::EntryList;
 use super::lower::Environment;
-use super::{Argument, Purpose, Shape, ValueId, scale};
+use super::{Argument, Purpose, ValueId, scale};
 use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{Frame, Mechanics, Trigonometric};
@@ -79,14 +79,6 @@ impl TaylorOutputs {
 impl EntryList<'_, '_> {
     pub(super) fn taylor(&mut self, scene: &Scene, mechanics: &Mechanics) {
         let frame = &mechanics.absolute;
-        let motion = self
-            .entries
-            .iter()
-            .find(|entry| entry.purpose == Purpose::Accelerations);
-        let Some(motion) = motion else {
-            unreachable!("accelerations are always there");
-        };
-        let arguments = motion.arguments.clone();
         let mut environment = Environment::new(frame, Argument::Theta, Some(Argument::Omega), None);
         let zero = self.lowering.builder.integer(0);
         let zeros = || vec![zero; frame.coordinates.len()];
@@ -148,13 +140,7 @@ impl EntryList<'_, '_> {
         for id in builder.needed(&outputs.bias) {
             list.extend(builder.partner(id));
         }
-        self.push(
-            "taylor_coefficients",
-            Purpose::TaylorCoefficients,
-            &arguments,
-            list,
-            Shape::Vector,
-        );
+        self.push(Purpose::TaylorCoefficients, list);
     }
 
     /// Chooses units of length and of mass, which change nothing but rounding: one

@@ -1,10 +1,11 @@
 //! The entry points of the energy transfer into one difference.
 
 use super::entries::EntryList;
+use super::entry::CANONICAL;
 use super::lower::Environment;
-use super::{Argument, Cause, Purpose, Shape, ValueId};
-use crate::mechanics::{Counting, Frame, MeanTree, TransferFormulas, TransferParts};
-use crate::scene::{CoordinateKind, LinkId, Scene};
+use super::{Argument, Cause, EntryState, Purpose, ValueId};
+use crate::mechanics::{Frame, MeanTree, TransferFormulas, TransferParts};
+use crate::scene::{LinkId, Scene};
 
 impl EntryList<'_, '_> {
     pub(super) fn transfer(
@@ -16,116 +17,48 @@ impl EntryList<'_, '_> {
     ) {
         use Argument::{Coordinates, Momenta, Rates};
         let mechanics = self.lowering.mechanics;
-        let several = mechanics
-            .coordinates
-            .iter()
-            .filter(|c| matches!(c.kind, CoordinateKind::Difference { .. }))
-            .count()
-            > 1;
-        let place = if several {
-            format!("_{}", mechanics.coordinates[transfer.coordinate].name)
-        } else {
-            String::new()
-        };
         let mut phase = Environment::new(frame, Coordinates, None, Some(Momenta));
         let mut motion = Environment::new(frame, Coordinates, Some(Rates), None);
-        let canonical = [Coordinates, Momenta];
-
         let energy = self.parts(&mut phase, &transfer.energy);
         let total = self.lowering.builder.add(energy[0], energy[1]);
-        self.push(
-            &format!("antiphase_energy{place}"),
-            Purpose::SubHamiltonian(number),
-            &canonical,
-            vec![total],
-            Shape::Scalar,
-        );
+        self.push(Purpose::SubHamiltonian(number), vec![total]);
         if let Some(parts) = &transfer.angle {
             let outputs = self.parts(&mut phase, parts);
-            self.push(
-                &format!("transfer_angle_1{place}"),
-                Purpose::AngleTransfer(number),
-                &canonical,
-                outputs,
-                Shape::Transfer,
-            );
+            self.push(Purpose::AngleTransfer(number), outputs);
         }
         if let Some(parts) = &transfer.amplitude {
             let outputs = self.parts(&mut phase, parts);
-            self.push(
-                &format!("transfer_amplitude_2{place}"),
-                Purpose::AmplitudeTransfer(number),
-                &canonical,
-                outputs,
-                Shape::Transfer,
-            );
+            self.push(Purpose::AmplitudeTransfer(number), outputs);
         }
-        for (index, truncated) in transfer.higher.iter().enumerate() {
-            let counting = match truncated.counting {
-                Counting::Angle => "angle",
-                Counting::Amplitude => "amplitude",
-            };
+        for truncated in &transfer.higher {
             let outputs = self.parts(&mut phase, &truncated.parts);
             self.push(
-                &format!("transfer_{counting}_{}{place}", truncated.order),
-                Purpose::HigherTransfer(number, index),
-                &canonical,
+                Purpose::HigherTransfer(number, truncated.counting, truncated.order),
                 outputs,
-                Shape::Transfer,
             );
         }
         if let Some(form) = &transfer.quadratic_form {
             let outputs = self.exprs(&mut phase, form);
-            self.push(
-                &format!("transfer_quadratic_form{place}"),
-                Purpose::QuadraticForm(number),
-                &canonical,
-                outputs,
-                Shape::Vector,
-            );
+            self.push(Purpose::QuadraticForm(number), outputs);
         }
         if let Some(parts) = &transfer.exact {
             let outputs = self.parts(&mut phase, parts);
-            self.push(
-                &format!("transfer_exact{place}"),
-                Purpose::ExactTransfer(number),
-                &canonical,
-                outputs,
-                Shape::Transfer,
-            );
+            self.push(Purpose::ExactTransfer(number, CANONICAL), outputs);
             let outputs = self.parts(&mut motion, parts);
-            self.push(
-                &format!("transfer_exact_from_rates{place}"),
-                Purpose::ExactTransferFromRates(number),
-                &[Coordinates, Rates],
-                outputs,
-                Shape::Transfer,
-            );
+            self.push(Purpose::ExactTransfer(number, EntryState::Rates), outputs);
         }
         if let (Some(split), Some(mean_tree)) = (&transfer.split, &mechanics.mean_tree) {
             let split = (split, mean_tree);
-            self.split(number, &place, &canonical, split, &mut phase);
-            self.split(number, &place, &[Coordinates, Rates], split, &mut motion);
+            self.split(number, CANONICAL, split, &mut phase);
+            self.split(number, EntryState::Rates, split, &mut motion);
         }
         if !transfer.friction.is_zero() {
             let power = self.lowering.expr(&mut motion, &transfer.friction);
-            self.push(
-                &format!("antiphase_friction_power{place}"),
-                Purpose::FrictionPower(number),
-                &[Coordinates, Rates],
-                vec![power],
-                Shape::Scalar,
-            );
+            self.push(Purpose::FrictionPower(number), vec![power]);
         }
         if !transfer.drive.is_zero() {
             let power = self.lowering.expr(&mut motion, &transfer.drive);
-            self.push(
-                &format!("antiphase_drive_power{place}"),
-                Purpose::AntiphaseDrivePower(number),
-                &[Argument::Time, Coordinates, Rates],
-                vec![power],
-                Shape::Scalar,
-            );
+            self.push(Purpose::AntiphaseDrivePower(number), vec![power]);
         }
         if scene.requests.forces {
             let velocity = self.lowering.expr(&mut motion, &transfer.velocity);
@@ -140,13 +73,7 @@ impl EntryList<'_, '_> {
                 torque = builder.add(torque, part);
             }
             let power = builder.mul(velocity, torque);
-            self.push(
-                &format!("antiphase_outside_power{place}"),
-                Purpose::AntiphaseOutsidePower(number),
-                &[Coordinates, Rates, Argument::Torques],
-                vec![power],
-                Shape::Scalar,
-            );
+            self.push(Purpose::AntiphaseOutsidePower(number), vec![power]);
         }
     }
 
@@ -154,14 +81,14 @@ impl EntryList<'_, '_> {
     fn split(
         &mut self,
         number: usize,
-        place: &str,
-        arguments: &[Argument; 2],
+        state: EntryState,
         ([growth, forcing], mean_tree): (&[TransferParts; 2], &MeanTree),
         environment: &mut Environment<'_>,
     ) {
         let forcing = self.parts(environment, forcing);
         // At the same momenta the mean tree has other velocities.
-        let mut mean = Environment::new(&mean_tree.frame, arguments[0], None, environment.momenta);
+        let coordinates = environment.coordinates;
+        let mut mean = Environment::new(&mean_tree.frame, coordinates, None, environment.momenta);
         if environment.momenta.is_none() {
             let added = self.lowering.added(environment, mean_tree);
             for (&symbol, added) in environment.frame.velocities.iter().zip(added) {
@@ -171,18 +98,8 @@ impl EntryList<'_, '_> {
             }
         }
         let growth = self.parts(&mut mean, growth);
-        let source = match environment.momenta {
-            Some(_) => "",
-            None => "_from_rates",
-        };
         for (cause, outputs) in [(Cause::MeanTree, growth), (Cause::Mismatch, forcing)] {
-            self.push(
-                &format!("transfer_{}{source}{place}", cause.name()),
-                Purpose::SplitTransfer(number, cause),
-                arguments,
-                outputs,
-                Shape::Transfer,
-            );
+            self.push(Purpose::SplitTransfer(number, cause, state), outputs);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::entries::EntryList;
 use super::lower::Environment;
-use super::{Argument, Purpose, Shape};
+use super::{Argument, Purpose};
 use crate::mechanics::{Mechanics, TransverseFormulas, TransverseMechanics};
 
 impl EntryList<'_, '_> {
@@ -41,49 +41,17 @@ impl EntryList<'_, '_> {
                 .map(|value| self.lowering.builder.neg(value));
             let right = right.collect();
             let outputs = self.lowering.builder.solve(matrix, right, &names[block]);
-            let (delta, rate) = (Difference(number), DifferenceRate(number));
-            let name = &sector.name;
-            let motion = self.timed(&[Theta, Omega, Alpha, delta, rate]);
-            self.push(
-                &format!("transverse_accelerations_{name}"),
-                Purpose::Transverse(number),
-                &motion,
-                outputs,
-                Shape::Vector,
-            );
-            // Viscous friction takes the rates of the differences alone.
-            let power_of = [Omega, rate];
-            for (quantity, purpose, arguments, value) in [
-                (
-                    "energy",
-                    Purpose::TransverseEnergy(number),
-                    &[Theta, delta, rate][..],
-                    energy,
-                ),
-                (
-                    "transfer",
-                    Purpose::TransverseTransfer(number),
-                    &motion,
-                    transfer,
-                ),
-                (
-                    "friction_power",
-                    Purpose::TransverseFriction(number),
-                    &power_of[usize::from(!braked)..],
-                    friction,
-                ),
+            self.push(Purpose::Transverse(number), outputs);
+            let friction_power = Purpose::TransverseFriction(number, *braked);
+            for (purpose, value) in [
+                (Purpose::TransverseEnergy(number), energy),
+                (Purpose::TransverseTransfer(number), transfer),
+                (friction_power, friction),
             ] {
-                if quantity == "friction_power" && friction.is_zero() {
-                    continue;
+                if purpose != friction_power || !friction.is_zero() {
+                    let value = self.lowering.expr(&mut environment, value);
+                    self.push(purpose, vec![value]);
                 }
-                let value = self.lowering.expr(&mut environment, value);
-                self.push(
-                    &format!("transverse_{quantity}_{name}"),
-                    purpose,
-                    arguments,
-                    vec![value],
-                    Shape::Scalar,
-                );
             }
         }
     }

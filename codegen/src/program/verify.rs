@@ -1,6 +1,6 @@
 //! Checks the shape of a program. Later stages rely on it; a fault is a bug.
 
-use super::{ConstantOp, Program, Shape};
+use super::{ConstantOp, Program, ResultShape};
 use crate::exact::Rational;
 use std::fmt;
 
@@ -75,7 +75,7 @@ impl Program {
             _ => None,
         });
         let strips = self.strips.iter().flat_map(|strips| &strips.strips);
-        let mut rows = strips.flat_map(super::Strip::all_constants);
+        let mut rows = strips.flat_map(super::StripConstants::all_constants);
         in_entries.or_else(|| rows.find_map(|id| self.unrepresentable_in(id)))
     }
 
@@ -111,17 +111,14 @@ impl Program {
         }
         for entry in &self.entries {
             let filled = match entry.shape {
-                Shape::Scalar => entry.outputs.len() == 1,
-                Shape::Vector => !entry.outputs.is_empty(),
-                Shape::Rows(length) => {
-                    !entry.outputs.is_empty() && entry.outputs.len() % length == 0
-                }
-                Shape::Arrays(first) | Shape::Split(first) => {
-                    (1..entry.outputs.len()).contains(&first)
-                }
-                Shape::Transfer => entry.outputs.len() == 2,
-                Shape::Transfers(count) => entry.outputs.len() == 2 * count,
-                Shape::Budget(count) => entry.outputs.len() == 3 * count,
+                ResultShape::Scalar => entry.outputs.len() == 1,
+                ResultShape::Vector => !entry.outputs.is_empty(),
+                ResultShape::Rows(rows, length) => entry.outputs.len() == rows * length,
+                ResultShape::Arrays(first, second) => entry.outputs.len() == first + second,
+                ResultShape::Split(first) => (1..entry.outputs.len()).contains(&first),
+                ResultShape::Transfer => entry.outputs.len() == 2,
+                ResultShape::Transfers(count) => entry.outputs.len() == 2 * count,
+                ResultShape::Budget(count) => entry.outputs.len() == 3 * count,
             };
             let in_range = entry
                 .outputs

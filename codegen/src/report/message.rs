@@ -2,6 +2,58 @@
 //! of a description that it is about. Every one says what is wrong and what to write
 //! instead.
 
+use std::fmt;
+
+/// Declares an enum of messages, each with its words: the mistake in a statement that stands
+/// on its own, the mistake in the marked tokens, and what to write instead.
+macro_rules! messages {
+    (
+        $(#[$about:meta])*
+        $name:ident as $part:ident:
+        $(
+            $(#[$docs:meta])*
+            $message:ident $({ $($field:ident: $kind:ty),+ $(,)? })? =>
+                ($text:expr, $label:expr, $hint:expr $(,)?),
+        )+
+    ) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, PartialEq, Eq)]
+        pub enum $name {
+            $(
+                $(#[$docs])*
+                $message $({
+                    $(
+                        #[doc = "Part of the words."]
+                        $field: $kind
+                    ),+
+                })?,
+            )+
+        }
+
+        impl $name {
+            /// Names of all of them.
+            pub const NAMES: &[&str] = &[$(stringify!($message)),+];
+
+            /// The message in words.
+            pub(super) fn problem(&self) -> Problem {
+                match self {
+                    $(Self::$message $({ $($field),+ })? => Problem {
+                        text: $text.into(),
+                        label: $label.into(),
+                        hint: $hint.into(),
+                    },)+
+                }
+            }
+        }
+
+        impl From<$name> for super::Message {
+            fn from(message: $name) -> Self {
+                Self::$part(message)
+            }
+        }
+    };
+}
+
 mod output;
 mod size;
 mod syntax;
@@ -42,20 +94,6 @@ impl Message {
     }
 }
 
-macro_rules! parts {
-    ($($part:ident: $message:ident),+) => {
-        $(
-            impl From<$message> for Message {
-                fn from(message: $message) -> Self {
-                    Self::$part(message)
-                }
-            }
-        )+
-    };
-}
-
-parts!(Syntax: SyntaxMessage, Tree: TreeMessage, Value: ValueMessage, Output: OutputMessage, Size: SizeMessage);
-
 /// A message in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
@@ -67,19 +105,11 @@ pub struct Problem {
     pub hint: String,
 }
 
-fn problem(text: impl Into<String>, label: impl Into<String>, hint: impl Into<String>) -> Problem {
-    Problem {
-        text: text.into(),
-        label: label.into(),
-        hint: hint.into(),
-    }
-}
-
 /// The name that was probably meant, or else what there is.
-fn suggest(nearest: &Option<&'static str>, otherwise: &str) -> String {
+fn suggest(nearest: &Option<impl fmt::Display>, otherwise: impl Into<String>) -> String {
     match nearest {
         Some(nearest) => format!("did you mean `{nearest}`?"),
-        None => otherwise.to_owned(),
+        None => otherwise.into(),
     }
 }
 

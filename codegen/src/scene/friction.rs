@@ -10,14 +10,26 @@ use crate::report::{Report, TreeMessage};
 
 /// Law of the torque at the rate w, −(C/s + q s) w with the speed s = √(w² + ε²): Coulomb's
 /// −C sign w and −q w |w| where |w| is large beside the width ε, and smooth where it is not.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FrictionLaw {
+/// Every stage has it with constants `V` of its own.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct FrictionLaw<V = Quantity> {
     /// Coulomb friction C, N m.
-    pub coulomb: Quantity,
+    pub coulomb: V,
     /// Quadratic friction q, N m s².
-    pub quadratic: Quantity,
+    pub quadratic: V,
     /// Width ε, rad/s.
-    pub width: Quantity,
+    pub width: V,
+}
+
+impl<V> FrictionLaw<V> {
+    /// The law with constants that are formed of its own.
+    pub fn map<W>(&self, mut formed: impl FnMut(&V) -> W) -> FrictionLaw<W> {
+        FrictionLaw {
+            coulomb: formed(&self.coulomb),
+            quadratic: formed(&self.quadratic),
+            width: formed(&self.width),
+        }
+    }
 }
 
 /// Friction of a link beside viscous friction and drag.

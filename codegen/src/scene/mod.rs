@@ -28,6 +28,7 @@ mod properties;
 mod quantity;
 mod reduced_body;
 mod reduction;
+mod requested;
 mod requests;
 mod resolve;
 mod rule;
@@ -49,14 +50,15 @@ pub use layout::Layout;
 pub use link_properties::LINK_PROPERTIES;
 pub use names::is_keyword;
 pub use observables::{
-    CoordinateIndex, Function, OBSERVABLE_SUFFIXES, Observable, Observed, Variable, VariableKind,
+    CoordinateIndex, Function, Observable, ObservableForm, Observed, Variable, VariableKind,
     is_method,
 };
 pub use quantity::Quantity;
+pub use requested::{BudgetRequest, Requests, Solve, TransferRequest};
 pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};
-pub use transverse::TransverseSector;
+pub use transverse::TransverseCopies;
 pub use unequal::UnequalNode;
 
 use crate::exact::Rational;
@@ -105,7 +107,7 @@ pub struct Scene {
     pub observables: Vec<Observable>,
     /// Links whose motion the caller states, those of each set together. They come with
     /// `requests.forces`.
-    pub prescribed: Vec<PrescribedLinks>,
+    pub prescribed: Vec<PrescribedSet>,
     /// How the links stand for those of the whole tree, where the description makes it
     /// smaller.
     pub reduction: Option<Reduction>,
@@ -227,7 +229,7 @@ pub struct Group {
 
 /// Links whose motion is handed over together.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PrescribedLinks {
+pub struct PrescribedSet {
     /// Their names, joined: part of the name of their function.
     pub name: String,
     /// The links, in the order written.
@@ -242,7 +244,7 @@ pub struct Reduction {
     /// Number of links of the whole tree.
     pub links: usize,
     /// The nodes of the whole tree, parents before children, depth first.
-    pub orbits: Vec<WholeOrbit>,
+    pub orbits: Vec<WholeNode>,
 }
 
 /// Order of the links of a whole tree: that of a scene without reductions.
@@ -256,7 +258,7 @@ pub enum WholeOrder {
 
 /// Links of a whole tree that are copies of one node of the description.
 #[derive(Debug, Clone, PartialEq)]
-pub struct WholeOrbit {
+pub struct WholeNode {
     /// Name of the node: `child`, or `name_2` for a generation of a rule.
     pub name: String,
     /// Copies under each copy of the parent.
@@ -266,12 +268,12 @@ pub struct WholeOrbit {
     /// Index behind the last node of the subtree.
     pub end: usize,
     /// Motion of the copies.
-    pub motion: WholeMotion,
+    pub motion: NodeMotion,
 }
 
 /// Motion of a link of a whole tree in terms of the scene's links.
 #[derive(Debug, Clone, PartialEq)]
-pub enum WholeMotion {
+pub enum NodeMotion {
     /// As a link of the scene: the first copy as the one `offset` places behind the link
     /// that it hangs from, each further one that moves by itself `stride` places later.
     Moving {
@@ -318,107 +320,4 @@ pub struct Requirement {
     pub quantity: Quantity,
     /// The condition, never [`Sign::Any`].
     pub sign: Sign,
-}
-
-/// Method by which the accelerations in absolute angles are solved for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Solve {
-    /// The mass matrix factorised along the tree, M = LᵀDL.
-    Factorization,
-    /// Articulated recursion from the leaves to the root and back.
-    Recursion,
-}
-
-impl Solve {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Factorization, Self::Recursion];
-
-    /// Its name in the attribute.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Factorization => "factorization",
-            Self::Recursion => "recursion",
-        }
-    }
-}
-
-/// Outputs that are asked for beside the accelerations.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Requests {
-    /// Solve for the accelerations; the one of fewer operations if nothing is
-    /// said.
-    pub solve: Option<Solve>,
-    /// Kinetic and potential energy.
-    pub energies: bool,
-    /// Generalized momenta and the velocities that belong to them.
-    pub momenta: bool,
-    /// The matrices of the linear modes.
-    pub modes: bool,
-    /// Symmetric coordinates: means and differences of identical siblings.
-    pub symmetric: bool,
-    /// Energy transfer into the differences. Comes with `momenta` and
-    /// `symmetric`.
-    pub transfer: Option<TransferRequest>,
-    /// Energies of all sectors and the transfers between them.
-    pub budget: Option<BudgetRequest>,
-    /// Taylor coefficients of the motion.
-    pub taylor: bool,
-    /// Positions and velocities of links, and the torques of forces on them.
-    pub positions: bool,
-    /// Equations of small differences between copies in phase.
-    pub transverse: bool,
-    /// Transverse sectors whose differences act back on the motion in phase, by number.
-    /// Comes with `transverse`.
-    pub small: Vec<usize>,
-    /// Accelerations under torques that the caller hands over.
-    pub forces: bool,
-}
-
-impl Requests {
-    /// Returns true if budgets by scale are asked for.
-    pub fn scales(&self) -> bool {
-        self.budget.as_ref().is_some_and(|budget| budget.scales)
-    }
-}
-
-/// Forms of the sectors' budget that are asked for; at least one. The forms
-/// differ in the definition of a sector's kinetic energy.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct BudgetRequest {
-    /// Energies from the momenta and the sector's block of the mass matrix at
-    /// rest.
-    pub rest: bool,
-    /// Energies from the momenta and the block at the configuration.
-    pub canonical: bool,
-    /// Energies by Parseval from the velocities of the centres of mass.
-    pub parseval: bool,
-    /// Energies from the velocities and the block at the configuration.
-    pub velocity: bool,
-    /// Energy transfer from each sector to each other, by Parseval.
-    pub matrix: bool,
-    /// Energies and transfers by scale, in loops: all sectors that branch in one
-    /// generation together, by Parseval.
-    pub scales: bool,
-    /// Orders in the amplitude of the differences through which the transfers
-    /// are expanded. Comes with `momenta` and `symmetric`.
-    pub amplitude_orders: Vec<u32>,
-    /// Orders in the angles of the differences alone, momenta kept whole; 1 is
-    /// the counting of the paper. Comes with `momenta` and `symmetric`.
-    pub angle_orders: Vec<u32>,
-    /// The sectors whose differences count as small in these orders, each by
-    /// its group and the number of the difference; all if none is named.
-    pub small: Vec<(usize, usize)>,
-}
-
-/// Forms of the energy transfer that are asked for; at least one.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TransferRequest {
-    /// Orders of the kinetic energy in the difference angles, momenta kept
-    /// whole; 1 is the form of the paper.
-    pub angle_orders: Vec<u32>,
-    /// Orders in the amplitude of the differences, angles and momenta alike; 2
-    /// is the complete quadratic form.
-    pub amplitude_orders: Vec<u32>,
-    /// The form without truncation.
-    pub exact: bool,
 }

@@ -9,6 +9,7 @@ use super::symbols::{Meaning, ObservableSymbols};
 use super::values::{message_for, unrepresentable};
 use super::{Quantity, Scene};
 use crate::description::{self, Expression, ExpressionKind};
+use crate::named_members::named_members;
 use crate::report::{Message, OutputMessage, Report, TreeMessage, ValueMessage, nearest};
 
 /// A quantity that the description defines by an expression.
@@ -79,29 +80,16 @@ pub enum CoordinateIndex {
     Symmetric(usize),
 }
 
-/// Functions of observables.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Function {
-    /// Sine.
-    Sin,
-    /// Cosine.
-    Cos,
-    /// Square root.
-    Sqrt,
-}
-
-impl Function {
-    /// All functions by their names in descriptions.
-    const ALL: [(&'static str, Self); 3] =
-        [("sin", Self::Sin), ("cos", Self::Cos), ("sqrt", Self::Sqrt)];
-
-    /// Name in descriptions.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sin => "sin",
-            Self::Cos => "cos",
-            Self::Sqrt => "sqrt",
-        }
+named_members! {
+    /// Functions of observables.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Function {
+        /// Sine.
+        Sin = "sin",
+        /// Cosine.
+        Cos = "cos",
+        /// Square root.
+        Sqrt = "sqrt",
     }
 }
 
@@ -125,14 +113,35 @@ impl Observed {
     }
 }
 
-/// Suffixes of an observable's name in the names of its functions.
-pub const OBSERVABLE_SUFFIXES: [&str; 5] = [
-    "",
-    "_rate",
-    "_friction_rate",
-    "_from_momenta",
-    "_rate_from_momenta",
-];
+named_members! {
+    /// Quantity that a function gives of an observable. Names are ends of the names of
+    /// functions.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum ObservableForm {
+        /// F from coordinates and velocities.
+        Value = "",
+        /// dF/dt from coordinates and velocities.
+        Rate = "_rate",
+        /// The part of dF/dt that is friction and drag.
+        FrictionRate = "_friction_rate",
+        /// F from coordinates and momenta.
+        FromMomenta = "_from_momenta",
+        /// dF/dt from coordinates and momenta.
+        RateFromMomenta = "_rate_from_momenta",
+    }
+}
+
+impl ObservableForm {
+    /// Returns true if it is a rate by all forces.
+    pub fn is_rate(self) -> bool {
+        matches!(self, Self::Rate | Self::RateFromMomenta)
+    }
+
+    /// Returns true if momenta are handed over.
+    pub fn is_from_momenta(self) -> bool {
+        matches!(self, Self::FromMomenta | Self::RateFromMomenta)
+    }
+}
 
 /// Methods that emitted models may have, asked for or not. A test holds the
 /// list against the fixtures.
@@ -222,8 +231,8 @@ fn check_functions(
     functions: &mut BTreeSet<String>,
     report: &mut Report,
 ) -> bool {
-    for suffix in OBSERVABLE_SUFFIXES {
-        let function = format!("{name}{suffix}");
+    for form in ObservableForm::ALL {
+        let function = format!("{name}{}", form.name());
         let taken = is_method(&function)
             || symbols.is_constant(&function)
             || !functions.insert(function.clone());
@@ -283,10 +292,11 @@ fn evaluate(
         },
         ExpressionKind::Call { function, argument } => {
             let name = function.to_string();
-            let known = Function::ALL.iter().find(|(known, _)| *known == name);
+            let mut functions = Function::ALL.into_iter();
+            let known = functions.find(|known| known.name() == name);
             let value = evaluate(argument, symbols, report);
-            let Some(&(_, known)) = known else {
-                let known = Function::ALL.map(|(name, _)| name).to_vec();
+            let Some(known) = known else {
+                let known = Function::ALL.map(Function::name).to_vec();
                 report.error(
                     function.span(),
                     OutputMessage::UnknownFunction { name, known },

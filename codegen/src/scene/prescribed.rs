@@ -1,7 +1,7 @@
 //! Links whose motion the caller states at each call.
 
 use super::expand::ExpandedTree;
-use super::{LinkId, PrescribedLinks};
+use super::{LinkId, PrescribedSet};
 use crate::description::PrescribedClause;
 use crate::report::{OutputMessage, Report, TreeMessage, nearest};
 
@@ -10,13 +10,13 @@ pub(super) fn resolve_prescribed(
     clauses: &[PrescribedClause],
     expansion: &ExpandedTree,
     report: &mut Report,
-) -> Vec<PrescribedLinks> {
+) -> Vec<PrescribedSet> {
     let names: Vec<&str> = expansion
         .links
         .iter()
         .map(|link| link.name.as_str())
         .collect();
-    let mut sets: Vec<PrescribedLinks> = Vec::new();
+    let mut sets: Vec<PrescribedSet> = Vec::new();
     for PrescribedClause {
         name,
         links,
@@ -43,7 +43,7 @@ pub(super) fn resolve_prescribed(
                 }
             }
         }
-        let set = PrescribedLinks {
+        let set = PrescribedSet {
             name: written.join("_and_"),
             links: found,
         };

@@ -13,7 +13,7 @@ use super::layout::{self, Asked, Layout};
 use super::reduced_body::{turned, weld};
 use super::template::{Template, TreeBuilder};
 use super::values::{Usage, Values};
-use super::{Quantity, Reduction, Sign, WholeMotion, WholeOrbit, WholeOrder};
+use super::{NodeMotion, Quantity, Reduction, Sign, WholeNode, WholeOrder};
 use crate::description::{Expression, LockedClause, Reductions};
 use crate::exact::Rational;
 use crate::report::{
@@ -206,7 +206,7 @@ fn whole_orbits(
     templates: &[Template],
     locks: &[Option<Rational>],
     alike: &[bool],
-) -> Vec<WholeOrbit> {
+) -> Vec<WholeNode> {
     let apart = |index: usize| {
         if alike[index] {
             1
@@ -240,23 +240,23 @@ fn whole_orbits(
     let mut orbits = Vec::with_capacity(templates.len());
     for (index, template) in templates.iter().enumerate() {
         let motion = match (&locks[index], holder(index)) {
-            (Some(angle), _) => WholeMotion::Locked {
+            (Some(angle), _) => NodeMotion::Locked {
                 angle: angle.clone(),
             },
-            (None, (None, _)) => WholeMotion::Moving {
+            (None, (None, _)) => NodeMotion::Moving {
                 offset: 0,
                 stride: 0,
             },
             (None, (Some(above), copies)) => {
                 let offset = next[above];
                 next[above] += copies * sizes[index];
-                WholeMotion::Moving {
+                NodeMotion::Moving {
                     offset,
                     stride: sizes[index],
                 }
             }
         };
-        orbits.push(WholeOrbit {
+        orbits.push(WholeNode {
             name: template.name.clone(),
             copies: template.copies,
             in_phase: alike[index],

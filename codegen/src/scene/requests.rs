@@ -161,6 +161,60 @@ pub(super) fn resolve_solve(
     found
 }
 
+/// A form in parentheses behind an output.
+struct WrittenForm<'f> {
+    text: String,
+    order: Option<u32>,
+    /// Place of the name.
+    span: Span,
+    /// Place of the value, or else of the name.
+    place: Span,
+    members: Option<&'f [Ident]>,
+}
+
+/// The forms that are written, each once: one may be asked for to several orders.
+fn written_forms<'f>(forms: &'f [RequestForm], report: &mut Report) -> Vec<WrittenForm<'f>> {
+    let mut written: Vec<WrittenForm<'f>> = Vec::new();
+    for form in forms {
+        let (text, span) = (form.name.to_string(), form.name.span());
+        let order = form.value.map(|value| value.count);
+        if written
+            .iter()
+            .any(|known| known.text == text && known.order == order)
+        {
+            report.error(span, OutputMessage::DuplicateRequest { name: text });
+            continue;
+        }
+        written.push(WrittenForm {
+            text,
+            order,
+            span,
+            place: form.value.map_or(span, |value| value.span),
+            members: form.members.as_deref(),
+        });
+    }
+    written
+}
+
+/// Takes a truncated form, of the orders in the angles or in the amplitude; false for another
+/// form.
+fn take_order(
+    form: &WrittenForm<'_>,
+    [angle, amplitude]: [&mut Vec<u32>; 2],
+    report: &mut Report,
+) -> bool {
+    let (known, orders, message) = match form.text.as_str() {
+        "angle" => (ANGLE_ORDERS, angle, OutputMessage::AngleOrder),
+        "amplitude" => (AMPLITUDE_ORDERS, amplitude, OutputMessage::AmplitudeOrder),
+        _ => return false,
+    };
+    match form.order.filter(|order| known.contains(order)) {
+        Some(order) => orders.push(order),
+        None => report.error(form.place, message),
+    }
+    true
+}
+
 /// Reads the forms of the budget; all exact ones if none is named.
 fn budget(
     span: Span,
@@ -182,66 +236,44 @@ fn budget(
     if forms.is_empty() && !damaged {
         report.error(span, OutputMessage::NoBudgetForm);
     }
-    let mut seen: Vec<(String, Option<u32>)> = Vec::new();
-    for RequestForm {
-        name,
-        value,
-        members,
-    } in forms
-    {
-        let text = name.to_string();
-        let order = value.map(|value| value.count);
-        if seen.contains(&(text.clone(), order)) {
-            report.error(name.span(), OutputMessage::DuplicateRequest { name: text });
+    for form in written_forms(forms, report) {
+        let text = form.text.as_str();
+        if form.members.is_some() && text != "small" && BUDGET_FORMS.contains(&text) {
+            let name = text.to_owned();
+            report.error(form.place, OutputMessage::RequestForms { name });
+        }
+        let orders = [&mut request.angle_orders, &mut request.amplitude_orders];
+        if take_order(&form, orders, report) {
             continue;
         }
-        let place = value.map_or(name.span(), |value| value.span);
-        if members.is_some() && text != "small" && BUDGET_FORMS.contains(&text.as_str()) {
-            let name = text.clone();
-            report.error(place, OutputMessage::RequestForms { name });
-        }
-        let flag = match text.as_str() {
-            "canonical" => Some(&mut request.canonical),
-            "parseval" => Some(&mut request.parseval),
-            "velocity" => Some(&mut request.velocity),
-            "rest" => Some(&mut request.rest),
-            "matrix" => Some(&mut request.matrix),
-            "scales" => Some(&mut request.scales),
-            _ => None,
-        };
-        match (flag, text.as_str()) {
-            (Some(flag), _) => {
-                *flag = true;
-                if value.is_some() {
-                    let form = text.clone();
-                    report.error(place, OutputMessage::BudgetOrder { form });
+        let flag = match text {
+            "canonical" => &mut request.canonical,
+            "parseval" => &mut request.parseval,
+            "velocity" => &mut request.velocity,
+            "rest" => &mut request.rest,
+            "matrix" => &mut request.matrix,
+            "scales" => &mut request.scales,
+            "small" => {
+                match form.members {
+                    Some(members) if !members.is_empty() => members.clone_into(small),
+                    _ => report.error(form.place, OutputMessage::NoSmallSector),
                 }
+                continue;
             }
-            (None, "amplitude") => match order.filter(|order| AMPLITUDE_ORDERS.contains(order)) {
-                Some(order) => request.amplitude_orders.push(order),
-                None => report.error(place, OutputMessage::AmplitudeOrder),
-            },
-            (None, "small") => match members {
-                Some(members) if !members.is_empty() => small.clone_from(members),
-                _ => report.error(place, OutputMessage::NoSmallSector),
-            },
-            (None, "angle") => match order.filter(|order| ANGLE_ORDERS.contains(order)) {
-                Some(order) => request.angle_orders.push(order),
-                None => report.error(place, OutputMessage::AngleOrder),
-            },
             _ => {
-                let nearest = nearest(&text, BUDGET_FORMS);
-                let name_of_form = text.clone();
+                let (name, nearest) = (text.to_owned(), nearest(text, BUDGET_FORMS));
                 report.error(
-                    name.span(),
-                    OutputMessage::UnknownBudgetForm {
-                        name: name_of_form,
-                        nearest,
-                    },
+                    form.span,
+                    OutputMessage::UnknownBudgetForm { name, nearest },
                 );
+                continue;
             }
+        };
+        *flag = true;
+        if form.order.is_some() {
+            let form_name = text.to_owned();
+            report.error(form.place, OutputMessage::BudgetOrder { form: form_name });
         }
-        seen.push((text, order));
     }
     if request.scales {
         let others = |form: &&RequestForm| form.name != "scales" && form.name != "parseval";
@@ -280,53 +312,25 @@ fn transfer(
     if forms.is_empty() && !damaged {
         report.error(span, OutputMessage::NoForm);
     }
-    let mut seen: Vec<(String, Option<u32>)> = Vec::new();
-    for RequestForm {
-        name,
-        value,
-        members,
-    } in forms
-    {
-        if members.is_some() {
-            let name = name.to_string();
+    for form in written_forms(forms, report) {
+        let name = form.text.clone();
+        if form.members.is_some() {
+            let name = name.clone();
             report.error(span, OutputMessage::RequestForms { name });
         }
-        let (text, span) = (name.to_string(), name.span());
-        let order = value.map(|value| value.count);
-        // One form may be asked for to several orders, each once.
-        if seen.contains(&(text.clone(), order)) {
-            report.error(span, OutputMessage::DuplicateRequest { name: text });
+        let orders = [&mut request.angle_orders, &mut request.amplitude_orders];
+        if take_order(&form, orders, report) {
             continue;
         }
-        let span = value.map_or(span, |value| value.span);
-        match text.as_str() {
-            "angle" => match order.filter(|order| ANGLE_ORDERS.contains(order)) {
-                Some(order) => request.angle_orders.push(order),
-                None => report.error(span, OutputMessage::AngleOrder),
-            },
-            "amplitude" => match order.filter(|order| AMPLITUDE_ORDERS.contains(order)) {
-                Some(order) => request.amplitude_orders.push(order),
-                None => report.error(span, OutputMessage::AmplitudeOrder),
-            },
-            "exact" => {
-                request.exact = true;
-                if value.is_some() {
-                    report.error(span, OutputMessage::ExactOrder);
-                }
+        if name == "exact" {
+            request.exact = true;
+            if form.order.is_some() {
+                report.error(form.place, OutputMessage::ExactOrder);
             }
-            _ => {
-                let nearest = nearest(&text, FORMS);
-                let form = text.clone();
-                report.error(
-                    name.span(),
-                    OutputMessage::UnknownForm {
-                        name: form,
-                        nearest,
-                    },
-                );
-            }
+        } else {
+            let nearest = nearest(&name, FORMS);
+            report.error(form.span, OutputMessage::UnknownForm { name, nearest });
         }
-        seen.push((text, order));
     }
     request
 }

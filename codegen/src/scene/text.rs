@@ -3,8 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, CratePath, Drive, Group, Layout, Link, Observable, Offset, Orbit, Parameter,
-    Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeMotion, WholeOrbit,
+    BudgetRequest, CratePath, Drive, Group, Layout, Link, NodeMotion, Observable, Offset, Orbit,
+    Parameter, Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeNode,
     WholeOrder,
 };
 
@@ -103,7 +103,7 @@ impl Display for Scene {
     }
 }
 
-impl Display for WholeOrbit {
+impl Display for WholeNode {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.name)?;
         if self.copies > 1 {
@@ -111,8 +111,8 @@ impl Display for WholeOrbit {
             write!(f, ", {} copies {how}", self.copies)?;
         }
         match &self.motion {
-            WholeMotion::Moving { .. } => Ok(()),
-            WholeMotion::Locked { angle } => write!(f, ", locked at {angle}"),
+            NodeMotion::Moving { .. } => Ok(()),
+            NodeMotion::Locked { angle } => write!(f, ", locked at {angle}"),
         }
     }
 }
@@ -277,12 +277,7 @@ impl Display for BudgetRequest {
         let named = flags.iter().filter(|(wanted, _)| **wanted);
         let forms: Vec<String> = named
             .map(|(_, name)| (*name).to_owned())
-            .chain(angle_orders.iter().map(|order| format!("angle = {order}")))
-            .chain(
-                amplitude_orders
-                    .iter()
-                    .map(|order| format!("amplitude = {order}")),
-            )
+            .chain(orders(angle_orders, amplitude_orders))
             .chain((!small.is_empty()).then(|| format!("small in {} sectors", small.len())))
             .collect();
         write!(f, "budget({})", forms.join(", "))
@@ -296,14 +291,16 @@ impl Display for TransferRequest {
             amplitude_orders,
             exact,
         } = self;
-        let angles = angle_orders.iter().map(|order| format!("angle = {order}"));
-        let amplitudes = amplitude_orders
-            .iter()
-            .map(|order| format!("amplitude = {order}"));
-        let forms: Vec<String> = angles
-            .chain(amplitudes)
+        let forms: Vec<String> = orders(angle_orders, amplitude_orders)
             .chain(exact.then(|| "exact".to_owned()))
             .collect();
         write!(f, "transfer({})", forms.join(", "))
     }
+}
+
+/// Truncated forms as they are written.
+fn orders(angle: &[u32], amplitude: &[u32]) -> impl Iterator<Item = String> {
+    let angles = angle.iter().map(|order| format!("angle = {order}"));
+    let amplitudes = amplitude.iter().map(|order| format!("amplitude = {order}"));
+    angles.chain(amplitudes)
 }

@@ -1,11 +1,11 @@
 //! Sectors whose differences can grow beside an in-phase motion.
 
-use super::{LinkId, Scene, WholeMotion};
+use super::{LinkId, NodeMotion, Scene};
 
 /// Copies that move in phase, and what hangs from them: the links whose small
 /// differences between the copies follow linear equations of their own.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TransverseSector {
+pub struct TransverseCopies {
     /// Name of the scene's link that stands for the copies.
     pub name: String,
     /// The first of its links; the others follow.
@@ -20,14 +20,14 @@ pub struct TransverseSector {
 
 impl Scene {
     /// The sectors of copies in phase, in the order of their links.
-    pub fn transverse_sectors(&self) -> Vec<TransverseSector> {
+    pub fn transverse_sectors(&self) -> Vec<TransverseCopies> {
         let Some(reduction) = &self.reduction else {
             return Vec::new();
         };
         let orbits = &reduction.orbits;
         let mut sectors = Vec::new();
         for (index, orbit) in orbits.iter().enumerate() {
-            let moves = matches!(orbit.motion, WholeMotion::Moving { .. });
+            let moves = matches!(orbit.motion, NodeMotion::Moving { .. });
             if !(orbit.in_phase && orbit.copies > 1 && moves) {
                 continue;
             }
@@ -43,7 +43,7 @@ impl Scene {
                 .filter(of_orbit)
                 .flat_map(|known| &known.links)
             {
-                sectors.push(TransverseSector {
+                sectors.push(TransverseCopies {
                     name: self.links[first.0].name.clone(),
                     first,
                     links: self.subtree(first),

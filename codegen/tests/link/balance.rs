@@ -3,7 +3,7 @@
 use branched_pendulum_codegen::mechanics::algebra::{Formula, run};
 use branched_pendulum_codegen::mechanics::expression::{Expr, SymbolId};
 use branched_pendulum_codegen::mechanics::{LinkBalance, Mechanics};
-use branched_pendulum_codegen::program::{Argument, Column, Program, Rebuilt, Strips};
+use branched_pendulum_codegen::program::{Argument, Column, LoopTree, Program, Rebuilt};
 use std::collections::BTreeMap;
 
 use super::{BUSH, SEVERAL, compiled};
@@ -12,7 +12,7 @@ struct Algebra<'s> {
     program: &'s Program,
     mechanics: &'s Mechanics,
     balance: &'s LinkBalance,
-    strips: &'s Strips,
+    strips: &'s LoopTree,
     /// The link's own unit of length.
     unit: Formula,
 }

@@ -2,13 +2,13 @@
 //! code written out.
 
 use branched_pendulum_codegen::Stages;
-use branched_pendulum_codegen::program::{Argument, Program, Strips};
+use branched_pendulum_codegen::program::{Argument, LoopTree, Program};
 
 use super::{BRAKED, BRAKED_RULE, BUSH, RULE, SEVERAL, compiled, tree};
 /// The recursion through a tree, by the interpreter.
 struct Sweep<'s> {
     program: &'s Program,
-    strips: &'s Strips,
+    strips: &'s LoopTree,
     parameters: &'s [f64],
     constants: Vec<Vec<f64>>,
     motion: Vec<[f64; 5]>,

@@ -5,7 +5,9 @@ mod tree;
 
 use std::collections::BTreeSet;
 
-use branched_pendulum_codegen::report::{Problem, SizeMessage};
+use branched_pendulum_codegen::report::{
+    OutputMessage, Problem, SizeMessage, SyntaxMessage, TreeMessage, ValueMessage,
+};
 use branched_pendulum_trees::{PendulumTree, TreeError};
 
 use crate::support::{errors, run, run_source, split};
@@ -37,24 +39,14 @@ fn messages_read_as_in_the_goldens() {
 #[test]
 fn every_message_has_a_golden() {
     let catalogue = [
-        include_str!("../../../codegen/src/report/message/output.rs"),
-        include_str!("../../../codegen/src/report/message/size.rs"),
-        include_str!("../../../codegen/src/report/message/syntax.rs"),
-        include_str!("../../../codegen/src/report/message/tree.rs"),
-        include_str!("../../../codegen/src/report/message/value.rs"),
+        OutputMessage::NAMES,
+        SizeMessage::NAMES,
+        SyntaxMessage::NAMES,
+        TreeMessage::NAMES,
+        ValueMessage::NAMES,
     ];
-    let messages: BTreeSet<String> = catalogue
-        .into_iter()
-        .flat_map(|part| syn::parse_file(part).expect("the catalogue is Rust").items)
-        .filter_map(|item| match item {
-            syn::Item::Enum(item) if item.ident.to_string().ends_with("Message") => {
-                Some(item.variants)
-            }
-            _ => None,
-        })
-        .flatten()
-        .map(|variant| variant.ident.to_string())
-        .collect();
+    let messages = catalogue.concat().into_iter();
+    let messages: BTreeSet<String> = messages.map(str::to_owned).collect();
     assert!(!messages.is_empty());
     // The front end does not run the algebra; texts at run time are those of the package
     // `branched-pendulum-trees`.

@@ -92,7 +92,7 @@ impl Lowering<'_> {
         laws.map(|constant| self.builder.constant(constant))
     }
 
-    /// A link as a body, see [`Strip::body`](super::Strip).
+    /// A link as a body, see [`StripConstants::body`](super::StripConstants).
     pub(super) fn body(&mut self, scene: &Scene, link: &Link) -> [ConstantId; 12] {
         let gravity = self.quantity(&scene.gravity);
         let mut at = |quantity: &Quantity| self.quantity(quantity);

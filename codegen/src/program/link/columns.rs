@@ -1,7 +1,8 @@
 //! Names of what the functions of a link read: columns of constants, and elements of the
 //! other arguments.
 
-use super::strips::Strips;
+use super::strips::LoopTree;
+use crate::named_members::named_members;
 use crate::program::Argument;
 
 /// Fields of the runtime's `LinkMotion`, in the order of the elements of an argument.
@@ -14,202 +15,49 @@ pub const LINK_MOTION: [&str; 6] = [
     "outside_torque",
 ];
 
-/// A constant in the equations of one link, in reduced units: m and l are those of the
-/// commonest leaf for the whole tree, L is the link's own unit of length.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Column {
-    /// M/(L² m).
-    Inertia,
-    /// h/(L m).
-    Moment,
-    /// The lateral part of the first moment over L m.
-    LateralMoment,
-    /// The mass over m that parents do not count.
-    Mass,
-    /// L/l.
-    Length,
-    /// l/L.
-    InverseLength,
-    /// h L/M of a leaf.
-    GainAlong,
-    /// Lateral part of the first moment of a leaf, times L/M.
-    GainAcross,
-    /// L² m/M of a leaf.
-    InverseInertia,
-    /// Place of the children's pivot along the link over L; where children hang at
-    /// several places, of the link on its parent.
-    Along,
-    /// Place across the link, over L.
-    Across,
-    /// Friction in the pivot over m l².
-    Friction,
-    /// Drag against the ground over m l².
-    Drag,
-    /// Stiffness of the torsion spring over m l².
-    Spring,
-    /// Angle at which the spring is at rest.
-    Rest,
-    /// Coulomb friction in the pivot over m l².
-    Coulomb,
-    /// Quadratic friction in the pivot over m l².
-    QuadraticFriction,
-    /// Width of friction in the pivot.
-    FrictionWidth,
-    /// Quadratic drag over m l².
-    QuadraticDrag,
-    /// Width of drag.
-    DragWidth,
-    /// 1/(m l²), by which torques from outside are multiplied.
-    PerTorque,
-    /// Mass, here and below in SI units: read by energies by scale alone.
-    BodyMass,
-    /// Moment of inertia about the centre of mass.
-    BodyInertia,
-    /// Place of the centre of mass along the link.
-    ComAlong,
-    /// Place of the centre of mass across the link.
-    ComAcross,
-    /// Place of the children's pivot along the link.
-    PlaceAlong,
-    /// Place of the children's pivot across the link.
-    PlaceAcross,
-    /// First moment of all that the link carries, along it.
-    CarriedMoment,
-    /// First moment of all that the link carries, across it.
-    LateralCarriedMoment,
-    /// Gravity.
-    Gravity,
-    /// Stiffness of the torsion spring.
-    Stiffness,
-    /// Friction in the pivot, N m s.
-    PivotFriction,
-    /// Drag against the ground, N m s.
-    GroundDrag,
-    /// Torque on the root over m l², stated by each evaluation; zero in the rows.
-    DriveTorque,
-}
-
-impl Column {
-    /// All columns, in their order.
-    pub const ALL: [Self; 34] = [
-        Self::Inertia,
-        Self::Moment,
-        Self::LateralMoment,
-        Self::Mass,
-        Self::Length,
-        Self::InverseLength,
-        Self::GainAlong,
-        Self::GainAcross,
-        Self::InverseInertia,
-        Self::Along,
-        Self::Across,
-        Self::Friction,
-        Self::Drag,
-        Self::Spring,
-        Self::Rest,
-        Self::Coulomb,
-        Self::QuadraticFriction,
-        Self::FrictionWidth,
-        Self::QuadraticDrag,
-        Self::DragWidth,
-        Self::PerTorque,
-        Self::BodyMass,
-        Self::BodyInertia,
-        Self::ComAlong,
-        Self::ComAcross,
-        Self::PlaceAlong,
-        Self::PlaceAcross,
-        Self::CarriedMoment,
-        Self::LateralCarriedMoment,
-        Self::Gravity,
-        Self::Stiffness,
-        Self::PivotFriction,
-        Self::GroundDrag,
-        Self::DriveTorque,
-    ];
-
-    /// Its name in code.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Inertia => "inertia",
-            Self::Moment => "moment",
-            Self::LateralMoment => "lateral_moment",
-            Self::Mass => "mass",
-            Self::Length => "length",
-            Self::InverseLength => "inverse_length",
-            Self::GainAlong => "gain_along",
-            Self::GainAcross => "gain_across",
-            Self::InverseInertia => "inverse_inertia",
-            Self::Along => "along",
-            Self::Across => "across",
-            Self::Friction => "friction",
-            Self::Drag => "drag",
-            Self::Spring => "spring",
-            Self::Rest => "rest",
-            Self::Coulomb => "coulomb",
-            Self::QuadraticFriction => "quadratic_friction",
-            Self::FrictionWidth => "friction_width",
-            Self::QuadraticDrag => "quadratic_drag",
-            Self::DragWidth => "drag_width",
-            Self::PerTorque => "per_torque",
-            Self::BodyMass => "body_mass",
-            Self::BodyInertia => "body_inertia",
-            Self::ComAlong => "com_along",
-            Self::ComAcross => "com_across",
-            Self::PlaceAlong => "place_along",
-            Self::PlaceAcross => "place_across",
-            Self::CarriedMoment => "carried_moment",
-            Self::LateralCarriedMoment => "lateral_carried_moment",
-            Self::Gravity => "gravity",
-            Self::Stiffness => "stiffness",
-            Self::PivotFriction => "pivot_friction",
-            Self::GroundDrag => "ground_drag",
-            Self::DriveTorque => "drive_torque",
-        }
-    }
-
-    /// Its meaning, with m and l as the tree's units, L as the link's own of length.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::Inertia => "M/(L² m), moment of inertia about the pivot",
-            Self::Moment => "h/(L m), first moment of mass about the pivot",
-            Self::LateralMoment => "first moment across the link over L m",
-            Self::Mass => "mass over m that is not in the constants of the parent",
-            Self::Length => "L/l",
-            Self::InverseLength => "l/L",
-            Self::GainAlong => "h L/M of a leaf",
-            Self::GainAcross => "first moment of a leaf across the link, times L/M",
-            Self::InverseInertia => "L² m/M of a leaf",
-            Self::Along => "place of the attachment along the link, over L",
-            Self::Across => "place of the attachment across the link, over L",
-            Self::Friction => "friction in the pivot over m l²",
-            Self::Drag => "drag against the ground over m l²",
-            Self::Spring => "stiffness of the torsion spring over m l²",
-            Self::Rest => "angle at which the torsion spring is at rest",
-            Self::Coulomb => "Coulomb friction in the pivot over m l²",
-            Self::QuadraticFriction => "quadratic friction in the pivot over m l²",
-            Self::FrictionWidth => "width of friction in the pivot, rad/s",
-            Self::QuadraticDrag => "quadratic drag over m l²",
-            Self::DragWidth => "width of drag, rad/s",
-            Self::PerTorque => "1/(m l²), factor of torques from outside",
-            Self::BodyMass => "mass (kg)",
-            Self::BodyInertia => "moment of inertia about the centre of mass (kg m²)",
-            Self::ComAlong => "place of the centre of mass along the link (m)",
-            Self::ComAcross => "place of the centre of mass across the link (m)",
-            Self::PlaceAlong => "place of the children's pivot along the link (m)",
-            Self::PlaceAcross => "place of the children's pivot across the link (m)",
-            Self::CarriedMoment => "first moment of all that the link carries (kg m)",
-            Self::LateralCarriedMoment => "first moment of that across the link (kg m)",
-            Self::Gravity => "gravity (m/s²)",
-            Self::Stiffness => "stiffness of the torsion spring (N m)",
-            Self::PivotFriction => "friction in the pivot (N m s)",
-            Self::GroundDrag => "drag against the ground (N m s)",
-            Self::DriveTorque => "torque on the root over m l², stated by each evaluation",
-        }
+named_members! {
+    /// A constant in the equations of one link, in reduced units: m and l are those of the
+    /// commonest leaf for the whole tree, L is the link's own unit of length.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Column {
+        Inertia = "inertia": "M/(L² m), moment of inertia about the pivot",
+        Moment = "moment": "h/(L m), first moment of mass about the pivot",
+        LateralMoment = "lateral_moment": "first moment across the link over L m",
+        Mass = "mass": "mass over m that is not in the constants of the parent",
+        Length = "length": "L/l",
+        InverseLength = "inverse_length": "l/L",
+        GainAlong = "gain_along": "h L/M of a leaf",
+        GainAcross = "gain_across": "first moment of a leaf across the link, times L/M",
+        InverseInertia = "inverse_inertia": "L² m/M of a leaf",
+        Along = "along": "place of the attachment along the link, over L",
+        Across = "across": "place of the attachment across the link, over L",
+        Friction = "friction": "friction in the pivot over m l²",
+        Drag = "drag": "drag against the ground over m l²",
+        Spring = "spring": "stiffness of the torsion spring over m l²",
+        Rest = "rest": "angle at which the torsion spring is at rest",
+        Coulomb = "coulomb": "Coulomb friction in the pivot over m l²",
+        QuadraticFriction = "quadratic_friction": "quadratic friction in the pivot over m l²",
+        FrictionWidth = "friction_width": "width of friction in the pivot, rad/s",
+        QuadraticDrag = "quadratic_drag": "quadratic drag over m l²",
+        DragWidth = "drag_width": "width of drag, rad/s",
+        PerTorque = "per_torque": "1/(m l²), factor of torques from outside",
+        BodyMass = "body_mass": "mass (kg)",
+        BodyInertia = "body_inertia": "moment of inertia about the centre of mass (kg m²)",
+        ComAlong = "com_along": "place of the centre of mass along the link (m)",
+        ComAcross = "com_across": "place of the centre of mass across the link (m)",
+        PlaceAlong = "place_along": "place of the children's pivot along the link (m)",
+        PlaceAcross = "place_across": "place of the children's pivot across the link (m)",
+        CarriedMoment = "carried_moment": "first moment of all that the link carries (kg m)",
+        LateralCarriedMoment = "lateral_carried_moment": "first moment of that across the link (kg m)",
+        Gravity = "gravity": "gravity (m/s²)",
+        Stiffness = "stiffness": "stiffness of the torsion spring (N m)",
+        PivotFriction = "pivot_friction": "friction in the pivot (N m s)",
+        GroundDrag = "ground_drag": "drag against the ground (N m s)",
+        DriveTorque = "drive_torque": "torque on the root over m l², stated by each evaluation",
     }
 }
 
-impl Strips {
+impl LoopTree {
     /// Number of elements of an argument of the link functions.
     pub fn length(&self, argument: Argument) -> usize {
         let torque = usize::from(self.has_joint_torques);

@@ -2,10 +2,10 @@
 
 use super::columns::Column;
 use super::functions::Functions;
-use super::strips::Strips;
+use super::strips::LoopTree;
 use crate::mechanics::Mechanics;
 use crate::program::entries::EntryList;
-use crate::program::{Argument, LinkFunction, Op, Purpose, Shape, ValueId};
+use crate::program::{Argument, LinkFunction, Op, Purpose, ResultShape, ValueId};
 use crate::scene::Scene;
 
 impl EntryList<'_, '_> {
@@ -14,7 +14,7 @@ impl EntryList<'_, '_> {
         &mut self,
         scene: &Scene,
         mechanics: &Mechanics,
-    ) -> Strips {
+    ) -> LoopTree {
         let Some(balance) = &mechanics.link else {
             unreachable!("trees in loops come with the balance of a link");
         };
@@ -29,59 +29,19 @@ impl EntryList<'_, '_> {
                 .as_ref()
                 .is_some_and(|drive| drive.torque.is_some()),
         };
-        let torques = usize::from(joints);
-        let (response, sums) = match table.has_several_places {
-            true => (5 + torques, 9 + torques),
-            false => (5 + torques, 5 + torques),
-        };
-        let constants = [Argument::Constants, Argument::Motion];
-        let with = |argument: Argument| [constants[0], constants[1], argument];
-
-        let leaf = functions.leaf(self);
-        self.push_link(LinkFunction::Leaf, &constants, leaf, Shape::Vector);
-        let attach = functions.attach(self);
-        debug_assert_eq!(attach.len(), sums);
-        self.push_link(
-            LinkFunction::Attach,
-            &with(Argument::Response),
-            attach,
-            Shape::Vector,
-        );
-        let inner = functions.inner(self);
-        self.push_link(
-            LinkFunction::Inner,
-            &with(Argument::Sums),
-            inner,
-            Shape::Split(response),
-        );
-        let pivot = functions.pivot(self);
-        self.push_link(
-            LinkFunction::Pivot,
-            &with(Argument::Carried),
-            pivot,
-            Shape::Vector,
-        );
-        let accelerate = functions.accelerate(self);
-        let arguments = [
-            Argument::Constants,
-            Argument::Motion,
-            Argument::Elimination,
-            Argument::Pivot,
-        ];
-        self.push_link(
-            LinkFunction::Accelerate,
-            &arguments,
-            accelerate,
-            Shape::Split(1),
-        );
-        let accelerate = functions.accelerate_leaf(self);
-        let arguments = with(Argument::Pivot);
-        self.push_link(
-            LinkFunction::AccelerateLeaf,
-            &arguments,
-            vec![accelerate],
-            Shape::Scalar,
-        );
+        for function in LinkFunction::ALL {
+            let outputs = functions.of(self, function);
+            let purpose = Purpose::Link(function);
+            let mut signature = self.naming.signature(purpose);
+            // The response stands before the elimination, the acceleration before the rest.
+            signature.shape = match function {
+                LinkFunction::Inner => ResultShape::Split(outputs.len() - 3),
+                LinkFunction::Accelerate => ResultShape::Split(1),
+                LinkFunction::AccelerateLeaf => ResultShape::Scalar,
+                _ => ResultShape::Vector,
+            };
+            self.entries.push(signature.entry(purpose, outputs));
+        }
         if let Some(scales) = &mechanics.scales {
             self.scale_functions(&functions, &balance.symbols, scales);
         }
@@ -91,22 +51,6 @@ impl EntryList<'_, '_> {
         }
         let columns = self.columns_read(functions.drive_torque);
         self.lowering.strips(scene, &table, columns)
-    }
-
-    fn push_link(
-        &mut self,
-        function: LinkFunction,
-        arguments: &[Argument],
-        outputs: Vec<ValueId>,
-        shape: Shape,
-    ) {
-        self.push(
-            function.name(),
-            Purpose::Link(function),
-            arguments,
-            outputs,
-            shape,
-        );
     }
 
     /// The columns that the functions read; these are numbered anew.

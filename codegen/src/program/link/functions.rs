@@ -8,7 +8,7 @@ use super::strips::Table;
 use crate::program::entries::EntryList;
 use crate::program::friction::Law;
 use crate::program::pair::Pair;
-use crate::program::{Argument, ValueId};
+use crate::program::{Argument, LinkFunction, ValueId};
 
 /// The links whose constants an entry point reads.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -196,14 +196,26 @@ impl Functions<'_> {
         (gain, self.column(list, Kind::Leaf, Column::InverseInertia))
     }
 
-    pub(super) fn leaf(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+    /// The outputs of a function.
+    pub(super) fn of(&self, list: &mut EntryList<'_, '_>, function: LinkFunction) -> Vec<ValueId> {
+        match function {
+            LinkFunction::Leaf => self.leaf(list),
+            LinkFunction::Attach => self.attach(list),
+            LinkFunction::Inner => self.inner(list),
+            LinkFunction::Pivot => self.pivot(list),
+            LinkFunction::Accelerate => self.accelerate(list),
+            LinkFunction::AccelerateLeaf => vec![self.accelerate_leaf(list)],
+        }
+    }
+
+    fn leaf(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
         let (link, joint) = self.link(list, Kind::Leaf, None);
         let (gain, inverse) = self.leaf_constants(list);
         let (response, _) = link.leaf(&mut list.lowering.builder, gain, inverse);
         self.outputs(list, &response, self.joints.then_some(joint))
     }
 
-    pub(super) fn attach(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+    fn attach(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
         let (response, torque) = self.given(list, Argument::Response);
         if !self.table.has_several_places {
             return self.outputs(list, &response, torque);
@@ -229,7 +241,7 @@ impl Functions<'_> {
         all.into_iter().chain(torque).collect()
     }
 
-    pub(super) fn inner(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+    fn inner(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
         let (whole, link, joint) = if self.table.has_several_places {
             let builder = &mut list.lowering.builder;
             let mut at = |index| builder.input(Argument::Sums, index);
@@ -269,7 +281,7 @@ impl Functions<'_> {
         outputs
     }
 
-    pub(super) fn pivot(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+    fn pivot(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
         let place = self.place(list, Kind::Child);
         let builder = &mut list.lowering.builder;
         let mut at = |index| builder.input(Argument::Carried, index);
@@ -282,7 +294,7 @@ impl Functions<'_> {
         builder.sub_pairs(gravity, moved).to_vec()
     }
 
-    pub(super) fn accelerate(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
+    fn accelerate(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
         let (link, _) = self.link(list, Kind::Inner, None);
         let builder = &mut list.lowering.builder;
         let mut at = |argument, index| builder.input(argument, index);
@@ -302,7 +314,7 @@ impl Functions<'_> {
         [alpha].into_iter().chain(below).collect()
     }
 
-    pub(super) fn accelerate_leaf(&self, list: &mut EntryList<'_, '_>) -> ValueId {
+    fn accelerate_leaf(&self, list: &mut EntryList<'_, '_>) -> ValueId {
         let (link, _) = self.link(list, Kind::Leaf, None);
         let (gain, inverse) = self.leaf_constants(list);
         let builder = &mut list.lowering.builder;

@@ -23,7 +23,7 @@ mod tree;
 
 pub use columns::{Column, LINK_MOTION};
 pub use scale_function::ScaleFunction;
-pub use strips::{Strip, Strips};
+pub use strips::{LoopTree, StripConstants};
 
 use crate::scene::{LinkId, Scene};
 

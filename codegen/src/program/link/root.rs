@@ -4,7 +4,7 @@ use super::strips::Table;
 use crate::mechanics::{DriveTerms, Mechanics};
 use crate::program::entries::EntryList;
 use crate::program::lower::Environment;
-use crate::program::{Argument, Purpose, Shape};
+use crate::program::{Argument, Purpose};
 
 impl EntryList<'_, '_> {
     /// Apparent gravity at the root's pivot and, where there is a drive, the torque on
@@ -16,13 +16,7 @@ impl EntryList<'_, '_> {
         let builder = &mut self.lowering.builder;
         let zero = builder.integer(0);
         let mut outputs = vec![zero, table.root_gravity];
-        self.push(
-            "root_gravity",
-            Purpose::RootGravity,
-            &[],
-            outputs.clone(),
-            Shape::Vector,
-        );
+        self.push(Purpose::RootGravity, outputs.clone());
         let Some(drive) = drive else { return };
         outputs = vec![zero; 3];
         for motion in &drive.pivot {
@@ -37,12 +31,6 @@ impl EntryList<'_, '_> {
             let torque = self.lowering.temporal(&mut environment, torque);
             outputs[2] = self.lowering.builder.mul(table.per_torque, torque);
         }
-        self.push(
-            "root_drive",
-            Purpose::RootDrive,
-            &[Argument::Time],
-            outputs,
-            Shape::Vector,
-        );
+        self.push(Purpose::RootDrive, outputs);
     }
 }

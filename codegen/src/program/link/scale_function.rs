@@ -1,58 +1,34 @@
 //! The functions of one link that energies by scale are formed of.
 
-/// A function of energies by scale in a tree in loops: of the constants and the motion
-/// of a link, and of the numbers that [`given`](Self::given) names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ScaleFunction {
-    /// Strain of the spring, and the torques of spring, friction and drag.
-    Torques,
-    /// Velocities of the centre of mass and of the children's pivot.
-    Velocity,
-    /// Moment of the momentum in what the link carries, and that momentum.
-    Moment,
-    /// Energy of the parts in a scale.
-    Energy,
-    /// Factors of the elimination, from the articulated inertia of what hangs there.
-    Factor,
-    /// Response of the subtree to the slopes of the energy, and the link's offset.
-    Eliminate,
-    /// The flow of the energy, and what it changes in velocities.
-    Flow,
-    /// Slope of the energy in the angle, with what the flow changes in momenta.
-    Slope,
-    /// Torque of the inertial forces of a moving pivot.
-    Inertial,
+use crate::named_members::named_members;
+
+named_members! {
+    /// A function of energies by scale in a tree in loops: of the constants and the motion
+    /// of a link, and of the numbers that [`given`](Self::given) names.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum ScaleFunction {
+        Torques = "scale_torques":
+            "Strain ε of the spring in the link's pivot, the torques κ ε and c (ω − ω_parent) of the joint on the parent, and k ω on the ground; with friction that is not viscous where there is any.",
+        Velocity = "scale_velocity":
+            "Velocity **V** of the centre of mass and **P**' of the children's pivot, given that of the link's own.",
+        Moment = "scale_moment":
+            "**B**, of which **B**·v is the moment of the momentum of all that the link carries, and that momentum, given the velocity of the centre of mass and the momentum **C** of what hangs from the link.",
+        Energy = "scale_energy":
+            "Energy of the parts of **V**, ω, 1 − cos θ, sin θ and ε in a scale; δ_s0 is 1 for the means, 0 for others.",
+        Factor = "scale_factor":
+            "Deficit N of the articulated inertia of the subtree, b/J and 1/J, given N of what hangs from the link: the factors of M u = ∂E/∂ω, which all scales share.",
+        Eliminate = "scale_eliminate":
+            "Response γ of the subtree to torques ∂E/∂ω of a scale at rest, and κ/J, given the factors, the parts of **B** and ω, and γ of what hangs from the link.",
+        Flow = "scale_flow":
+            "Angular velocity u along the flow of a scale's energy, M u = ∂E/∂ω; what is handed to the children; the changes **R** of velocities along the flow at constant ω, of the centre of mass and of the children's pivot.",
+        Slope = "scale_slope":
+            "z = ∂E/∂θ + **D**·v with the moment **D** of the changes **R**: {E_s, E_r} = Σ z_s u_r − u_s z_r.",
+        Inertial = "scale_inertial":
+            "Torque of the inertial forces under the acceleration **A** of the root's pivot.",
+    }
 }
 
 impl ScaleFunction {
-    /// All of them, in the order of their entry points.
-    pub const ALL: [Self; 9] = [
-        Self::Torques,
-        Self::Velocity,
-        Self::Moment,
-        Self::Energy,
-        Self::Factor,
-        Self::Eliminate,
-        Self::Flow,
-        Self::Slope,
-        Self::Inertial,
-    ];
-
-    /// Its name in code.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Torques => "scale_torques",
-            Self::Velocity => "scale_velocity",
-            Self::Moment => "scale_moment",
-            Self::Energy => "scale_energy",
-            Self::Factor => "scale_factor",
-            Self::Eliminate => "scale_eliminate",
-            Self::Flow => "scale_flow",
-            Self::Slope => "scale_slope",
-            Self::Inertial => "scale_inertial",
-        }
-    }
-
     /// Names of the numbers that it takes beside constants and motion.
     pub fn given(self) -> &'static [&'static str] {
         match self {
@@ -110,39 +86,6 @@ impl ScaleFunction {
             Self::Factor => 6,
             Self::Eliminate => 3,
             Self::Flow => 7,
-        }
-    }
-
-    /// Meaning of its results.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::Torques => {
-                "Strain ε of the spring in the link's pivot, the torques κ ε and c (ω − ω_parent) of the joint on the parent, and k ω on the ground; with friction that is not viscous where there is any."
-            }
-            Self::Velocity => {
-                "Velocity **V** of the centre of mass and **P**' of the children's pivot, given that of the link's own."
-            }
-            Self::Moment => {
-                "**B**, of which **B**·v is the moment of the momentum of all that the link carries, and that momentum, given the velocity of the centre of mass and the momentum **C** of what hangs from the link."
-            }
-            Self::Energy => {
-                "Energy of the parts of **V**, ω, 1 − cos θ, sin θ and ε in a scale; δ_s0 is 1 for the means, 0 for others."
-            }
-            Self::Factor => {
-                "Deficit N of the articulated inertia of the subtree, b/J and 1/J, given N of what hangs from the link: the factors of M u = ∂E/∂ω, which all scales share."
-            }
-            Self::Eliminate => {
-                "Response γ of the subtree to torques ∂E/∂ω of a scale at rest, and κ/J, given the factors, the parts of **B** and ω, and γ of what hangs from the link."
-            }
-            Self::Flow => {
-                "Angular velocity u along the flow of a scale's energy, M u = ∂E/∂ω; what is handed to the children; the changes **R** of velocities along the flow at constant ω, of the centre of mass and of the children's pivot."
-            }
-            Self::Slope => {
-                "z = ∂E/∂θ + **D**·v with the moment **D** of the changes **R**: {E_s, E_r} = Σ z_s u_r − u_s z_r."
-            }
-            Self::Inertial => {
-                "Torque of the inertial forces under the acceleration **A** of the root's pivot."
-            }
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::mechanics::{LinkBalance, LinkScales, LinkSymbols};
 use crate::program::entries::EntryList;
 use crate::program::lower::Lowering;
 use crate::program::pair::Pair;
-use crate::program::{Argument, Purpose, Shape, ValueId};
+use crate::program::{Argument, Purpose, ValueId};
 use crate::scene::{Layout, Quantity, Scene};
 
 impl EntryList<'_, '_> {
@@ -22,45 +22,27 @@ impl EntryList<'_, '_> {
         scales: &LinkScales,
     ) {
         for function in ScaleFunction::ALL {
+            let exprs = match function {
+                ScaleFunction::Torques => scales.torques.as_slice(),
+                ScaleFunction::Velocity => &scales.velocity,
+                ScaleFunction::Moment => &scales.moment,
+                ScaleFunction::Energy => std::slice::from_ref(&scales.energy),
+                ScaleFunction::Slope => std::slice::from_ref(&scales.angle_slope),
+                ScaleFunction::Inertial => std::slice::from_ref(&scales.inertial),
+                ScaleFunction::Factor | ScaleFunction::Eliminate | ScaleFunction::Flow => &[],
+            };
             let outputs = match function {
                 ScaleFunction::Factor => functions.factor(self),
                 ScaleFunction::Eliminate => functions.eliminate(self, link, scales),
                 ScaleFunction::Flow => functions.flow(self, link, scales),
                 ScaleFunction::Torques => {
-                    let torques = functions.derived(self, link, scales, function, &scales.torques);
+                    let torques = functions.derived(self, link, scales, function, exprs);
                     functions.with_braking(self, torques)
                 }
-                ScaleFunction::Velocity => {
-                    functions.derived(self, link, scales, function, &scales.velocity)
-                }
-                ScaleFunction::Moment => {
-                    functions.derived(self, link, scales, function, &scales.moment)
-                }
-                ScaleFunction::Energy => {
-                    let energy = std::slice::from_ref(&scales.energy);
-                    functions.derived(self, link, scales, function, energy)
-                }
-                ScaleFunction::Slope => {
-                    let slope = std::slice::from_ref(&scales.angle_slope);
-                    functions.derived(self, link, scales, function, slope)
-                }
-                ScaleFunction::Inertial => {
-                    let inertial = std::slice::from_ref(&scales.inertial);
-                    functions.derived(self, link, scales, function, inertial)
-                }
+                _ => functions.derived(self, link, scales, function, exprs),
             };
             debug_assert_eq!(outputs.len(), function.results());
-            let mut arguments = vec![Argument::Constants, Argument::Motion];
-            if !function.given().is_empty() {
-                arguments.push(Argument::Given(function));
-            }
-            self.push(
-                function.name(),
-                Purpose::Scale(function),
-                &arguments,
-                outputs,
-                Shape::Vector,
-            );
+            self.push(Purpose::Scale(function), outputs);
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::scene::{LINK_PROPERTIES, Layout, LinkId, Quantity, Scene};
 
 /// Neighbours that share their constants.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Strip {
+pub struct StripConstants {
     /// Name of the generation or link.
     pub name: String,
     /// True if nothing hangs from its links.
@@ -23,7 +23,7 @@ pub struct Strip {
     /// Its links as bodies, in SI units, where energies are asked for: half of the
     /// mass; first moments along and across; half of the moment of inertia about the
     /// pivot; place on the parent, along and across; weight, and weight times the two
-    /// components of the centre of mass; half of the spring's stiffness, its rest angle,
+    /// components of the centre of mass; half of the spring's stiffness,
     /// friction, drag.
     pub body: Option<[ConstantId; 12]>,
     /// Angle at which its springs are at rest, where energies are asked for and any
@@ -36,7 +36,7 @@ pub struct Strip {
     pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
 }
 
-impl Strip {
+impl StripConstants {
     /// All constants that it holds.
     pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
         let others = self.body.iter().flatten().chain(&self.rest);
@@ -48,11 +48,11 @@ impl Strip {
 
 /// A tree in loops.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Strips {
+pub struct LoopTree {
     /// The constants that the equations read, by strip.
     pub columns: Vec<Column>,
     /// From the root outwards.
-    pub strips: Vec<Strip>,
+    pub strips: Vec<StripConstants>,
     /// True if children of one link hang at several places.
     pub has_several_places: bool,
     /// True if joints have torques.
@@ -293,7 +293,12 @@ impl Lowering<'_> {
     }
 
     /// The strips of a scene, with the columns that are read.
-    pub(super) fn strips(&mut self, scene: &Scene, table: &Table, columns: Vec<Column>) -> Strips {
+    pub(super) fn strips(
+        &mut self,
+        scene: &Scene,
+        table: &Table,
+        columns: Vec<Column>,
+    ) -> LoopTree {
         let any = |force: fn(&crate::scene::Link) -> bool| scene.links.iter().any(force);
         let mut strips = Vec::with_capacity(scene.links.len());
         let mut bodies: Vec<Option<[ConstantId; 12]>> = vec![None; scene.orbits.len()];
@@ -314,7 +319,7 @@ impl Lowering<'_> {
             if scene.requests.energies && bodies[orbit].is_none() {
                 bodies[orbit] = Some(self.body(scene, link));
             }
-            strips.push(Strip {
+            strips.push(StripConstants {
                 name: link.name.clone(),
                 is_leaf: table.is_leaf[orbit],
                 constants,
@@ -325,7 +330,7 @@ impl Lowering<'_> {
             });
         }
         let drive = scene.drive.as_ref();
-        Strips {
+        LoopTree {
             columns,
             strips,
             has_several_places: table.has_several_places,

@@ -8,14 +8,10 @@ use super::motion::{ConstantValues, Fields};
 use super::series::TruncatedSeries;
 use crate::exact::Rational;
 use crate::mechanics::FrictionPlace;
+use crate::scene::FrictionLaw;
 
-/// Values of the constants of a law; zeros are empty series.
-#[derive(Default)]
-pub(in crate::program) struct LawValues {
-    pub(in crate::program) coulomb: TruncatedSeries,
-    pub(in crate::program) quadratic: TruncatedSeries,
-    pub(in crate::program) width: TruncatedSeries,
-}
+/// A law with series as its constants; zeros are empty ones.
+pub(in crate::program) type LawValues = FrictionLaw<TruncatedSeries>;
 
 impl LawValues {
     pub(in crate::program) fn is_zero(&self) -> bool {

@@ -1,6 +1,8 @@
 //! Random descriptions by the grammar of the attribute. Most are right; some
 //! have odd values, names, sizes or requests, as users and machines write them.
 
+mod clauses;
+
 use super::words::{LINKS, ODD_NAMES, ODD_NUMBERS, PARAMETERS, SHAPES, STRUCTS};
 use crate::support::Random;
 
@@ -330,138 +332,6 @@ impl Grammar<'_> {
             }
             _ => format!("-({})", part(self)),
         }
-    }
-
-    fn drive(&mut self) -> String {
-        let symbols = ["t".to_owned(), "t".to_owned()];
-        let parts = ["torque", "x", "y"].map(|name| {
-            let depth = 1 + self.random.below(4);
-            let value = self.expression(depth, &symbols);
-            format!("{name} = {value}")
-        });
-        let mut parts = parts.to_vec();
-        while parts.len() > 1 && self.one_in(2) {
-            let one = self.random.below(parts.len());
-            drop(parts.remove(one));
-        }
-        format!("drive({})", parts.join(", "))
-    }
-
-    /// Copies in phase, and sometimes the equations beside them.
-    fn in_phase(&mut self) -> String {
-        let mut nodes = vec!["all".to_owned()];
-        if self.one_in(3) {
-            nodes = vec![self.link()];
-        }
-        while self.one_in(8) {
-            nodes.push(self.link());
-        }
-        let transverse = self.pick(&["", ", emit(transverse)", ", emit(small)"]);
-        format!("in_phase({}){transverse}", nodes.join(", "))
-    }
-
-    fn locked(&mut self) -> String {
-        let (link, angle) = (self.link(), self.value());
-        format!("locked({link}, {angle})")
-    }
-
-    /// The name of a link, or of none.
-    fn link(&mut self) -> String {
-        if self.links.is_empty() || self.is_odd() {
-            return self.pick(ODD_NAMES);
-        }
-        self.links[self.random.below(self.links.len())].clone()
-    }
-
-    fn emit(&mut self) -> String {
-        let mut requests = Vec::new();
-        for request in [
-            "energies",
-            "momenta",
-            "modes",
-            "symmetric",
-            "taylor",
-            "positions",
-            "forces",
-        ] {
-            if self.one_in(4) {
-                requests.push(request.to_owned());
-            }
-        }
-        if self.one_in(5) {
-            let forms = [
-                "",
-                "(exact)",
-                "(angle = 1)",
-                "(angle = 3, amplitude = 4)",
-                "(amplitude = 2)",
-            ];
-            let odd = [
-                "()",
-                "(angle = 8, amplitude = 8)",
-                "(angle = 0)",
-                "(rest)",
-                "(exact = 1)",
-            ];
-            let forms = if self.is_odd() { odd } else { forms };
-            requests.push(format!("transfer{}", self.pick(&forms)));
-        }
-        if self.one_in(5) {
-            let forms = [
-                "",
-                "(canonical)",
-                "(parseval, matrix)",
-                "(rest, velocity)",
-                "(amplitude = 2)",
-            ];
-            let odd = [
-                "()",
-                "(angle = 6, amplitude = 8)",
-                "(amplitude = 2, small(hand_d))",
-                "(amplitude = 4, small(hand))",
-                "(angle = 99)",
-            ];
-            let forms = if self.is_odd() { odd } else { forms };
-            requests.push(format!("budget{}", self.pick(&forms)));
-        }
-        if self.is_odd() {
-            requests.push(self.pick(ODD_NAMES));
-        }
-        format!("emit({})", requests.join(", "))
-    }
-
-    fn observe(&mut self) -> String {
-        let mut symbols = vec!["kinetic_energy".to_owned(), "gravity".to_owned()];
-        for link in &self.links {
-            for symbol in ["theta", "omega", "p", "inertia", "gravity"] {
-                symbols.push(format!("{symbol}_{link}"));
-                if self.odd > 0 {
-                    symbols.push(format!("{symbol}_{link}_1"));
-                }
-            }
-        }
-        let count = 1 + self.random.below(3);
-        let observables: Vec<String> = (0..count)
-            .map(|index| {
-                let name = match self.is_odd() {
-                    true => self.pick(&[
-                        "accelerations",
-                        "sin",
-                        "new",
-                        "friction_power",
-                        "cast",
-                        "self",
-                        "z",
-                        "budget_rest",
-                    ]),
-                    false => ["first", "second", "third"][index].to_owned(),
-                };
-                let depth = 1 + self.random.below(4);
-                let value = self.expression(depth, &symbols);
-                format!("{name} = {value}")
-            })
-            .collect();
-        format!("observe({})", observables.join(", "))
     }
 }
 

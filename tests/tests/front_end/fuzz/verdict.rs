@@ -29,7 +29,7 @@ pub(crate) fn judge(attribute: &TokenStream, item: &TokenStream) -> Verdict {
         Ok(Err((report, tokens))) => {
             let diagnostics = report.diagnostics();
             let derivation = diagnostics.iter().find_map(|found| match &found.message {
-                Message::Size(SizeMessage::Algebra(reason)) => Some(reason),
+                Message::Size(SizeMessage::Algebra { reason }) => Some(reason),
                 _ => None,
             });
             if let Some(reason) = derivation {

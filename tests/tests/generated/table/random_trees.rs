@@ -79,13 +79,14 @@ fn random_trees_agree_with_the_closed_form() {
     const LINKS: usize = 24;
     // All columns, as of the random trees: none is the same in all rows.
     const COLUMNS: usize = <<LenderEquations as LinkEquations>::Constants<f64> as Row<f64>>::LENGTH;
+    let columns = columns();
     let mut worst = 0.0_f64;
     for seed in 0..20 {
         let text = random_tree(LINKS, seed);
         let stages = source::stages_of(&format!("#[branched_pendulum({text})] struct Sample;"));
         let (scene, program) = (&stages.scene, &stages.program);
         let strips = program.strips.as_ref().expect("loops are asked for");
-        assert_eq!(strips.columns, columns(), "the equations read these");
+        assert_eq!(strips.columns, columns, "the equations read these");
         let parents = scene.links.iter().map(|link| {
             let parent = link.parent.map_or(0, |parent| parent.0);
             u32::try_from(parent).unwrap()

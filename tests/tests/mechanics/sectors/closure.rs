@@ -2,7 +2,7 @@
 
 use branched_pendulum::integrate::{Dop853, Options};
 use branched_pendulum::system::{OdeFn, State};
-use branched_pendulum_codegen::program::{Argument, Entry, Purpose, Shape};
+use branched_pendulum_codegen::program::{Argument, Entry, Purpose, ResultShape};
 use branched_pendulum_tests::random::Random;
 
 use super::oracle::DEFINITIONS;
@@ -33,7 +33,7 @@ fn in_one_go() -> Compiled {
         purpose: Purpose::Accelerations,
         arguments: vec![Argument::Time, Argument::Theta, Argument::Omega],
         outputs: outputs.collect(),
-        shape: Shape::Vector,
+        shape: ResultShape::Vector,
     };
     compiled.program.entries.push(everything);
     compiled

@@ -1,0 +1,117 @@
+//! Functions at slices of any length, as the runtime's traits hand them over: where a
+//! length is wrong, results are NaN, which integrators report at once.
+
+use super::Emission;
+use super::tokens::ident;
+use crate::program::{Argument, Entry, Purpose};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+impl Emission<'_> {
+    /// The entry point for a purpose.
+    pub(super) fn entry(&self, purpose: Purpose) -> Option<&Entry> {
+        let mut entries = self.program.entries.iter();
+        entries.find(|entry| entry.purpose == purpose)
+    }
+
+    /// Slices as arrays of the same names, those of one group of one length.
+    pub(super) fn with_arrays(
+        &self,
+        groups: &[Vec<&str>],
+        success: TokenStream,
+        failure: TokenStream,
+    ) -> TokenStream {
+        let runtime = self.runtime();
+        let idents = |group: &Vec<&str>| group.iter().map(|name| ident(name)).collect();
+        let names: Vec<Vec<Ident>> = groups.iter().map(idents).collect();
+        let arrays = names.iter();
+        let arrays = arrays.map(|group| quote!(#runtime::emitted::arrays([#(#group),*])));
+        let patterns = names.iter();
+        let patterns = patterns.map(|group| quote!(::core::option::Option::Some([#(#group),*])));
+        let (arrays, pattern) = match names.len() {
+            1 => (quote!(#(#arrays)*), quote!(#(#patterns)*)),
+            _ => (quote!((#(#arrays),*)), quote!((#(#patterns),*))),
+        };
+        quote! {
+            match #arrays {
+                #pattern => #success,
+                _ => #failure,
+            }
+        }
+    }
+
+    /// What is made of the call of a function at slices that are called as its arguments are,
+    /// or `failure`.
+    pub(super) fn at_slices(
+        &self,
+        purpose: Purpose,
+        made: impl Fn(TokenStream) -> TokenStream,
+        failure: TokenStream,
+    ) -> TokenStream {
+        let Some(entry) = self.entry(purpose) else {
+            return failure;
+        };
+        let mut groups: Vec<Vec<&str>> = Vec::new();
+        let mut length = None;
+        let arrays = entry.arguments.iter();
+        for &argument in arrays.filter(|argument| **argument != Argument::Time) {
+            let own = Some(self.argument_length(argument));
+            match groups.last_mut() {
+                Some(group) if length == own => group.push(argument.name()),
+                _ => groups.push(vec![argument.name()]),
+            }
+            length = own;
+        }
+        let name = ident(&entry.name);
+        let arguments = entry.arguments.iter();
+        let arguments = arguments.map(|argument| ident(argument.name()));
+        let call = quote!(self.#name(#(#arguments),*));
+        self.with_arrays(&groups, made(call), failure)
+    }
+
+    /// The number that a function gives at slices.
+    pub(super) fn value_at_slices(&self, purpose: Purpose) -> TokenStream {
+        self.at_slices(purpose, |call| call, quote!(T::from_f64(f64::NAN)))
+    }
+
+    /// Returns true in the code if the array that a function gives at slices has been written.
+    pub(super) fn written_at_slices(&self, output: &str, purpose: Purpose) -> TokenStream {
+        let (runtime, output) = (self.runtime(), ident(output));
+        let write = |call| quote!(#runtime::emitted::write(#output, &#call));
+        self.at_slices(purpose, write, quote!(false))
+    }
+
+    /// The same of two arrays that a function gives.
+    pub(super) fn both_written_at_slices(
+        &self,
+        outputs: [&str; 2],
+        pattern: &TokenStream,
+        purpose: Purpose,
+    ) -> TokenStream {
+        let runtime = self.runtime();
+        let [first, second] = outputs.map(ident);
+        let write = |call| {
+            quote! {{
+                let #pattern = #call;
+                #runtime::emitted::write(#first, &first) & #runtime::emitted::write(#second, &second)
+            }}
+        };
+        self.at_slices(purpose, write, quote!(false))
+    }
+
+    /// Fills outputs with NaN where an expression says that they are not written.
+    pub(super) fn written_or_nan(&self, outputs: &[&str], written: TokenStream) -> TokenStream {
+        let outputs = outputs.iter().map(|output| ident(output));
+        quote! {
+            let written: bool = #written;
+            if !written {
+                #(#outputs.fill(T::from_f64(f64::NAN));)*
+            }
+        }
+    }
+
+    /// Statements that write the array that a function gives at slices.
+    pub(super) fn fill(&self, output: &str, purpose: Purpose) -> TokenStream {
+        self.written_or_nan(&[output], self.written_at_slices(output, purpose))
+    }
+}

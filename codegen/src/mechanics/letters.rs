@@ -1,0 +1,67 @@
+//! Letters of the constants of links.
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::print::latex_name;
+
+/// A letter of constants, in code, in text and in LaTeX, and their unit.
+#[derive(Clone, Copy)]
+pub(super) struct Letter {
+    pub(super) code: &'static str,
+    pub(super) text: &'static str,
+    pub(super) latex: &'static str,
+    unit: &'static str,
+}
+
+const fn letter(
+    code: &'static str,
+    text: &'static str,
+    latex: &'static str,
+    unit: &'static str,
+) -> Letter {
+    Letter {
+        code,
+        text,
+        latex,
+        unit,
+    }
+}
+
+pub(super) const INERTIA: Letter = letter("inertia", "M", "M", "kg m²");
+pub(super) const GRAVITY: Letter = letter("gravity", "G", "G", "J");
+pub(super) const LATERAL_GRAVITY: Letter = letter("lateral_gravity", "F", "F", "J");
+pub(super) const FRICTION: Letter = letter("friction", "c", "c", "N m s");
+pub(super) const DRAG: Letter = letter("drag", "k", "k", "N m s");
+pub(super) const SPRING: Letter = letter("spring", "κ", "\\kappa", "N m");
+pub(super) const REST: Letter = letter("rest", "ρ", "\\rho", "rad");
+pub(super) const MOMENT: Letter = letter("moment", "h", "h", "kg m");
+pub(super) const LATERAL_MOMENT: Letter = letter("lateral_moment", "e", "e", "kg m");
+pub(super) const COUPLING: Letter = letter("coupling", "μ", "\\mu", "kg m²");
+pub(super) const LATERAL_COUPLING: Letter = letter("lateral_coupling", "ν", "\\nu", "kg m²");
+
+impl Derivation<'_> {
+    /// A constant of an orbit, or of one and another above it, named by a letter.
+    pub(super) fn lettered(
+        &mut self,
+        letter: Letter,
+        orbits: &[&str],
+        meaning: &str,
+        value: Formula,
+    ) -> Formula {
+        let Letter {
+            code,
+            text,
+            latex,
+            unit,
+        } = letter;
+        let latex_names: Vec<String> = orbits.iter().map(|orbit| latex_name(orbit)).collect();
+        self.constant(
+            &format!("{code}_{}", orbits.join("_")),
+            &format!("{text}_{}", orbits.join(",")),
+            &format!("{latex}_{{\\mathrm{{{}}}}}", latex_names.join(",")),
+            meaning,
+            unit,
+            value,
+        )
+    }
+}
