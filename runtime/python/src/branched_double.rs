@@ -13,7 +13,7 @@ use crate::pendulum::Pendulum;
 use paper::Paper;
 
 /// The paper's scene as the tool wrote it: the repository checks that it is up to date.
-#[allow(dead_code, missing_docs)]
+#[allow(dead_code, missing_docs, clippy::wrong_self_convention)]
 #[rustfmt::skip]
 #[path = "../../../tests/fixtures/expanded/paper.rs"]
 mod paper;

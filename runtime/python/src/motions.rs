@@ -9,7 +9,7 @@ use branched_pendulum::analysis::variational::{
 use branched_pendulum::ensemble::{Ensemble, Samples};
 use branched_pendulum::integrate::{
     AnyIntegrator, DenseError, Dop853, Event, IntegrationError, Integrator, Occurrence, Options,
-    Report, RunError, Solution, Trajectory,
+    Report, Solution, Trajectory,
 };
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::{CastOde, LaneOde, Ode, RatesOnly, State};
@@ -24,9 +24,6 @@ pub(crate) trait Model:
     /// The energy (J) of a state: angles, angular velocities.
     fn state_energy(&self, state: &[f64]) -> f64;
 }
-
-/// Error of a run whose steps are kept.
-pub(crate) type KeepError = RunError<f64, DenseError<f64>>;
 
 /// The motions of a [`Model`], whatever its type.
 pub(crate) trait Motions: Send + Sync {
@@ -46,12 +43,13 @@ pub(crate) trait Motions: Send + Sync {
         times: &[f64],
     ) -> Result<(Vec<f64>, Report<f64>), IntegrationError<f64>>;
 
+    /// All steps; the error is a message.
     fn trajectory(
         &self,
         method: &AnyIntegrator<f64>,
         start: &State<f64>,
         end: f64,
-    ) -> Result<(Trajectory<f64>, Report<f64>), KeepError>;
+    ) -> Result<(Trajectory<f64>, Report<f64>), String>;
 
     fn events(
         &self,
@@ -114,12 +112,13 @@ impl<M: Model> Motions for M {
         method: &AnyIntegrator<f64>,
         start: &State<f64>,
         end: f64,
-    ) -> Result<(Trajectory<f64>, Report<f64>), KeepError> {
+    ) -> Result<(Trajectory<f64>, Report<f64>), String> {
         let mut trajectory = Trajectory::new(start.clone());
-        let solution = method.try_integrate(&RatesOnly(self), start, end, |step| {
+        let run = method.try_integrate(&RatesOnly(self), start, end, |step| {
             trajectory.push(step)?;
             Ok::<_, DenseError<f64>>(ControlFlow::Continue(()))
-        })?;
+        });
+        let solution = run.map_err(|error| error.to_string())?;
         Ok((trajectory, solution.report))
     }
 

@@ -18,6 +18,7 @@ use crate::tree::PendulumTree;
 ///
 /// let rod = TreeDescription::parse("gravity = g, rod: rod(mass = 0.2, length = l)")?;
 /// assert_eq!(rod.parameters().collect::<Vec<_>>(), ["g", "l"]);
+/// assert_eq!(rod.parameter_use("g"), Some("gravity, m/s²"));
 /// let rod = rod.tree::<f64>(&[("g", 9.81), ("l", 1.0)])?;
 /// let alpha = rod.accelerations(0.0, &[0.1], &[0.0]);
 /// assert!((alpha[0] + 1.5 * 9.81 * 0.1_f64.sin()).abs() < 1e-14);
@@ -45,7 +46,7 @@ impl TreeDescription {
         parameters.map(|parameter| parameter.name.as_str())
     }
 
-    /// Returns what a parameter is used for, in words and with its unit.
+    /// Returns the use of a parameter, in words and with its unit.
     pub fn parameter_use(&self, name: &str) -> Option<&str> {
         let mut parameters = self.scene.parameters.iter();
         let found = parameters.find(|parameter| parameter.name == name)?;

