@@ -1,6 +1,7 @@
 //! States of systems.
 
 use alloc::vec::Vec;
+use core::fmt;
 
 use crate::scalar::Scalar;
 
@@ -123,14 +124,26 @@ impl<T: Scalar> State<T> {
 }
 
 /// Positions and velocities of a state differ in number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "a state needs as many velocities as positions, but got {positions} positions and \
-     {velocities} velocities"
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LengthMismatch {
     /// Number of positions given.
     pub positions: usize,
     /// Number of velocities given.
     pub velocities: usize,
 }
+
+impl fmt::Display for LengthMismatch {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            positions,
+            velocities,
+        } = self;
+        write!(
+            formatter,
+            "a state needs as many velocities as positions, \
+             but got {positions} positions and {velocities} velocities"
+        )
+    }
+}
+
+impl core::error::Error for LengthMismatch {}
