@@ -86,7 +86,7 @@ impl fmt::Display for PatternError {
             ),
             Self::Choice { sector } => write!(
                 f,
-                "`{sector}` has more than two copies: choose their weights by `with`"
+                "`{sector}` has more than two copies: choose their weights by `chosen`"
             ),
         }
     }
